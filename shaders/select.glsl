@@ -1,0 +1,28 @@
+// Which meshlets are worth drawing. Conservative: may keep what is hidden, never drops what can be seen. Compiled as GLSL for
+// the GPU and as C++ by core/culling.cpp, so that what is tested against brute force is what runs.
+
+// Number of a page's rim post (row or column 0 or 128) in PageBlock.borders: the north row, the south row, then the
+// west and east columns without their ends.
+ORO_FUNCTION uint border_index(uint row, uint column) {
+    if (row == 0u) return column;
+    if (row == page_quads) return page_posts + column;
+    uint side = column == 0u ? 0u : 127u;
+    return 2u * page_posts + side + row - 1u;
+}
+
+// A sphere in the page frame that lies wholly outside one of the planes. Slack: float rounding at 100 km from the origin.
+ORO_FUNCTION bool sphere_beyond_plane(vec3 centre, float radius, vec4 plane) {
+    float distance_m = dot(vec3(plane), centre) + plane.w;
+    float slack_m = 1.0e-2f + 4.0e-7f * (abs(plane.w) + radius);
+    return distance_m < -(radius + slack_m);
+}
+
+// A meshlet whose every post the occluding ellipsoid hides. eye_offset: the eye's direction minus the meshlet's, unit
+// vectors in scaled space; the angles as in MeshletBounds. Chords instead of angles: exact for near neighbours.
+// Slack: 4e-6 rad and a millionth of the sum, above the rounding of every term (some 25 m of ground: kept, not lost).
+ORO_FUNCTION bool beyond_horizon(vec3 eye_offset, float eye_angle_rad, float horizon_angle_rad) {
+    float reach_rad = (eye_angle_rad + horizon_angle_rad) * 1.000001f + 4.0e-6f;
+    if (reach_rad >= 3.14159f) return false;
+    float chord = 2.0f * sin(0.5f * reach_rad);
+    return dot(eye_offset, eye_offset) > chord * chord * 1.000001f;
+}
