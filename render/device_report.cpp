@@ -1,0 +1,130 @@
+#include "render/device_report.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace oro {
+namespace {
+
+std::string type_name(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "software";
+        default:
+            return "other";
+    }
+}
+
+bool has_extension(VkPhysicalDevice physical, const char* wanted) {
+    std::uint32_t count = 0;
+    if (vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr) != VK_SUCCESS) return false;
+    std::vector<VkExtensionProperties> all(count);
+    if (vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, all.data()) != VK_SUCCESS) return false;
+    return std::any_of(all.begin(), all.end(),
+                       [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, wanted) == 0; });
+}
+
+std::string version_name(std::uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+void describe_properties(VkPhysicalDevice physical, DeviceReport& report) {
+    VkPhysicalDeviceMeshShaderPropertiesEXT mesh{};
+    mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT;
+    VkPhysicalDeviceVulkan12Properties vulkan12{};
+    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES;
+    VkPhysicalDeviceVulkan11Properties vulkan11{};
+    vulkan11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    vulkan11.pNext = &vulkan12;
+    properties.pNext = &vulkan11;
+    if (report.mesh_shader) vulkan12.pNext = &mesh;
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+    report.name = properties.properties.deviceName;
+    report.type = type_name(properties.properties.deviceType);
+    report.driver = std::string(vulkan12.driverName) + " " + vulkan12.driverInfo;
+    report.api = version_name(properties.properties.apiVersion);
+    report.subgroup_size = vulkan11.subgroupSize;
+    report.max_picture_side_px = std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth,
+                                           limits.maxFramebufferHeight, limits.maxViewportDimensions[0],
+                                           limits.maxViewportDimensions[1]});
+    report.mesh = {mesh.maxPreferredTaskWorkGroupInvocations,
+                   mesh.maxPreferredMeshWorkGroupInvocations,
+                   mesh.maxTaskWorkGroupInvocations,
+                   mesh.maxMeshWorkGroupInvocations,
+                   mesh.maxMeshOutputVertices,
+                   mesh.maxMeshOutputPrimitives,
+                   mesh.maxTaskWorkGroupTotalCount};
+}
+
+void describe_lacks(VkPhysicalDevice physical, const GpuOptions& options, DeviceReport& report) {
+    VkPhysicalDeviceMeshShaderFeaturesEXT mesh{};
+    mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
+    VkPhysicalDeviceVulkan13Features vulkan13{};
+    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    VkPhysicalDeviceVulkan12Features vulkan12{};
+    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &vulkan12;
+    vulkan12.pNext = &vulkan13;
+    if (report.mesh_shader) vulkan13.pNext = &mesh;
+    vkGetPhysicalDeviceFeatures2(physical, &features);
+    if (!vulkan12.bufferDeviceAddress) report.lacks.emplace_back("bufferDeviceAddress");
+    if (!vulkan12.scalarBlockLayout) report.lacks.emplace_back("scalarBlockLayout");
+    if (!vulkan13.synchronization2) report.lacks.emplace_back("synchronization2");
+    if (!vulkan13.dynamicRendering) report.lacks.emplace_back("dynamicRendering");
+    if (!vulkan13.maintenance4) report.lacks.emplace_back("maintenance4");
+    if (!report.mesh_shader || !mesh.meshShader || !mesh.taskShader) report.lacks.emplace_back("VK_EXT_mesh_shader");
+    if (!graphics_queue_family(physical)) report.lacks.emplace_back("a queue for graphics and compute");
+    if (options.presents && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
+        report.lacks.emplace_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> graphics_queue_family(VkPhysicalDevice physical) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if ((families[i].queueFlags & wanted) == wanted) return i;
+    }
+    return std::nullopt;
+}
+
+DeviceReport describe_device(VkPhysicalDevice physical, const GpuOptions& options) {
+    DeviceReport report;
+    VkPhysicalDeviceProperties plain{};
+    vkGetPhysicalDeviceProperties(physical, &plain);
+    report.name = plain.deviceName;
+    report.type = type_name(plain.deviceType);
+    report.api = version_name(plain.apiVersion);
+    VkPhysicalDeviceMemoryProperties memory{};
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+        if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
+            report.memory_bytes = std::max<std::uint64_t>(report.memory_bytes, memory.memoryHeaps[i].size);
+    }
+    if (plain.apiVersion < VK_API_VERSION_1_3) {
+        report.lacks.emplace_back("Vulkan 1.3");
+        return report;
+    }
+    report.mesh_shader = !options.without_mesh_shader && has_extension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME);
+    describe_properties(physical, report);
+    describe_lacks(physical, options, report);
+    return report;
+}
+
+}  // namespace oro
