@@ -1,0 +1,300 @@
+#include "render/frame_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+
+namespace oro {
+namespace {
+
+constexpr VkDeviceSize pages_offset = 2048;  // FrameConstants come first
+static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
+constexpr std::uint32_t pages_per_draw = 65535;  // the least that any device allows along an axis of a dispatch
+
+gpu::uvec2 address_words(VkDeviceAddress address) {
+    return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32U)};
+}
+
+constexpr ImageUse unused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
+constexpr ImageUse as_colour{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                             VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr ImageUse as_depth{
+    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr ImageUse shader_read{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                               VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
+constexpr ImageUse shader_write{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+
+Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
+    VkQueryPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = 3;
+    VkQueryPool handle{};
+    ORO_VK(vkCreateQueryPool(gpu.device(), &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_QUERY_POOL, handle, "frame times");
+    return OwnedQueryPool(gpu.device(), handle);
+}
+
+}  // namespace
+
+Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererOptions& options) {
+    assert(options.extent.width > 0 && options.extent.width <= gpu.report().max_picture_side_px);
+    assert(options.extent.height > 0 && options.extent.height <= gpu.report().max_picture_side_px);
+    FrameRenderer renderer(gpu);
+    renderer.options_ = options;
+    ORO_TRY(renderer.pipelines_, create_pipelines(gpu, options.record_positions));
+    ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
+    ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
+    constexpr VkBufferUsageFlags counted = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    ORO_TRY(renderer.counts_, create_buffer(gpu, sizeof(gpu::FrameCounts), counted, BufferPlace::device, "counts"));
+    ORO_TRY(renderer.counts_read_, create_buffer(gpu, sizeof(gpu::FrameCounts), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                 BufferPlace::readback, "counts read back"));
+    ORO_CHECK(renderer.reserve_pages(256));
+    ORO_CHECK(renderer.create_images());
+    ORO_CHECK(renderer.create_set());
+    return renderer;
+}
+
+Result<void> FrameRenderer::create_images() {
+    const VkExtent2D extent = options_.extent;
+    const VkExtent2D sum_extent = options_.several_samples ? extent : VkExtent2D{1, 1};
+    constexpr VkImageUsageFlags read_back = VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    ORO_TRY(ids_, create_image(*gpu_, id_format, extent,
+                               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | read_back,
+                               VK_IMAGE_ASPECT_COLOR_BIT, "triangle ids"));
+    ORO_TRY(depth_, create_image(*gpu_, depth_format, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read_back,
+                                 VK_IMAGE_ASPECT_DEPTH_BIT, "depth"));
+    ORO_TRY(sum_, create_image(*gpu_, sum_format, sum_extent, VK_IMAGE_USAGE_STORAGE_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
+                               "sum of samples"));
+    ORO_TRY(picture_, create_image(*gpu_, picture_format_vk, extent, VK_IMAGE_USAGE_STORAGE_BIT | read_back,
+                                   VK_IMAGE_ASPECT_COLOR_BIT, "picture"));
+    return {};
+}
+
+Result<void> FrameRenderer::create_set() {
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3};
+    VkDescriptorPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool.maxSets = 1;
+    pool.poolSizeCount = 1;
+    pool.pPoolSizes = &size;
+    VkDescriptorPool pool_handle{};
+    ORO_VK(vkCreateDescriptorPool(gpu_->device(), &pool, nullptr, &pool_handle));
+    pool_ = OwnedDescriptorPool(gpu_->device(), pool_handle);
+    gpu_->name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_handle, "shading images");
+    const VkDescriptorSetLayout layout = pipelines_.image_set.get();
+    VkDescriptorSetAllocateInfo set{};
+    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    set.descriptorPool = pool_handle;
+    set.descriptorSetCount = 1;
+    set.pSetLayouts = &layout;
+    ORO_VK(vkAllocateDescriptorSets(gpu_->device(), &set, &set_));
+    gpu_->name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "shading images");
+    const std::array<VkImageView, 3> views{ids_.view.get(), sum_.view.get(), picture_.view.get()};
+    std::array<VkDescriptorImageInfo, 3> images{};
+    std::array<VkWriteDescriptorSet, 3> writes{};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        images[i] = {VK_NULL_HANDLE, views[i], VK_IMAGE_LAYOUT_GENERAL};
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstSet = set_;
+        writes[i].dstBinding = i;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        writes[i].pImageInfo = &images[i];
+    }
+    vkUpdateDescriptorSets(gpu_->device(), 3, writes.data(), 0, nullptr);
+    return {};
+}
+
+Result<void> FrameRenderer::reserve_pages(std::size_t count) {
+    if (count <= page_capacity_) return {};
+    const std::size_t capacity = std::max(count, 2 * page_capacity_);
+    const VkDeviceSize size = pages_offset + capacity * sizeof(gpu::FramePage);
+    ORO_TRY(staging_,
+            create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::upload, "frame staging"));
+    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    ORO_TRY(frame_data_, create_buffer(*gpu_, size, usage, BufferPlace::device, "frame data"));
+    page_capacity_ = capacity;
+    return {};
+}
+
+Result<void> FrameRenderer::upload(FramePlan& plan, const PageStore& pages, const gpu::FrameStyle& style,
+                                   std::uint32_t sample_index, std::uint32_t sample_count) {
+    ORO_CHECK(reserve_pages(plan.pages.size()));
+    for (std::size_t i = 0; i < plan.pages.size(); ++i)
+        plan.pages[i].block = address_words(pages.address(plan.page_numbers[i]));
+    gpu::FrameConstants& constants = plan.constants;
+    constants.sample_index = sample_index;
+    constants.sample_count = sample_count;
+    constants.pages = address_words(frame_data_.address + pages_offset);
+    constants.counts = address_words(counts_.address);
+    constants.style = style;
+    if (options_.record_positions) {
+        const VkDeviceSize size = std::max<std::size_t>(plan.pages.size(), 1) * gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
+        if (recorded_.size < size) {
+            ORO_TRY(recorded_, create_buffer(*gpu_, size,
+                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                             BufferPlace::readback, "recorded positions"));
+        }
+        constants.recorded = address_words(recorded_.address);
+    }
+    std::memcpy(staging_.mapped, &constants, sizeof(constants));
+    if (!plan.pages.empty())
+        std::memcpy(staging_.mapped + pages_offset, plan.pages.data(), plan.pages.size() * sizeof(gpu::FramePage));
+    return {};
+}
+
+void FrameRenderer::record_upload(VkCommandBuffer commands, const FramePlan& plan) const {
+    const VkBufferCopy copy{0, 0, pages_offset + plan.pages.size() * sizeof(gpu::FramePage)};
+    vkCmdCopyBuffer(commands, staging_.handle.get(), frame_data_.handle.get(), 1, &copy);
+    vkCmdFillBuffer(commands, counts_.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
+                   VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& plan) const {
+    image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, as_colour);
+    image_barrier(commands, depth_.handle.get(), VK_IMAGE_ASPECT_DEPTH_BIT, unused, as_depth);
+    VkRenderingAttachmentInfo colour{};
+    colour.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+    colour.imageView = ids_.view.get();
+    colour.imageLayout = as_colour.layout;
+    colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    VkRenderingAttachmentInfo depth = colour;
+    depth.imageView = depth_.view.get();
+    depth.imageLayout = as_depth.layout;
+    depth.clearValue.depthStencil = {0.0F, 0};
+    VkRenderingInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+    rendering.renderArea.extent = {plan.constants.width_px, plan.constants.height_px};
+    rendering.layerCount = 1;
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachments = &colour;
+    rendering.pDepthAttachment = &depth;
+    vkCmdBeginRendering(commands, &rendering);
+    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(plan.constants.width_px),
+                              static_cast<float>(plan.constants.height_px), 0.0F, 1.0F};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.terrain.get());
+    const gpu::uvec2 address = address_words(frame_data_.address);
+    for (std::uint32_t first = 0; first < plan.pages.size(); first += pages_per_draw) {
+        const PushBlock push{{address.x, address.y}, first};
+        vkCmdPushConstants(commands, pipelines_.layout.get(),
+                           VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                           sizeof(push), &push);
+        const std::uint32_t count = std::min(pages_per_draw, static_cast<std::uint32_t>(plan.pages.size()) - first);
+        gpu_->draw_mesh_tasks()(commands, gpu::meshlets_per_page / pipelines_.meshlets_per_task, count, 1);
+    }
+    vkCmdEndRendering(commands);
+}
+
+void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) const {
+    image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, as_colour, shader_read);
+    const bool first = plan.constants.sample_index == 0;
+    image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write, shader_write);
+    image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.shade.get());
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1, &set_, 0, nullptr);
+    const gpu::uvec2 address = address_words(frame_data_.address);
+    const PushBlock push{{address.x, address.y}, 0};
+    vkCmdPushConstants(commands, pipelines_.layout.get(),
+                       VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       sizeof(push), &push);
+    vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
+}
+
+void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) const {
+    vkCmdResetQueryPool(commands, timestamps_.get(), 0, 3);
+    record_upload(commands, plan);
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 0);
+    record_raster(commands, plan);
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 1);
+    record_shade(commands, plan);
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 2);
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                   VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
+                   VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
+    const VkBufferCopy copy{0, 0, sizeof(gpu::FrameCounts)};
+    vkCmdCopyBuffer(commands, counts_.handle.get(), counts_read_.handle.get(), 1, &copy);
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
+                   VK_ACCESS_2_HOST_READ_BIT);
+}
+
+Result<FrameReport> FrameRenderer::draw(const PageStore& pages, FramePlan plan, const gpu::FrameStyle& style,
+                                        std::uint32_t sample_index, std::uint32_t sample_count) {
+    assert(plan.constants.width_px <= options_.extent.width && plan.constants.height_px <= options_.extent.height);
+    assert(sample_count == 1 || options_.several_samples);
+    ORO_CHECK(upload(plan, pages, style, sample_index, sample_count));
+    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
+    FrameReport report;
+    std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
+    report.pages_drawn = plan.pages.size();
+    std::array<std::uint64_t, 3> ticks{};
+    ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, 3, sizeof(ticks), ticks.data(),
+                                 sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    const double tick_s = gpu_->timestamp_period_ns() * 1e-9;
+    report.raster_s = static_cast<double>(ticks[1] - ticks[0]) * tick_s;
+    report.shade_s = static_cast<double>(ticks[2] - ticks[1]) * tick_s;
+    return report;
+}
+
+Result<std::vector<std::byte>> FrameRenderer::read_image(const Image& image, VkImageAspectFlags aspect, ImageUse last_use,
+                                                         std::uint32_t width, std::uint32_t height) {
+    const VkDeviceSize size = VkDeviceSize{4} * width * height;  // every format read back has four bytes
+    ORO_TRY(const Buffer buffer,
+            create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::readback, "image read back"));
+    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+        const ImageUse as_source{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                                 VK_ACCESS_2_TRANSFER_READ_BIT};
+        image_barrier(commands, image.handle.get(), aspect, last_use, as_source);
+        VkBufferImageCopy copy{};
+        copy.imageSubresource = {aspect, 0, 0, 1};
+        copy.imageExtent = {width, height, 1};
+        vkCmdCopyImageToBuffer(commands, image.handle.get(), as_source.layout, buffer.handle.get(), 1, &copy);
+        image_barrier(commands, image.handle.get(), aspect, as_source, last_use);
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    }));
+    return std::vector<std::byte>(buffer.mapped, buffer.mapped + size);
+}
+
+namespace {
+template <class T>
+std::vector<T> as_vector(const std::vector<std::byte>& bytes) {
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
+}  // namespace
+
+Result<std::vector<std::uint8_t>> FrameRenderer::read_picture(std::uint32_t width, std::uint32_t height) {
+    ORO_TRY(const std::vector<std::byte> bytes, read_image(picture_, VK_IMAGE_ASPECT_COLOR_BIT, shader_write, width, height));
+    return as_vector<std::uint8_t>(bytes);
+}
+
+Result<std::vector<std::uint32_t>> FrameRenderer::read_ids(std::uint32_t width, std::uint32_t height) {
+    ORO_TRY(const std::vector<std::byte> bytes, read_image(ids_, VK_IMAGE_ASPECT_COLOR_BIT, shader_read, width, height));
+    return as_vector<std::uint32_t>(bytes);
+}
+
+Result<std::vector<float>> FrameRenderer::read_depths(std::uint32_t width, std::uint32_t height) {
+    ORO_TRY(const std::vector<std::byte> bytes, read_image(depth_, VK_IMAGE_ASPECT_DEPTH_BIT, as_depth, width, height));
+    return as_vector<float>(bytes);
+}
+
+std::vector<gpu::vec3> FrameRenderer::recorded() const {
+    std::vector<gpu::vec3> positions(recorded_.size / sizeof(gpu::vec3));
+    std::memcpy(positions.data(), recorded_.mapped, positions.size() * sizeof(gpu::vec3));
+    return positions;
+}
+
+}  // namespace oro

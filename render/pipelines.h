@@ -1,0 +1,31 @@
+// The programs that a frame runs: rasterise meshlets into ids and depth, shade pixels.
+#pragma once
+
+#include "render/gpu.h"
+
+namespace oro {
+
+inline constexpr VkFormat id_format = VK_FORMAT_R32_UINT;
+inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+inline constexpr VkFormat sum_format = VK_FORMAT_R32G32B32A32_SFLOAT;
+inline constexpr VkFormat picture_format_vk = VK_FORMAT_R8G8B8A8_UNORM;
+
+// What every draw and dispatch is told directly; the same block as in shaders/frame.glsl.
+struct PushBlock {
+    std::uint32_t frame_address[2];
+    std::uint32_t first_page;
+};
+
+struct Pipelines {
+    OwnedSetLayout image_set;        // bindings 0 ids, 1 sum, 2 picture: storage images of the shading pass
+    OwnedPipelineLayout layout;      // image_set and PushBlock for all stages
+    OwnedPipeline terrain;           // task, mesh, fragment
+    OwnedPipeline shade;             // compute, 8 x 8
+    std::uint32_t meshlets_per_task{};
+};
+
+// Sizes of workgroups follow the device's preferred limits. record_positions: the mesh shader also writes each placed
+// post to FrameConstants.recorded (for tests).
+Result<Pipelines> create_pipelines(const Gpu& gpu, bool record_positions);
+
+}  // namespace oro
