@@ -1,0 +1,19 @@
+# Configures and builds build/release; sourced by scripts/demo and scripts/test.
+
+say() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; }
+
+# build_release NAME [-D... options and targets]: no targets means all. What CMake and Ninja say is shown when it fails.
+build_release() {
+  local name=$1 options=() targets=() word log
+  shift
+  for word in "$@"; do
+    case "$word" in -*) options+=("$word") ;; *) targets+=("$word") ;; esac
+  done
+  log=build/$name.log
+  mkdir -p build
+  say "configuring build/release"
+  cmake --preset release "${options[@]}" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+  say "building"
+  cmake --build --preset release ${targets[0]+--target "${targets[@]}"} >"$log" 2>&1 ||
+    { grep -v '^\[' "$log" | tail -n 60 >&2; say "the build failed; all it said is in $log"; exit 1; }
+}
