@@ -19,8 +19,9 @@ struct SeenPage {
 };
 
 bool inside_all(std::span<const Plane> planes, const glm::dvec3& centre, double radius) {
-    return std::all_of(planes.begin(), planes.end(),
-                       [&](const Plane& plane) { return glm::dot(glm::dvec3(plane), centre) + plane.w > radius; });
+    return std::all_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+        return glm::dot(glm::dvec3(plane), centre) + plane.w > radius;
+    });
 }
 
 gpu::FramePage frame_page(const PageSummary& page, const SeenPage& seen, std::span<const Plane> planes_view,
@@ -30,8 +31,9 @@ gpu::FramePage frame_page(const PageSummary& page, const SeenPage& seen, std::sp
     frame.origin_view = gpu::vec3(seen.origin_view);
     for (std::size_t i = 0; i < planes_view.size(); ++i) {
         const glm::dvec3 normal(planes_view[i]);
-        frame.planes[i] = gpu::vec4(gpu::vec3(glm::transpose(seen.view_from_page) * normal),
-                                    static_cast<float>(glm::dot(normal, seen.origin_view) + planes_view[i].w));
+        frame.planes[i] =
+            gpu::vec4(gpu::vec3(glm::transpose(seen.view_from_page) * normal),
+                      static_cast<float>(glm::dot(normal, seen.origin_view) + planes_view[i].w));
     }
     frame.horizon_direction = gpu::vec3(eye.direction - page.horizon.direction);
     frame.cull = (seen.cut_by_frustum ? gpu::cull_by_frustum : 0U) |
@@ -67,7 +69,8 @@ void split_high_low(const glm::dvec3& value, gpu::vec3& high, gpu::vec3& low) {
     low = gpu::vec3(value - glm::dvec3(high));
 }
 
-FramePlan plan_frame(std::span<const PageSummary> pages, const RegionShape& shape, const Camera& camera, const Tile& tile) {
+FramePlan plan_frame(std::span<const PageSummary> pages, const RegionShape& shape, const Camera& camera,
+                     const Tile& tile) {
     const Projection projection = projection_of_tile(camera, tile);
     const std::array<Plane, 5> planes_view = frustum_planes_view(projection);
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
@@ -92,7 +95,8 @@ FramePlan plan_frame(std::span<const PageSummary> pages, const RegionShape& shap
                             !inside_all(planes_view, centre_view, page.radius_m)});
         }
     }
-    // Near pages first: what they hide fails the depth test before it is shaded. Ties by number: one order for one input.
+    // Near pages first: what they hide fails the depth test before it is shaded. Ties by number: one order
+    // for one input.
     std::sort(seen.begin(), seen.end(), [](const SeenPage& a, const SeenPage& b) {
         return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.number < b.number;
     });

@@ -25,13 +25,16 @@ bool has_extension(VkPhysicalDevice physical, const char* wanted) {
     std::uint32_t count = 0;
     if (vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr) != VK_SUCCESS) return false;
     std::vector<VkExtensionProperties> all(count);
-    if (vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, all.data()) != VK_SUCCESS) return false;
-    return std::any_of(all.begin(), all.end(),
-                       [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, wanted) == 0; });
+    if (vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, all.data()) != VK_SUCCESS)
+        return false;
+    return std::any_of(all.begin(), all.end(), [&](const VkExtensionProperties& e) {
+        return std::strcmp(e.extensionName, wanted) == 0;
+    });
 }
 
 std::string version_name(std::uint32_t version) {
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(version)) + "." +
            std::to_string(VK_API_VERSION_PATCH(version));
 }
 
@@ -54,9 +57,9 @@ void describe_properties(VkPhysicalDevice physical, DeviceReport& report) {
     report.driver = std::string(vulkan12.driverName) + " " + vulkan12.driverInfo;
     report.api = version_name(properties.properties.apiVersion);
     report.subgroup_size = vulkan11.subgroupSize;
-    report.max_picture_side_px = std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth,
-                                           limits.maxFramebufferHeight, limits.maxViewportDimensions[0],
-                                           limits.maxViewportDimensions[1]});
+    report.max_picture_side_px =
+        std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight,
+                  limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]});
     report.mesh = {mesh.maxPreferredTaskWorkGroupInvocations,
                    mesh.maxPreferredMeshWorkGroupInvocations,
                    mesh.maxTaskWorkGroupInvocations,
@@ -84,7 +87,8 @@ void describe_lacks(VkPhysicalDevice physical, const GpuOptions& options, Device
     if (!vulkan13.synchronization2) report.lacks.emplace_back("synchronization2");
     if (!vulkan13.dynamicRendering) report.lacks.emplace_back("dynamicRendering");
     if (!vulkan13.maintenance4) report.lacks.emplace_back("maintenance4");
-    if (!report.mesh_shader || !mesh.meshShader || !mesh.taskShader) report.lacks.emplace_back("VK_EXT_mesh_shader");
+    if (!report.mesh_shader || !mesh.meshShader || !mesh.taskShader)
+        report.lacks.emplace_back("VK_EXT_mesh_shader");
     if (!graphics_queue_family(physical)) report.lacks.emplace_back("a queue for graphics and compute");
     if (options.presents && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
         report.lacks.emplace_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
@@ -121,7 +125,8 @@ DeviceReport describe_device(VkPhysicalDevice physical, const GpuOptions& option
         report.lacks.emplace_back("Vulkan 1.3");
         return report;
     }
-    report.mesh_shader = !options.without_mesh_shader && has_extension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME);
+    report.mesh_shader =
+        !options.without_mesh_shader && has_extension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME);
     describe_properties(physical, report);
     describe_lacks(physical, options, report);
     return report;

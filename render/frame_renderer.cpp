@@ -10,14 +10,16 @@ namespace {
 
 constexpr VkDeviceSize pages_offset = 2048;  // FrameConstants come first
 static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
-constexpr std::uint32_t pages_per_draw = 65535;  // the least that any device allows along an axis of a dispatch
+constexpr std::uint32_t pages_per_draw =
+    65535;  // the least that any device allows along an axis of a dispatch
 
 gpu::uvec2 address_words(VkDeviceAddress address) {
     return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32U)};
 }
 
 constexpr ImageUse unused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
-constexpr ImageUse as_colour{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+constexpr ImageUse as_colour{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                             VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                              VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr ImageUse as_depth{
     VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
@@ -49,11 +51,14 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     ORO_TRY(renderer.pipelines_, create_pipelines(gpu, options.record_positions));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
-    constexpr VkBufferUsageFlags counted = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    ORO_TRY(renderer.counts_, create_buffer(gpu, sizeof(gpu::FrameCounts), counted, BufferPlace::device, "counts"));
-    ORO_TRY(renderer.counts_read_, create_buffer(gpu, sizeof(gpu::FrameCounts), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                 BufferPlace::readback, "counts read back"));
+    constexpr VkBufferUsageFlags counted =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    ORO_TRY(renderer.counts_,
+            create_buffer(gpu, sizeof(gpu::FrameCounts), counted, BufferPlace::device, "counts"));
+    ORO_TRY(renderer.counts_read_,
+            create_buffer(gpu, sizeof(gpu::FrameCounts), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                          BufferPlace::readback, "counts read back"));
     ORO_CHECK(renderer.reserve_pages(256));
     ORO_CHECK(renderer.create_images());
     ORO_CHECK(renderer.create_set());
@@ -67,10 +72,11 @@ Result<void> FrameRenderer::create_images() {
     ORO_TRY(ids_, create_image(*gpu_, id_format, extent,
                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | read_back,
                                VK_IMAGE_ASPECT_COLOR_BIT, "triangle ids"));
-    ORO_TRY(depth_, create_image(*gpu_, depth_format, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read_back,
-                                 VK_IMAGE_ASPECT_DEPTH_BIT, "depth"));
-    ORO_TRY(sum_, create_image(*gpu_, sum_format, sum_extent, VK_IMAGE_USAGE_STORAGE_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
-                               "sum of samples"));
+    ORO_TRY(depth_,
+            create_image(*gpu_, depth_format, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read_back,
+                         VK_IMAGE_ASPECT_DEPTH_BIT, "depth"));
+    ORO_TRY(sum_, create_image(*gpu_, sum_format, sum_extent, VK_IMAGE_USAGE_STORAGE_BIT,
+                               VK_IMAGE_ASPECT_COLOR_BIT, "sum of samples"));
     ORO_TRY(picture_, create_image(*gpu_, picture_format_vk, extent, VK_IMAGE_USAGE_STORAGE_BIT | read_back,
                                    VK_IMAGE_ASPECT_COLOR_BIT, "picture"));
     return {};
@@ -115,9 +121,10 @@ Result<void> FrameRenderer::reserve_pages(std::size_t count) {
     if (count <= page_capacity_) return {};
     const std::size_t capacity = std::max(count, 2 * page_capacity_);
     const VkDeviceSize size = pages_offset + capacity * sizeof(gpu::FramePage);
-    ORO_TRY(staging_,
-            create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::upload, "frame staging"));
-    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+    ORO_TRY(staging_, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::upload,
+                                    "frame staging"));
+    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     ORO_TRY(frame_data_, create_buffer(*gpu_, size, usage, BufferPlace::device, "frame data"));
     page_capacity_ = capacity;
@@ -136,17 +143,20 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const PageStore& pages, cons
     constants.counts = address_words(counts_.address);
     constants.style = style;
     if (options_.record_positions) {
-        const VkDeviceSize size = std::max<std::size_t>(plan.pages.size(), 1) * gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
+        const VkDeviceSize size = std::max<std::size_t>(plan.pages.size(), 1) * gpu::page_posts *
+                                  gpu::page_posts * sizeof(gpu::vec3);
         if (recorded_.size < size) {
             ORO_TRY(recorded_, create_buffer(*gpu_, size,
-                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                                 VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                                              BufferPlace::readback, "recorded positions"));
         }
         constants.recorded = address_words(recorded_.address);
     }
     std::memcpy(staging_.mapped, &constants, sizeof(constants));
     if (!plan.pages.empty())
-        std::memcpy(staging_.mapped + pages_offset, plan.pages.data(), plan.pages.size() * sizeof(gpu::FramePage));
+        std::memcpy(staging_.mapped + pages_offset, plan.pages.data(),
+                    plan.pages.size() * sizeof(gpu::FramePage));
     return {};
 }
 
@@ -180,18 +190,21 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
     rendering.pColorAttachments = &colour;
     rendering.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &rendering);
-    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(plan.constants.width_px),
-                              static_cast<float>(plan.constants.height_px), 0.0F, 1.0F};
+    const VkViewport viewport{
+        0.0F, 0.0F, static_cast<float>(plan.constants.width_px), static_cast<float>(plan.constants.height_px),
+        0.0F, 1.0F};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.terrain.get());
     const gpu::uvec2 address = address_words(frame_data_.address);
     for (std::uint32_t first = 0; first < plan.pages.size(); first += pages_per_draw) {
         const PushBlock push{{address.x, address.y}, first};
-        vkCmdPushConstants(commands, pipelines_.layout.get(),
-                           VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                           sizeof(push), &push);
-        const std::uint32_t count = std::min(pages_per_draw, static_cast<std::uint32_t>(plan.pages.size()) - first);
+        vkCmdPushConstants(
+            commands, pipelines_.layout.get(),
+            VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
+            sizeof(push), &push);
+        const std::uint32_t count =
+            std::min(pages_per_draw, static_cast<std::uint32_t>(plan.pages.size()) - first);
         gpu_->draw_mesh_tasks()(commands, gpu::meshlets_per_page / pipelines_.meshlets_per_task, count, 1);
     }
     vkCmdEndRendering(commands);
@@ -200,15 +213,18 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) const {
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, as_colour, shader_read);
     const bool first = plan.constants.sample_index == 0;
-    image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write, shader_write);
+    image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
+                  shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.shade.get());
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1, &set_, 0, nullptr);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1, &set_, 0,
+                            nullptr);
     const gpu::uvec2 address = address_words(frame_data_.address);
     const PushBlock push{{address.x, address.y}, 0};
-    vkCmdPushConstants(commands, pipelines_.layout.get(),
-                       VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                       sizeof(push), &push);
+    vkCmdPushConstants(
+        commands, pipelines_.layout.get(),
+        VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
+        sizeof(push), &push);
     vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
 }
 
@@ -225,13 +241,14 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) cons
                    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
     const VkBufferCopy copy{0, 0, sizeof(gpu::FrameCounts)};
     vkCmdCopyBuffer(commands, counts_.handle.get(), counts_read_.handle.get(), 1, &copy);
-    memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
-                   VK_ACCESS_2_HOST_READ_BIT);
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
 Result<FrameReport> FrameRenderer::draw(const PageStore& pages, FramePlan plan, const gpu::FrameStyle& style,
                                         std::uint32_t sample_index, std::uint32_t sample_count) {
-    assert(plan.constants.width_px <= options_.extent.width && plan.constants.height_px <= options_.extent.height);
+    assert(plan.constants.width_px <= options_.extent.width &&
+           plan.constants.height_px <= options_.extent.height);
     assert(sample_count == 1 || options_.several_samples);
     ORO_CHECK(upload(plan, pages, style, sample_index, sample_count));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
@@ -247,11 +264,12 @@ Result<FrameReport> FrameRenderer::draw(const PageStore& pages, FramePlan plan, 
     return report;
 }
 
-Result<std::vector<std::byte>> FrameRenderer::read_image(const Image& image, VkImageAspectFlags aspect, ImageUse last_use,
-                                                         std::uint32_t width, std::uint32_t height) {
+Result<std::vector<std::byte>> FrameRenderer::read_image(const Image& image, VkImageAspectFlags aspect,
+                                                         ImageUse last_use, std::uint32_t width,
+                                                         std::uint32_t height) {
     const VkDeviceSize size = VkDeviceSize{4} * width * height;  // every format read back has four bytes
-    ORO_TRY(const Buffer buffer,
-            create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::readback, "image read back"));
+    ORO_TRY(const Buffer buffer, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                               BufferPlace::readback, "image read back"));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         const ImageUse as_source{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                                  VK_ACCESS_2_TRANSFER_READ_BIT};
@@ -277,17 +295,20 @@ std::vector<T> as_vector(const std::vector<std::byte>& bytes) {
 }  // namespace
 
 Result<std::vector<std::uint8_t>> FrameRenderer::read_picture(std::uint32_t width, std::uint32_t height) {
-    ORO_TRY(const std::vector<std::byte> bytes, read_image(picture_, VK_IMAGE_ASPECT_COLOR_BIT, shader_write, width, height));
+    ORO_TRY(const std::vector<std::byte> bytes,
+            read_image(picture_, VK_IMAGE_ASPECT_COLOR_BIT, shader_write, width, height));
     return as_vector<std::uint8_t>(bytes);
 }
 
 Result<std::vector<std::uint32_t>> FrameRenderer::read_ids(std::uint32_t width, std::uint32_t height) {
-    ORO_TRY(const std::vector<std::byte> bytes, read_image(ids_, VK_IMAGE_ASPECT_COLOR_BIT, shader_read, width, height));
+    ORO_TRY(const std::vector<std::byte> bytes,
+            read_image(ids_, VK_IMAGE_ASPECT_COLOR_BIT, shader_read, width, height));
     return as_vector<std::uint32_t>(bytes);
 }
 
 Result<std::vector<float>> FrameRenderer::read_depths(std::uint32_t width, std::uint32_t height) {
-    ORO_TRY(const std::vector<std::byte> bytes, read_image(depth_, VK_IMAGE_ASPECT_DEPTH_BIT, as_depth, width, height));
+    ORO_TRY(const std::vector<std::byte> bytes,
+            read_image(depth_, VK_IMAGE_ASPECT_DEPTH_BIT, as_depth, width, height));
     return as_vector<float>(bytes);
 }
 

@@ -21,8 +21,8 @@ struct FrameReport {
 };
 
 struct FrameRendererOptions {
-    VkExtent2D extent{};         // largest tile, at most the device's limit
-    bool several_samples{false}; // will be asked for sample_count > 1
+    VkExtent2D extent{};          // largest tile, at most the device's limit
+    bool several_samples{false};  // will be asked for sample_count > 1
     bool record_positions{false};
 };
 
@@ -30,8 +30,8 @@ class FrameRenderer {
   public:
     static Result<FrameRenderer> create(const Gpu& gpu, const FrameRendererOptions& options);
 
-    // Draws one sample of a plan (its tile is within the extent) and waits for it. With sample_count > 1 the picture is
-    // complete after the last sample_index. Same plan, pages and style: same bytes, on one driver.
+    // Draws one sample of a plan (its tile is within the extent) and waits for it. With sample_count > 1 the
+    // picture is complete after the last sample_index. Same plan, pages and style: same bytes, on one driver.
     Result<FrameReport> draw(const PageStore& pages, FramePlan plan, const gpu::FrameStyle& style,
                              std::uint32_t sample_index = 0, std::uint32_t sample_count = 1);
 
@@ -40,7 +40,8 @@ class FrameRenderer {
     // Triangle ids and reversed depths of the last frame (for tests and picking).
     Result<std::vector<std::uint32_t>> read_ids(std::uint32_t width, std::uint32_t height);
     Result<std::vector<float>> read_depths(std::uint32_t width, std::uint32_t height);
-    // With record_positions: of every page of the last frame, 129 x 129 positions as the mesh shader placed them.
+    // With record_positions: of every page of the last frame, 129 x 129 positions as the mesh shader placed
+    // them.
     [[nodiscard]] std::vector<gpu::vec3> recorded() const;
 
     [[nodiscard]] const Image& picture() const { return picture_; }
@@ -51,14 +52,14 @@ class FrameRenderer {
     Result<void> create_images();
     Result<void> create_set();
     Result<void> reserve_pages(std::size_t count);
-    Result<void> upload(FramePlan& plan, const PageStore& pages, const gpu::FrameStyle& style, std::uint32_t sample_index,
-                        std::uint32_t sample_count);
+    Result<void> upload(FramePlan& plan, const PageStore& pages, const gpu::FrameStyle& style,
+                        std::uint32_t sample_index, std::uint32_t sample_count);
     void record(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_upload(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_shade(VkCommandBuffer commands, const FramePlan& plan) const;
-    Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect, ImageUse last_use,
-                                              std::uint32_t width, std::uint32_t height);
+    Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect,
+                                              ImageUse last_use, std::uint32_t width, std::uint32_t height);
 
     const Gpu* gpu_;
     FrameRendererOptions options_;

@@ -11,8 +11,10 @@ namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                            VkDebugUtilsMessageTypeFlagsEXT,
+                                            const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                            void* messages) {
     static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
     return VK_FALSE;
 }
@@ -22,7 +24,8 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>* mess
     info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    info.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     info.pfnUserCallback = keep_message;
     info.pUserData = messages;
     return info;
@@ -36,7 +39,10 @@ Error no_driver(const std::string& reason) {
 
 // Better devices first; among equals the driver's own order.
 int device_rank(const DeviceReport& report) {
-    const int kind = report.type == "discrete GPU" ? 3 : report.type == "integrated GPU" ? 2 : report.type == "software" ? 0 : 1;
+    const int kind = report.type == "discrete GPU"     ? 3
+                     : report.type == "integrated GPU" ? 2
+                     : report.type == "software"       ? 0
+                                                       : 1;
     return kind + (report.lacks.empty() ? 10 : 0);
 }
 
@@ -47,7 +53,8 @@ struct Candidate {
 
 Result<std::vector<Candidate>> candidates(VkInstance instance, const GpuOptions& options) {
     std::uint32_t count = 0;
-    if (const VkResult r = vkEnumeratePhysicalDevices(instance, &count, nullptr); r != VK_SUCCESS || count == 0)
+    if (const VkResult r = vkEnumeratePhysicalDevices(instance, &count, nullptr);
+        r != VK_SUCCESS || count == 0)
         return no_driver(r == VK_SUCCESS ? "no device" : vulkan_result_name(r));
     std::vector<VkPhysicalDevice> devices(count);
     ORO_VK(vkEnumeratePhysicalDevices(instance, &count, devices.data()));
@@ -60,7 +67,8 @@ Result<std::vector<Candidate>> candidates(VkInstance instance, const GpuOptions&
 }
 
 bool is_named(const Candidate& candidate, std::size_t number, const std::string& wanted) {
-    return wanted.empty() || wanted == std::to_string(number) || candidate.report.name.find(wanted) != std::string::npos;
+    return wanted.empty() || wanted == std::to_string(number) ||
+           candidate.report.name.find(wanted) != std::string::npos;
 }
 
 Error nothing_suitable(const std::vector<Candidate>& all, const std::string& wanted) {
@@ -73,11 +81,14 @@ Error nothing_suitable(const std::vector<Candidate>& all, const std::string& wan
         for (std::size_t k = 0; k < all[i].report.lacks.size(); ++k)
             list += (k ? ", " : "") + all[i].report.lacks[k];
     }
-    if (!named) return {ErrorKind::no_device, "OROGRAPH_DEVICE", "no device is called '" + wanted + "' (see orograph doctor)"};
-    return {ErrorKind::no_device, "GPU",
-            "none can draw (" + list +
-                "). Get a driver with VK_EXT_mesh_shader: a current one for your GPU, or the software driver of "
-                "Mesa 24.1 or later, which scripts/set-up brings"};
+    if (!named)
+        return {ErrorKind::no_device, "OROGRAPH_DEVICE",
+                "no device is called '" + wanted + "' (see orograph doctor)"};
+    return {
+        ErrorKind::no_device, "GPU",
+        "none can draw (" + list +
+            "). Get a driver with VK_EXT_mesh_shader: a current one for your GPU, or the software driver of "
+            "Mesa 24.1 or later, which scripts/set-up brings"};
 }
 
 }  // namespace
@@ -85,7 +96,8 @@ Error nothing_suitable(const std::vector<Candidate>& all, const std::string& wan
 GpuOptions gpu_options_from_environment() {
     GpuOptions options;
     if (const char* device = std::getenv("OROGRAPH_DEVICE")) options.device_name = device;
-    if (const char* wanted = std::getenv("OROGRAPH_VALIDATION")) options.validation = std::strcmp(wanted, "1") == 0;
+    if (const char* wanted = std::getenv("OROGRAPH_VALIDATION"))
+        options.validation = std::strcmp(wanted, "1") == 0;
     if (const char* without = std::getenv("OROGRAPH_WITHOUT"))
         options.without_mesh_shader = std::strstr(without, "mesh_shader") != nullptr;
     return options;
@@ -102,7 +114,8 @@ Result<void> Gpu::create_instance(const GpuOptions& options) {
     std::vector<const char*> extensions = options.instance_extensions;
     std::vector<const char*> layers;
     VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(&messages_);
-    const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    const VkValidationFeatureEnableEXT enabled[] = {
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     VkValidationFeaturesEXT features{};
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
     features.enabledValidationFeatureCount = 1;
@@ -122,7 +135,8 @@ Result<void> Gpu::create_instance(const GpuOptions& options) {
     info.ppEnabledExtensionNames = extensions.data();
     const VkResult made = vkCreateInstance(&info, nullptr, &instance_);
     if (made == VK_ERROR_LAYER_NOT_PRESENT)
-        return Error{ErrorKind::failed, "OROGRAPH_VALIDATION", "the validation layer is not installed (vulkan-validationlayers)"};
+        return Error{ErrorKind::failed, "OROGRAPH_VALIDATION",
+                     "the validation layer is not installed (vulkan-validationlayers)"};
     if (made != VK_SUCCESS) return no_driver(vulkan_result_name(made));
     if (options.validation) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
@@ -216,7 +230,8 @@ Gpu::~Gpu() {
     if (instance_) vkDestroyInstance(instance_, nullptr);
 }
 
-std::optional<std::uint32_t> Gpu::memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags properties) const {
+std::optional<std::uint32_t> Gpu::memory_type(std::uint32_t allowed_bits,
+                                              VkMemoryPropertyFlags properties) const {
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
         const bool fits = (memory_.memoryTypes[i].propertyFlags & properties) == properties;
         if ((allowed_bits >> i & 1U) && fits) return i;

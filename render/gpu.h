@@ -25,9 +25,9 @@ struct MeshShaderLimits {
 // One device as the driver describes it.
 struct DeviceReport {
     std::string name;
-    std::string type;     // "discrete GPU", "software", ...
-    std::string driver;   // name and version as the driver gives them
-    std::string api;      // "1.3.274"
+    std::string type;    // "discrete GPU", "software", ...
+    std::string driver;  // name and version as the driver gives them
+    std::string api;     // "1.3.274"
     bool mesh_shader{};
     MeshShaderLimits mesh;
     std::uint32_t subgroup_size{};
@@ -37,10 +37,10 @@ struct DeviceReport {
 };
 
 struct GpuOptions {
-    std::string device_name;   // "" for the best; else part of a device's name, or its number in the list
-    bool validation{false};    // the Khronos validation layer, with synchronization validation
+    std::string device_name;  // "" for the best; else part of a device's name, or its number in the list
+    bool validation{false};   // the Khronos validation layer, with synchronization validation
     std::vector<const char*> instance_extensions;  // for a window's surface
-    bool presents{false};      // needs VK_KHR_swapchain
+    bool presents{false};                          // needs VK_KHR_swapchain
     bool without_mesh_shader{false};  // treat every device as one without VK_EXT_mesh_shader (for tests)
 };
 // Options as the environment sets them: OROGRAPH_DEVICE, OROGRAPH_VALIDATION=1, OROGRAPH_WITHOUT=mesh_shader.
@@ -69,7 +69,8 @@ class Gpu {
     [[nodiscard]] const std::vector<std::string>& validation_messages() const { return messages_; }
 
     // Memory type with all of `properties` among the allowed bits; nothing when the device has none.
-    [[nodiscard]] std::optional<std::uint32_t> memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags properties) const;
+    [[nodiscard]] std::optional<std::uint32_t> memory_type(std::uint32_t allowed_bits,
+                                                           VkMemoryPropertyFlags properties) const;
     // Names an object for validation messages and debuggers.
     void name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
     template <class Handle>

@@ -11,8 +11,9 @@ constexpr std::size_t pages_in_staging = 128;  // divides pages_per_chunk, so a 
 Result<PageStore> PageStore::create(const Gpu& gpu) {
     PageStore store(gpu);
     ORO_TRY(store.commands_, Commands::create(gpu, "page upload"));
-    ORO_TRY(store.staging_, create_buffer(gpu, pages_in_staging * sizeof(gpu::PageBlock), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                          BufferPlace::upload, "page staging"));
+    ORO_TRY(store.staging_,
+            create_buffer(gpu, pages_in_staging * sizeof(gpu::PageBlock), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                          BufferPlace::upload, "page staging"));
     return store;
 }
 
@@ -22,17 +23,22 @@ Result<gpu::PageBlock*> PageStore::add_page() {
     return slots + (count_++ - sent_);
 }
 
-void PageStore::drop_last() { --count_; }
+void PageStore::drop_last() {
+    --count_;
+}
 
-Result<void> PageStore::finish() { return send(); }
+Result<void> PageStore::finish() {
+    return send();
+}
 
 Result<void> PageStore::send() {
     if (sent_ == count_) return {};
     if (sent_ / pages_per_chunk == chunks_.size()) {
-        constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+        constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                              VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-        ORO_TRY(Buffer chunk, create_buffer(*gpu_, pages_per_chunk * sizeof(gpu::PageBlock), usage, BufferPlace::device,
-                                            "pages " + std::to_string(chunks_.size())));
+        ORO_TRY(Buffer chunk, create_buffer(*gpu_, pages_per_chunk * sizeof(gpu::PageBlock), usage,
+                                            BufferPlace::device, "pages " + std::to_string(chunks_.size())));
         chunks_.push_back(std::move(chunk));
     }
     VkBufferCopy copy{};

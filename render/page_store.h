@@ -14,8 +14,8 @@ class PageStore {
   public:
     static Result<PageStore> create(const Gpu& gpu);
 
-    // A page's slot, to be filled by the caller before the next call of add_page or finish. The pointer is into upload memory
-    // (write-only). Errors: out of memory.
+    // A page's slot, to be filled by the caller before the next call of add_page or finish. The pointer is
+    // into upload memory (write-only). Errors: out of memory.
     Result<gpu::PageBlock*> add_page();
     // Drops the page added last.
     void drop_last();

@@ -21,8 +21,8 @@ void add(FrameReport& sum, const FrameReport& part) {
 }
 
 // Draws one tile, all its samples; its pixels stay in the renderer. Counts are those of the first sample.
-Result<void> draw_tile(const Scene& scene, const Camera& camera, const gpu::FrameStyle& style, int samples, Tile tile,
-                       FrameRenderer& renderer, PictureReport& report) {
+Result<void> draw_tile(const Scene& scene, const Camera& camera, const gpu::FrameStyle& style, int samples,
+                       Tile tile, FrameRenderer& renderer, PictureReport& report) {
     for (int i = 0; i < samples; ++i) {
         tile.sample_px = sample_place(i, samples);
         FramePlan plan = plan_frame(scene.pages, scene.shape, camera, tile);
@@ -30,8 +30,9 @@ Result<void> draw_tile(const Scene& scene, const Camera& camera, const gpu::Fram
             report.pages_beyond_frustum += plan.pages_beyond_frustum;
             report.pages_beyond_horizon += plan.pages_beyond_horizon;
         }
-        ORO_TRY(FrameReport drawn, renderer.draw(scene.store, std::move(plan), style, static_cast<std::uint32_t>(i),
-                                                 static_cast<std::uint32_t>(samples)));
+        ORO_TRY(FrameReport drawn,
+                renderer.draw(scene.store, std::move(plan), style, static_cast<std::uint32_t>(i),
+                              static_cast<std::uint32_t>(samples)));
         if (i > 0) {
             drawn.counts = {};
             drawn.pages_drawn = 0;
@@ -42,11 +43,14 @@ Result<void> draw_tile(const Scene& scene, const Camera& camera, const gpu::Fram
     return {};
 }
 
-void copy_rgb(const std::vector<std::uint8_t>& rgba, const Tile& tile, int picture_width, std::vector<std::uint8_t>& band) {
+void copy_rgb(const std::vector<std::uint8_t>& rgba, const Tile& tile, int picture_width,
+              std::vector<std::uint8_t>& band) {
     for (int y = 0; y < tile.height_px; ++y) {
-        const std::uint8_t* from = rgba.data() + std::size_t{4} * static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width_px);
-        std::uint8_t* to = band.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_width) +
-                                              static_cast<std::size_t>(tile.x_px));
+        const std::uint8_t* from = rgba.data() + std::size_t{4} * static_cast<std::size_t>(y) *
+                                                     static_cast<std::size_t>(tile.width_px);
+        std::uint8_t* to =
+            band.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_width) +
+                               static_cast<std::size_t>(tile.x_px));
         for (int x = 0; x < tile.width_px; ++x, from += 4, to += 3) std::copy_n(from, 3, to);
     }
 }
@@ -63,7 +67,8 @@ glm::dvec2 sample_place(int index, int count) {
     return {at(1.0 / plastic), at(1.0 / (plastic * plastic))};
 }
 
-Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exaggeration, const RenderProgress& progress) {
+Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exaggeration,
+                           const RenderProgress& progress) {
     ORO_TRY(PageStore store, PageStore::create(gpu));
     Scene scene{region_shape(field, exaggeration), {}, std::move(store), 0};
     const PageLayout layout = page_layout(field.grid);
@@ -84,19 +89,22 @@ Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exag
     return scene;
 }
 
-Result<PictureReport> render_picture(const Gpu& gpu, const Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
-                                     const PictureOptions& options, const RowSink& sink, const RenderProgress& progress) {
+Result<PictureReport> render_picture(const Gpu& gpu, const Scene& scene, const Camera& camera,
+                                     const gpu::FrameStyle& style, const PictureOptions& options,
+                                     const RowSink& sink, const RenderProgress& progress) {
     assert(camera.width_px > 0 && camera.height_px > 0 && options.samples > 0);
     int side = static_cast<int>(std::min<std::uint32_t>(gpu.report().max_picture_side_px, preferred_tile_px));
     if (options.largest_tile_px > 0) side = std::min(side, options.largest_tile_px);
     const int tile_width = std::min(camera.width_px, side), tile_height = std::min(camera.height_px, side);
     FrameRendererOptions renderer_options;
-    renderer_options.extent = {static_cast<std::uint32_t>(tile_width), static_cast<std::uint32_t>(tile_height)};
+    renderer_options.extent = {static_cast<std::uint32_t>(tile_width),
+                               static_cast<std::uint32_t>(tile_height)};
     renderer_options.several_samples = options.samples > 1;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
 
     PictureReport report;
-    std::vector<std::uint8_t> band(std::size_t{3} * static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(tile_height));
+    std::vector<std::uint8_t> band(std::size_t{3} * static_cast<std::size_t>(camera.width_px) *
+                                   static_cast<std::size_t>(tile_height));
     for (int y = 0; y < camera.height_px; y += tile_height) {
         const int rows = std::min(tile_height, camera.height_px - y);
         for (int x = 0; x < camera.width_px; x += tile_width) {
@@ -107,12 +115,14 @@ Result<PictureReport> render_picture(const Gpu& gpu, const Scene& scene, const C
             tile.height_px = rows;
             ORO_CHECK(draw_tile(scene, camera, style, options.samples, tile, renderer, report));
             ORO_TRY(const std::vector<std::uint8_t> rgba,
-                    renderer.read_picture(static_cast<std::uint32_t>(tile.width_px), static_cast<std::uint32_t>(rows)));
+                    renderer.read_picture(static_cast<std::uint32_t>(tile.width_px),
+                                          static_cast<std::uint32_t>(rows)));
             copy_rgb(rgba, tile, camera.width_px, band);
         }
         const std::size_t row_bytes = std::size_t{3} * static_cast<std::size_t>(camera.width_px);
         for (int i = 0; i < rows; ++i) {
-            ORO_CHECK(sink(std::span<const std::uint8_t>(band).subspan(static_cast<std::size_t>(i) * row_bytes, row_bytes)));
+            ORO_CHECK(sink(std::span<const std::uint8_t>(band).subspan(
+                static_cast<std::size_t>(i) * row_bytes, row_bytes)));
         }
         if (progress) progress(static_cast<double>(y + rows) / camera.height_px);
     }

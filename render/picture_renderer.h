@@ -16,14 +16,15 @@ struct Scene {
     RegionShape shape;
     std::vector<PageSummary> pages;  // those with triangles, in the order of the store
     PageStore store;
-    std::uint64_t triangles{};       // at full resolution
+    std::uint64_t triangles{};  // at full resolution
 };
 
 // Told how far a long step is, 0..1.
 using RenderProgress = std::function<void(double share)>;
 
 // Builds all pages of a height field and sends them to the GPU. Errors: out of device memory.
-Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exaggeration, const RenderProgress& progress = {});
+Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exaggeration,
+                           const RenderProgress& progress = {});
 
 struct PictureOptions {
     int samples{1};          // per pixel, 1..64, each at a place of its own
@@ -41,9 +42,11 @@ struct PictureReport {
 // Takes the next row of the picture, width * 3 bytes of sRGB.
 using RowSink = std::function<Result<void>(std::span<const std::uint8_t> rgb)>;
 
-// Draws what the camera sees and hands it on from the top row down. Errors: those of the device and of the sink.
-Result<PictureReport> render_picture(const Gpu& gpu, const Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
-                                     const PictureOptions& options, const RowSink& sink, const RenderProgress& progress = {});
+// Draws what the camera sees and hands it on from the top row down. Errors: those of the device and of the
+// sink.
+Result<PictureReport> render_picture(const Gpu& gpu, const Scene& scene, const Camera& camera,
+                                     const gpu::FrameStyle& style, const PictureOptions& options,
+                                     const RowSink& sink, const RenderProgress& progress = {});
 
 // Where sample i of n goes through its pixel: the centre for n = 1, else a low-discrepancy pattern.
 // Source: M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018 (R2 sequence).

@@ -46,7 +46,8 @@ Result<void> create_layouts(const Gpu& gpu, Pipelines& pipelines) {
     gpu.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_handle, "shading images");
 
     VkPushConstantRange push{};
-    push.stageFlags = VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT;
+    push.stageFlags =
+        VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT;
     push.size = sizeof(PushBlock);
     VkPipelineLayoutCreateInfo layout{};
     layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -81,13 +82,15 @@ constexpr std::array<VkSpecializationMapEntry, 2> stage_constants_map{
     VkSpecializationMapEntry{0, offsetof(StageConstants, local_size), sizeof(std::uint32_t)},
     VkSpecializationMapEntry{1, offsetof(StageConstants, record_positions), sizeof(VkBool32)}};
 
-Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& pipelines, StageConstants task_constants,
-                                              StageConstants mesh_constants) {
+Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& pipelines,
+                                              StageConstants task_constants, StageConstants mesh_constants) {
     ORO_TRY(const OwnedShader task, create_shader(gpu, terrain_task_spirv, "terrain.task"));
     ORO_TRY(const OwnedShader mesh, create_shader(gpu, terrain_mesh_spirv, "terrain.mesh"));
     ORO_TRY(const OwnedShader fragment, create_shader(gpu, terrain_frag_spirv, "terrain.frag"));
-    const VkSpecializationInfo task_info{1, stage_constants_map.data(), sizeof(task_constants), &task_constants};
-    const VkSpecializationInfo mesh_info{2, stage_constants_map.data(), sizeof(mesh_constants), &mesh_constants};
+    const VkSpecializationInfo task_info{1, stage_constants_map.data(), sizeof(task_constants),
+                                         &task_constants};
+    const VkSpecializationInfo mesh_info{2, stage_constants_map.data(), sizeof(mesh_constants),
+                                         &mesh_constants};
     const std::array stages{stage(VK_SHADER_STAGE_TASK_BIT_EXT, task, &task_info),
                             stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, &mesh_info),
                             stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
@@ -160,13 +163,14 @@ Result<Pipelines> create_pipelines(const Gpu& gpu, bool record_positions) {
     Pipelines pipelines;
     ORO_CHECK(create_layouts(gpu, pipelines));
     // A power of two that divides the meshlets of a page.
-    pipelines.meshlets_per_task =
-        std::bit_floor(std::clamp(std::min(limits.preferred_task_invocations, limits.max_task_invocations), 1U, meshlets_per_task_max));
+    pipelines.meshlets_per_task = std::bit_floor(std::clamp(
+        std::min(limits.preferred_task_invocations, limits.max_task_invocations), 1U, meshlets_per_task_max));
     const std::uint32_t mesh_size =
         std::clamp(std::min(limits.preferred_mesh_invocations, limits.max_mesh_invocations), 1U, 128U);
     const VkBool32 recording = record_positions ? VK_TRUE : VK_FALSE;
-    ORO_TRY(pipelines.terrain, create_terrain_pipeline(gpu, pipelines, {pipelines.meshlets_per_task, recording},
-                                                       {mesh_size, recording}));
+    ORO_TRY(pipelines.terrain,
+            create_terrain_pipeline(gpu, pipelines, {pipelines.meshlets_per_task, recording},
+                                    {mesh_size, recording}));
     ORO_TRY(pipelines.shade, create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade"));
     return pipelines;
 }

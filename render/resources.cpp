@@ -5,10 +5,13 @@ namespace {
 
 Result<OwnedMemory> allocate(const Gpu& gpu, const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted,
                              bool addressed, const std::string& name) {
-    // Cached host memory reads faster; coherent is enough when there is none. Device-local is a wish, not a need.
+    // Cached host memory reads faster; coherent is enough when there is none. Device-local is a wish, not a
+    // need.
     std::optional<std::uint32_t> type = gpu.memory_type(needs.memoryTypeBits, wanted);
-    if (!type) type = gpu.memory_type(needs.memoryTypeBits, wanted & ~static_cast<VkMemoryPropertyFlags>(
-                                          VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT));
+    if (!type)
+        type = gpu.memory_type(needs.memoryTypeBits, wanted & ~static_cast<VkMemoryPropertyFlags>(
+                                                                  VK_MEMORY_PROPERTY_HOST_CACHED_BIT |
+                                                                  VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT));
     if (!type) return Error{ErrorKind::failed, gpu.report().name, "has no memory type for " + name};
     VkMemoryAllocateFlagsInfo flags{};
     flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
@@ -22,13 +25,15 @@ Result<OwnedMemory> allocate(const Gpu& gpu, const VkMemoryRequirements& needs, 
     const VkResult made = vkAllocateMemory(gpu.device(), &info, nullptr, &memory);
     if (made != VK_SUCCESS)
         return Error{ErrorKind::failed, gpu.report().name,
-                     "gave " + vulkan_result_name(made) + " for " + std::to_string(needs.size >> 20U) + " MiB of " + name};
+                     "gave " + vulkan_result_name(made) + " for " + std::to_string(needs.size >> 20U) +
+                         " MiB of " + name};
     gpu.name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
     return OwnedMemory(gpu.device(), memory);
 }
 
 VkMemoryPropertyFlags properties_of(BufferPlace place) {
-    constexpr VkMemoryPropertyFlags host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags host =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     switch (place) {
         case BufferPlace::upload:
             return host;
@@ -175,7 +180,8 @@ void memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 from, VkAcce
     vkCmdPipelineBarrier2(commands, &info);
 }
 
-void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, ImageUse from, ImageUse to) {
+void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, ImageUse from,
+                   ImageUse to) {
     VkImageMemoryBarrier2 barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
     barrier.srcStageMask = from.stage;

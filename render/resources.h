@@ -59,6 +59,7 @@ struct ImageUse {
     VkPipelineStageFlags2 stage;
     VkAccessFlags2 access;
 };
-void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, ImageUse from, ImageUse to);
+void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, ImageUse from,
+                   ImageUse to);
 
 }  // namespace oro

@@ -35,7 +35,8 @@ std::string vulkan_result_name(VkResult result) {
 Result<void> vulkan_checked(VkResult result, const char* call) {
     if (result == VK_SUCCESS) return {};
     const std::string text(call);
-    return Error{ErrorKind::failed, "Vulkan", text.substr(0, text.find('(')) + " gave " + vulkan_result_name(result)};
+    return Error{ErrorKind::failed, "Vulkan",
+                 text.substr(0, text.find('(')) + " gave " + vulkan_result_name(result)};
 }
 
 }  // namespace oro

@@ -1,0 +1,16 @@
+// The program's commands. Each returns an Error or has done what it says; main turns that into an exit code.
+#pragma once
+
+#include "apps/options.h"
+#include "core/result.h"
+
+namespace oro {
+
+// Writes a geotagged picture and, beside it, its view.
+Result<void> run_shot(const ShotOptions& options);
+// Tells what the sources of a region are and what is missing.
+Result<void> run_info(const InfoOptions& options);
+// Tells what the machine has and what each lack means.
+Result<void> run_doctor(const DoctorOptions& options);
+
+}  // namespace oro

@@ -1,0 +1,110 @@
+// orograph doctor: what this machine has, and what each lack means.
+#include <cstdio>
+
+#include "apps/commands.h"
+#include "apps/data_folder.h"
+#include "apps/json_text.h"
+#include "geo/library_report.h"
+#include "render/gpu.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+    return all;
+}
+
+ordered_json device_json(const DeviceReport& d) {
+    return {{"name", d.name},
+            {"type", d.type},
+            {"driver", d.driver},
+            {"api", d.api},
+            {"can_draw", d.lacks.empty()},
+            {"lacks", d.lacks},
+            {"mesh_shader",
+             {{"present", d.mesh_shader},
+              {"preferred_task_invocations", d.mesh.preferred_task_invocations},
+              {"preferred_mesh_invocations", d.mesh.preferred_mesh_invocations},
+              {"max_task_invocations", d.mesh.max_task_invocations},
+              {"max_mesh_invocations", d.mesh.max_mesh_invocations},
+              {"max_output_vertices", d.mesh.max_output_vertices},
+              {"max_output_primitives", d.mesh.max_output_primitives},
+              {"max_task_groups_total", d.mesh.max_task_groups_total}}},
+            {"subgroup_size", d.subgroup_size},
+            {"max_picture_side_px", d.max_picture_side_px},
+            {"memory_bytes", d.memory_bytes}};
+}
+
+ordered_json doctor_json(const std::vector<DeviceReport>& devices, const std::string& no_device,
+                         const LibraryReport& libraries) {
+    ordered_json json;
+    json["version"] = OROGRAPH_VERSION;
+    json["devices"] = ordered_json::array();
+    for (const DeviceReport& device : devices) json["devices"].push_back(device_json(device));
+    json["device_problem"] = no_device.empty() ? ordered_json() : ordered_json(no_device);
+    json["libraries"] = {
+        {"gdal", libraries.gdal}, {"proj", libraries.proj}, {"geographiclib", libraries.geographiclib}};
+    json["geoids"] = ordered_json::array();
+    for (const GeoidGridReport& g : libraries.geoids)
+        json["geoids"].push_back(
+            {{"name", g.name}, {"file", g.file}, {"found", g.found}, {"meaning", g.meaning}});
+    json["data_folder"] = {{"path", data_folder().string()},
+                           {"found", std::filesystem::is_directory(data_folder())}};
+    return json;
+}
+
+void print_device(std::size_t number, const DeviceReport& d) {
+    std::printf("GPU %zu        %s (%s), %s, Vulkan %s\n", number, d.name.c_str(), d.type.c_str(),
+                d.driver.c_str(), d.api.c_str());
+    if (!d.lacks.empty()) {
+        std::printf(
+            "             cannot draw: lacks %s; a current driver for it, or the software driver "
+            "(scripts/set-up), is needed\n",
+            joined(d.lacks).c_str());
+        return;
+    }
+    std::printf(
+        "             mesh shaders: task groups of %u (at most %u), mesh groups of %u (at most %u), %u "
+        "vertices, %u triangles\n",
+        d.mesh.preferred_task_invocations, d.mesh.max_task_invocations, d.mesh.preferred_mesh_invocations,
+        d.mesh.max_mesh_invocations, d.mesh.max_output_vertices, d.mesh.max_output_primitives);
+    std::printf("             subgroups of %u, pictures up to %u px a tile, %llu MiB\n", d.subgroup_size,
+                d.max_picture_side_px, static_cast<unsigned long long>(d.memory_bytes >> 20U));
+    if (d.type == "software") std::printf("             draws on the processor: right, but slow\n");
+}
+
+void print_doctor(const std::vector<DeviceReport>& devices, const std::string& no_device,
+                  const LibraryReport& libraries) {
+    std::printf("orograph     %s\n", OROGRAPH_VERSION);
+    for (std::size_t i = 0; i < devices.size(); ++i) print_device(i, devices[i]);
+    if (!no_device.empty()) std::printf("GPU          none: %s\n", no_device.c_str());
+    std::printf("GDAL         %s\nPROJ         %s\nGeographicLib %s\n", libraries.gdal.c_str(),
+                libraries.proj.c_str(), libraries.geographiclib.c_str());
+    for (const GeoidGridReport& g : libraries.geoids)
+        std::printf("geoid        %s: %s %s; %s\n", g.name.c_str(), g.file.c_str(),
+                    g.found ? "found" : "not found", g.meaning.c_str());
+    const bool has_data = std::filesystem::is_directory(data_folder());
+    std::printf("data         %s%s\n", data_folder().c_str(),
+                has_data ? "" : " (not there: styles must be given by path)");
+}
+
+}  // namespace
+
+Result<void> run_doctor(const DoctorOptions& options) {
+    const auto devices = Gpu::survey(gpu_options_from_environment());
+    const std::string no_device = devices.ok() ? "" : devices.error().line();
+    const std::vector<DeviceReport> found = devices.ok() ? *devices : std::vector<DeviceReport>{};
+    const LibraryReport libraries = report_libraries();
+    if (options.json) {
+        std::printf("%s\n", json_text(doctor_json(found, no_device, libraries), true).c_str());
+    } else {
+        print_doctor(found, no_device, libraries);
+    }
+    return {};
+}
+
+}  // namespace oro

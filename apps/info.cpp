@@ -1,0 +1,73 @@
+// orograph info: what the sources of a region are, and what is missing.
+#include <cstdio>
+
+#include "apps/commands.h"
+#include "apps/json_text.h"
+#include "apps/progress_bar.h"
+#include "apps/region_json.h"
+#include "apps/view.h"
+
+namespace oro {
+namespace {
+
+void print_source(const SourceReport& s) {
+    std::printf("%s\n", s.path.c_str());
+    std::printf("  format      %s, posts are %s\n", s.format.c_str(), s.posts_are.c_str());
+    std::printf("  CRS         %s\n", s.crs.c_str());
+    std::printf("  heights     %s, in %s\n", s.vertical_datum.c_str(), s.height_unit.c_str());
+    std::printf("  posts       %d x %d, every %.6g x %.6g degrees (%.4g m)\n", s.columns, s.rows,
+                s.lon_spacing_deg, s.lat_spacing_deg, s.spacing_m);
+    std::printf("  box         west %.6f south %.6f east %.6f north %.6f\n", s.box.west_deg, s.box.south_deg,
+                s.box.east_deg, s.box.north_deg);
+    std::printf("  H           %.6g .. %.6g m, %llu voids", s.lowest_m, s.highest_m,
+                static_cast<unsigned long long>(s.voids));
+    if (s.implausible > 0)
+        std::printf(" (%llu of them implausible heights)", static_cast<unsigned long long>(s.implausible));
+    std::printf("\n  placement   %s\n", s.placement.c_str());
+    std::printf("  attribution %s\n", s.attribution.empty() ? "not stated" : s.attribution.c_str());
+}
+
+void print_region(const Region& region) {
+    const PostGrid& grid = region.field.grid;
+    const HeightRange range = height_range(region.field);
+    std::printf("region: %zu sources\n", region.sources.size());
+    std::printf("  box         west %.6f south %.6f east %.6f north %.6f\n", grid.west_deg(),
+                grid.south_deg(), grid.east_deg(), grid.north_deg());
+    std::printf("  posts       %d x %d, every %.6g x %.6g degrees\n", grid.columns(), grid.rows(),
+                grid.lon.spacing_deg(), grid.lat.spacing_deg());
+    std::printf("  H           %.6g .. %.6g m above the geoid %s\n", static_cast<double>(range.lowest_m),
+                static_cast<double>(range.highest_m), region.geoid.c_str());
+    std::printf("  voids       %llu, %llu filled (%s)\n", static_cast<unsigned long long>(region.voids),
+                static_cast<unsigned long long>(region.filled), region.void_method.c_str());
+    std::printf(
+        "  seams       %llu shared posts, %llu disagree by up to %.4g m; the finer spacing wins, among "
+        "equals the first by file name\n",
+        static_cast<unsigned long long>(region.seams.shared_posts),
+        static_cast<unsigned long long>(region.seams.disagreeing_posts), region.seams.largest_difference_m);
+    std::string missing;
+    for (const std::string& cell : region.missing_cells) missing += " " + cell;
+    std::printf("  missing    %s\n", missing.empty() ? " no cell" : missing.c_str());
+    for (const std::string& note : region.notes) std::printf("  note        %s\n", note.c_str());
+}
+
+}  // namespace
+
+Result<void> run_info(const InfoOptions& options) {
+    ORO_TRY(const RegionRequest request, region_request(options.region));
+    ProgressBar bar(options.quiet);
+    ORO_TRY(const Region region, open_region(request, [&](double share, const std::string& what) {
+                bar.show(share, "reading " + what);
+            }));
+    bar.clear();
+    if (options.json) {
+        nlohmann::ordered_json json = {{"sources", sources_json(region.sources)},
+                                       {"region", region_json(region)}};
+        std::printf("%s\n", json_text(json, true).c_str());
+        return {};
+    }
+    for (const SourceReport& source : region.sources) print_source(source);
+    print_region(region);
+    return {};
+}
+
+}  // namespace oro

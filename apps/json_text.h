@@ -1,0 +1,18 @@
+// JSON as the program prints it.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace oro {
+
+// Text of a JSON value; bytes that are no UTF-8 (in file names) are replaced, not refused.
+inline std::string json_text(const nlohmann::ordered_json& json, bool pretty) {
+    return json.dump(pretty ? 2 : -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+// "2026-11-21T09:00:00Z"
+std::string time_text(std::int64_t time_utc_s);
+
+}  // namespace oro

@@ -1,0 +1,70 @@
+// The program's door: reads the command line, runs one command, turns an error into one line and an exit
+// code.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "apps/commands.h"
+
+namespace {
+
+constexpr const char* about =
+    "Orograph draws real terrain at its place on the ellipsoid and writes pictures that know where they were "
+    "taken from.";
+constexpr const char* exit_codes =
+    "Exit: 0 done, 1 failed, 2 usage, 3 no data in the region, 4 no suitable GPU.";
+
+void add_shot(CLI::App& app, oro::ShotOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("shot", "Write a geotagged picture (.png, .jpg, .tif) and its view (.json)");
+    oro::add_region_options(command, options.region);
+    oro::add_view_options(command, options.view);
+    command.add_option("--view", options.view_file,
+                       "Take sources and eye from a view: the .json beside a picture, or the picture");
+    command.add_option("--out", options.out, "The picture to write");
+    command.add_flag("--overwrite", options.overwrite, "Replace files that are there");
+    command.add_flag("--json", options.json, "Print one JSON object about the picture on standard output");
+    command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
+}
+
+void add_info(CLI::App& app, oro::InfoOptions& options) {
+    CLI::App& command = *app.add_subcommand("info", "Tell what elevation data are and what is missing");
+    oro::add_region_options(command, options.region);
+    command.add_flag("--json", options.json, "Print one JSON object on standard output");
+    command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
+}
+
+void add_doctor(CLI::App& app, oro::DoctorOptions& options) {
+    CLI::App& command = *app.add_subcommand("doctor", "Tell what this machine has and what each lack means");
+    command.add_flag("--json", options.json, "Print one JSON object on standard output");
+}
+
+int exit_code(const oro::Result<void>& result) {
+    if (result.ok()) return 0;
+    std::fprintf(stderr, "orograph: %s\n", result.error().line().c_str());
+    return static_cast<int>(result.error().kind);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{about, "orograph"};
+    app.footer(exit_codes);
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "orograph " OROGRAPH_VERSION);
+    oro::ShotOptions shot;
+    oro::InfoOptions info;
+    oro::DoctorOptions doctor;
+    add_shot(app, shot);
+    add_info(app, info);
+    add_doctor(app, doctor);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0) return app.exit(e);
+        std::fprintf(stderr, "orograph: %s (orograph --help tells more)\n", e.what());
+        return static_cast<int>(oro::ErrorKind::usage);
+    }
+    if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
+    if (app.got_subcommand("info")) return exit_code(oro::run_info(info));
+    return exit_code(oro::run_doctor(doctor));
+}

@@ -1,0 +1,49 @@
+#include "apps/options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace oro {
+
+void add_region_options(CLI::App& command, RegionOptions& options) {
+    command.add_option("PATH", options.paths,
+                       "Elevation data: files, folders, .zip, .gz; what GDAL opens and .hgt");
+    CLI::Option* bbox = command.add_option(
+        "--bbox", options.bbox, "Region as west,south,east,north in degrees; west > east crosses 180");
+    command
+        .add_option("--tile", options.tile, "Region as a cell N46E008 or a range of cells N46E006:N47E010")
+        ->excludes(bbox);
+    command.add_option("--height-unit", options.height_unit, "Unit of the heights, over what the files say")
+        ->check(CLI::IsMember({"m", "ft", "us-ft", "cm"}));
+    command.add_flag("--strict-datum", options.strict_datum,
+                     "Refuse when a vertical datum cannot be honoured");
+    command.add_flag("--fill-voids", options.fill_voids,
+                     "Fill void posts from their neighbours instead of leaving holes");
+}
+
+void add_view_options(CLI::App& command, ViewOptions& options) {
+    command.add_option(
+        "--at", options.at,
+        "The eye's place: 46.57,7.99 (lat,lon), DMS, UTM, MGRS, geohash, geo:46.57,7.99 or a cell N46E008");
+    CLI::Option* above = command.add_option("--above", options.above_m,
+                                            "The eye's height over the ground, metres (default 2)");
+    command.add_option("--altitude", options.altitude_m, "The eye's height above sea level (H), metres")
+        ->excludes(above);
+    command.add_option("--heading", options.heading_deg, "Degrees clockwise from true north");
+    command.add_option("--pitch", options.pitch_deg, "Degrees: 0 level, negative down");
+    command.add_option("--roll", options.roll_deg, "Degrees: positive tilts the right side down");
+    command.add_option("--fov", options.vertical_fov_deg, "Vertical field of view, degrees (default 45)");
+    command.add_option("--look-at", options.look_at,
+                       "Look at this place on the ground instead of along a heading and pitch");
+    command.add_option("--size", options.size, "Picture size, WIDTHxHEIGHT pixels (default 1280x720)");
+    command.add_option("--sun", options.sun,
+                       "Light from azimuth,elevation in degrees (default: the style's)");
+    command.add_option("--exaggeration", options.exaggeration, "Heights times this (default 1)");
+    command.add_option("--samples", options.samples,
+                       "Samples per pixel, 1 to 64, for smooth edges (default 1)");
+    command.add_option("--style", options.style,
+                       "Style: a name in data/styles or a .json file (default: default)");
+    command.add_option("--time", options.time,
+                       "The picture's time, e.g. 2026-11-21T09:00:00Z (default: now)");
+}
+
+}  // namespace oro

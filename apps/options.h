@@ -1,0 +1,72 @@
+// What the command line says, as it says it: nothing is looked up or opened yet.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace oro {
+
+// Which terrain.
+struct RegionOptions {
+    std::vector<std::string> paths;
+    std::string bbox;
+    std::string tile;
+    std::string height_unit;
+    bool strict_datum{false};
+    bool fill_voids{false};
+};
+
+// From where, and how it looks.
+struct ViewOptions {
+    std::optional<std::string> at;
+    std::optional<double> above_m;
+    std::optional<double> altitude_m;
+    std::optional<double> heading_deg;
+    std::optional<double> pitch_deg;
+    std::optional<double> roll_deg;
+    std::optional<double> vertical_fov_deg;
+    std::optional<std::string> look_at;
+    std::optional<std::string> size;
+    std::optional<std::string> sun;
+    std::optional<double> exaggeration;
+    std::optional<int> samples;
+    std::optional<std::string> style;
+    std::optional<std::string> time;
+};
+
+struct ShotOptions {
+    RegionOptions region;
+    ViewOptions view;
+    std::string view_file;
+    std::string out;
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct WindowOptions {
+    RegionOptions region;
+    ViewOptions view;
+    std::string view_file;
+    bool quiet{false};
+};
+
+struct InfoOptions {
+    RegionOptions region;
+    bool json{false};
+    bool quiet{false};
+};
+
+struct DoctorOptions {
+    bool json{false};
+};
+
+void add_region_options(CLI::App& command, RegionOptions& options);
+void add_view_options(CLI::App& command, ViewOptions& options);
+
+}  // namespace oro

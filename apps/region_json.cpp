@@ -1,0 +1,69 @@
+#include "apps/region_json.h"
+
+#include <set>
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json box_json(const BoundingBox& box) {
+    return {box.west_deg, box.south_deg, box.east_deg, box.north_deg};
+}
+
+}  // namespace
+
+ordered_json sources_json(const std::vector<SourceReport>& sources) {
+    ordered_json all = ordered_json::array();
+    for (const SourceReport& s : sources) {
+        all.push_back(
+            {{"path", s.path},
+             {"format", s.format},
+             {"crs", s.crs},
+             {"vertical_datum", s.vertical_datum},
+             {"height_unit", s.height_unit},
+             {"posts_are", s.posts_are},
+             {"posts", {{"rows", s.rows}, {"columns", s.columns}}},
+             {"spacing",
+              {{"lat_deg", s.lat_spacing_deg}, {"lon_deg", s.lon_spacing_deg}, {"metres", s.spacing_m}}},
+             {"bbox", box_json(s.box)},
+             {"H_m", {{"lowest", s.lowest_m}, {"highest", s.highest_m}}},
+             {"voids", s.voids},
+             {"implausible", s.implausible},
+             {"placement", s.placement},
+             {"attribution", s.attribution}});
+    }
+    return all;
+}
+
+ordered_json region_json(const Region& region) {
+    const PostGrid& grid = region.field.grid;
+    const HeightRange range = height_range(region.field);
+    return {{"bbox", {grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()}},
+            {"posts", {{"rows", grid.rows()}, {"columns", grid.columns()}}},
+            {"spacing_deg", {{"lat", grid.lat.spacing_deg()}, {"lon", grid.lon.spacing_deg()}}},
+            {"H_m", {{"lowest", range.lowest_m}, {"highest", range.highest_m}}},
+            {"geoid", region.geoid},
+            {"voids", region.voids},
+            {"filled", region.filled},
+            {"void_method", region.void_method},
+            {"seams",
+             {{"shared_posts", region.seams.shared_posts},
+              {"disagreeing_posts", region.seams.disagreeing_posts},
+              {"largest_difference_m", region.seams.largest_difference_m},
+              {"rule", "the finer spacing wins; among equals the first in the byte order of file names"}}},
+            {"missing_cells", region.missing_cells},
+            {"notes", region.notes}};
+}
+
+std::string attribution_of(const Region& region) {
+    std::set<std::string> seen;
+    std::string all;
+    for (const SourceReport& source : region.sources) {
+        if (source.attribution.empty() || !seen.insert(source.attribution).second) continue;
+        all += (all.empty() ? "" : "; ") + source.attribution;
+    }
+    return all;
+}
+
+}  // namespace oro

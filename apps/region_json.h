@@ -1,0 +1,16 @@
+// What a region is made of, as JSON and as lines for people.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "geo/region.h"
+
+namespace oro {
+
+nlohmann::ordered_json sources_json(const std::vector<SourceReport>& sources);
+nlohmann::ordered_json region_json(const Region& region);
+
+// All attributions of a region, each once, joined by "; ".
+std::string attribution_of(const Region& region);
+
+}  // namespace oro

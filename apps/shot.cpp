@@ -1,0 +1,309 @@
+// orograph shot: from files to a picture that knows where it was taken from.
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "apps/commands.h"
+#include "apps/json_text.h"
+#include "apps/progress_bar.h"
+#include "apps/region_json.h"
+#include "apps/style.h"
+#include "apps/view.h"
+#include "core/ground.h"
+#include "geo/geodesic.h"
+#include "geo/picture.h"
+#include "geo/whole_file.h"
+#include "render/picture_renderer.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// How long each step of a shot took.
+struct ShotTimes {
+    double read_s{};
+    double pages_s{};
+    double draw_s{};  // drawing, reading back and writing, which overlap row by row
+};
+
+struct ShotResult {
+    View view;
+    Region region;
+    std::optional<DestinationTag> destination;
+    PictureReport picture;
+    std::size_t pages{};
+    std::uint64_t triangles_at_full_resolution{};
+    ShotTimes times;
+};
+
+namespace fs = std::filesystem;
+
+// The file that a shot goes to, and the view beside it.
+struct ShotFiles {
+    std::string picture;
+    std::string view;
+};
+
+ShotFiles beside(const std::string& picture) {
+    return {picture, fs::path(picture).replace_extension(".json").string()};
+}
+
+// Without --out a view goes back to the picture that it came from.
+Result<ShotFiles> shot_files(const ShotOptions& options) {
+    if (options.out.empty() && options.view_file.empty())
+        return Error{ErrorKind::usage, "--out", "is missing: name the picture to write (.png, .jpg or .tif)"};
+    std::string out = options.out.empty() ? options.view_file : options.out;
+    if (options.out.empty() && fs::path(out).extension() == ".json") {
+        std::error_code ignored;
+        for (const char* ending : {".png", ".jpg", ".jpeg", ".tif", ".tiff"}) {
+            out = fs::path(options.view_file).replace_extension(ending).string();
+            if (fs::exists(out, ignored)) break;
+            out = fs::path(options.view_file).replace_extension(".png").string();
+        }
+    }
+    ORO_CHECK(picture_format(out));
+    return beside(out);
+}
+
+// A picture drawn again from its own view: made in a scratch folder and compared, so that nothing is
+// replaced.
+bool is_check(const ShotOptions& options, const ShotFiles& files) {
+    std::error_code ignored;
+    return options.out.empty() && !options.overwrite && fs::exists(files.picture, ignored);
+}
+
+std::optional<DestinationTag> destination_of(const View& view, const Region& region) {
+    const Camera& camera = view.camera;
+    const glm::dvec3 ray = camera.ecef_direction_at({0.5 * camera.width_px, 0.5 * camera.height_px});
+    constexpr double reach_m =
+        1.5e6;  // farther than any sight line over the Earth, and than most orbits are high
+    const auto hit = first_ground_hit(region.field, camera.eye_ecef(), ray,
+                                      std::max(reach_m, 2.0 * camera.eye.h_m), view.exaggeration);
+    if (!hit) return std::nullopt;
+    const GeodesicPath path =
+        geodesic_between(camera.eye.lat_deg, camera.eye.lon_deg, hit->point.lat_deg, hit->point.lon_deg);
+    return DestinationTag{hit->point.lat_deg, hit->point.lon_deg, path.bearing_deg, path.distance_m};
+}
+
+Geotags geotags_of(const ShotResult& shot) {
+    const Camera& camera = shot.view.camera;
+    Geotags tags;
+    tags.lat_deg = camera.eye.lat_deg;
+    tags.lon_deg = camera.eye.lon_deg;
+    tags.h_m = camera.eye.h_m;
+    tags.N_m = shot.region.field.undulation.at_m(tags.lat_deg, tags.lon_deg);
+    tags.H_m = tags.h_m - tags.N_m;
+    tags.geoid = shot.region.geoid;
+    tags.heading_deg = camera.attitude.heading_deg;
+    tags.pitch_deg = camera.attitude.pitch_deg;
+    tags.roll_deg = camera.attitude.roll_deg;
+    tags.vertical_fov_deg = camera.vertical_fov_deg;
+    tags.width_px = camera.width_px;
+    tags.height_px = camera.height_px;
+    tags.time_utc_s = shot.view.time_utc_s;
+    tags.destination = shot.destination;
+    tags.attribution = attribution_of(shot.region);
+    tags.software = "Orograph " OROGRAPH_VERSION;
+    tags.view_json = view_to_json(shot.view, false);
+    return tags;
+}
+
+ordered_json shot_json(const ShotResult& shot, const ShotFiles& files, const Gpu& gpu,
+                       const gpu::FrameStyle& style) {
+    const Geotags tags = geotags_of(shot);
+    const glm::dvec3 ecef = shot.view.camera.eye_ecef().m;
+    const gpu::FrameCounts& counts = shot.picture.frame.counts;
+    const SunDirection sun = sun_of(style);
+    ordered_json json;
+    json["picture"] = files.picture;
+    json["view"] = files.view;
+    json["eye"] = {{"lat_deg", tags.lat_deg},
+                   {"lon_deg", tags.lon_deg},
+                   {"h_m", tags.h_m},
+                   {"H_m", tags.H_m},
+                   {"N_m", tags.N_m},
+                   {"geoid", tags.geoid},
+                   {"ecef_m", {ecef.x, ecef.y, ecef.z}}};
+    json["heading_deg"] = tags.heading_deg;
+    json["pitch_deg"] = tags.pitch_deg;
+    json["roll_deg"] = tags.roll_deg;
+    json["fov_deg"] = tags.vertical_fov_deg;
+    json["size_px"] = {tags.width_px, tags.height_px};
+    json["samples"] = shot.view.samples;
+    json["exaggeration"] = shot.view.exaggeration;
+    json["sun"] = {{"azimuth_deg", sun.azimuth_deg}, {"elevation_deg", sun.elevation_deg}};
+    json["time"] = time_text(shot.view.time_utc_s);
+    json["destination"] = nullptr;
+    if (const auto& d = shot.destination)
+        json["destination"] = {{"lat_deg", d->lat_deg},
+                               {"lon_deg", d->lon_deg},
+                               {"bearing_deg", d->bearing_deg},
+                               {"distance_m", d->distance_m}};
+    json["attribution"] = tags.attribution;
+    json["sources"] = sources_json(shot.region.sources);
+    json["region"] = region_json(shot.region);
+    json["triangles"] = {{"drawn", counts.triangles_drawn},
+                         {"at_full_resolution", shot.triangles_at_full_resolution}};
+    json["meshlets"] = {{"drawn", counts.meshlets_drawn},
+                        {"culled_by_frustum", counts.meshlets_beyond_frustum},
+                        {"culled_by_horizon", counts.meshlets_beyond_horizon},
+                        {"void", counts.meshlets_void}};
+    json["pages"] = {{"all", shot.pages},
+                     {"drawn", shot.picture.frame.pages_drawn},
+                     {"culled_by_frustum", shot.picture.pages_beyond_frustum},
+                     {"culled_by_horizon", shot.picture.pages_beyond_horizon}};
+    json["tiles"] = shot.picture.tiles;
+    json["times_s"] = {{"read", shot.times.read_s},
+                       {"pages", shot.times.pages_s},
+                       {"draw_and_write", shot.times.draw_s},
+                       {"gpu_raster", shot.picture.frame.raster_s},
+                       {"gpu_shade", shot.picture.frame.shade_s}};
+    json["device"] = {{"name", gpu.report().name},
+                      {"type", gpu.report().type},
+                      {"driver", gpu.report().driver},
+                      {"api", gpu.report().api}};
+    json["pipeline"] = "mesh";
+    return json;
+}
+
+// The view that the options ask for, and the region it looks at.
+Result<void> open_view(const ShotOptions& options, ProgressBar& bar, ShotResult& shot) {
+    const auto start = Clock::now();
+    const auto progress = [&](double share, const std::string& what) { bar.show(share, "reading " + what); };
+    const auto open = [&]() -> Result<void> {
+        ORO_TRY(shot.region, open_region(shot.view.region, progress));
+        return {};
+    };
+    if (!options.view_file.empty()) {
+        ORO_TRY(shot.view, read_view(options.view_file));
+        ORO_CHECK(change_view(shot.view, options.view));
+        if (!options.region.paths.empty()) shot.view.region.paths = options.region.paths;
+        ORO_CHECK(open());
+    } else {
+        ORO_TRY(RegionRequest request, region_request(options.region));
+        ORO_TRY(shot.view, view_without_eye(options.view, std::move(request)));
+        ORO_CHECK(open());
+        ORO_CHECK(place_eye(shot.view, options.view, shot.region));
+    }
+    shot.times.read_s = seconds_since(start);
+    return {};
+}
+
+void say_notes(const ShotOptions& options, const ShotResult& shot) {
+    for (const std::string& note : shot.region.notes) say(options.quiet, "note: " + note);
+    if (shot.region.voids > shot.region.filled)
+        say(options.quiet, "note: " + std::to_string(shot.region.voids - shot.region.filled) +
+                               " void posts are holes (--fill-voids fills them)");
+    const Geodetic& eye = shot.view.camera.eye;
+    const auto ground = ground_h_m(shot.region.field, eye.lat_deg, eye.lon_deg, shot.view.exaggeration);
+    if (ground && eye.h_m < *ground) {
+        char text[80];
+        std::snprintf(text, sizeof text, "note: the eye is %.1f m below the ground", *ground - eye.h_m);
+        say(options.quiet, text);
+    }
+}
+
+// Draws into the picture's file, and puts the view beside it when both are whole.
+Result<void> draw_into_file(const ShotOptions& options, const ShotFiles& files, const Gpu& gpu,
+                            const Scene& scene, const gpu::FrameStyle& style, ProgressBar& bar,
+                            ShotResult& shot) {
+    const auto start = Clock::now();
+    ORO_TRY(const std::unique_ptr<PictureWriter> writer,
+            create_picture(files.picture, geotags_of(shot), options.overwrite));
+    PictureOptions picture;
+    picture.samples = shot.view.samples;
+    ORO_TRY(shot.picture, render_picture(
+                              gpu, scene, shot.view.camera, style, picture,
+                              [&](std::span<const std::uint8_t> rgb) { return writer->write_row(rgb); },
+                              [&](double share) { bar.show(share, "drawing"); }));
+    if (!gpu.validation_messages().empty())
+        return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
+    ORO_CHECK(write_whole_file(files.view, view_to_json(shot.view, true) + "\n", options.overwrite));
+    ORO_CHECK(writer->finish());
+    shot.times.draw_s = seconds_since(start);
+    return {};
+}
+
+}  // namespace
+
+namespace {
+
+Result<void> take_shot(const ShotOptions& options, const ShotFiles& files) {
+    for (const std::string& file : {files.picture, files.view}) {
+        if (!options.overwrite && access(file.c_str(), F_OK) == 0)
+            return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
+    }
+    ProgressBar bar(options.quiet);
+    ShotResult shot;
+    ORO_CHECK(open_view(options, bar, shot));
+    ORO_TRY(const gpu::FrameStyle style, load_style(shot.view.style, shot.view.sun));
+    bar.clear();
+    say_notes(options, shot);
+    shot.destination = destination_of(shot.view, shot.region);
+
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    const auto start = Clock::now();
+    ORO_TRY(const Scene scene, create_scene(*gpu, shot.region.field, shot.view.exaggeration,
+                                            [&](double share) { bar.show(share, "placing posts"); }));
+    if (scene.pages.empty()) return Error{ErrorKind::no_data, "region", "every post is void"};
+    shot.pages = scene.pages.size();
+    shot.triangles_at_full_resolution = scene.triangles;
+    shot.times.pages_s = seconds_since(start);
+    ORO_CHECK(draw_into_file(options, files, *gpu, scene, style, bar, shot));
+    bar.clear();
+    say(options.quiet, "wrote " + files.picture + " and " + files.view);
+    if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, *gpu, style), true).c_str());
+    return {};
+}
+
+bool same_bytes(const std::string& a, const std::string& b) {
+    std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
+    return one && other &&
+           std::equal(std::istreambuf_iterator<char>(one), {}, std::istreambuf_iterator<char>(other), {});
+}
+
+// A folder of its own that goes when its owner goes.
+struct ScratchFolder {
+    std::string path = (fs::temp_directory_path() / "orograph-XXXXXX").string();
+    bool made = mkdtemp(path.data()) != nullptr;
+    ScratchFolder() = default;
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    ~ScratchFolder() {
+        std::error_code ignored;
+        if (made) fs::remove_all(path, ignored);
+    }
+};
+
+Result<void> check_shot(const ShotOptions& options, const ShotFiles& files) {
+    const ScratchFolder scratch;
+    if (!scratch.made) return Error{ErrorKind::failed, scratch.path, "cannot be made"};
+    const ShotFiles again = beside((fs::path(scratch.path) / fs::path(files.picture).filename()).string());
+    ORO_CHECK(take_shot(options, again));
+    if (!same_bytes(again.picture, files.picture))
+        return Error{
+            ErrorKind::failed, files.picture,
+            "is not what its view draws now; left as it is (--overwrite replaces it, --out writes another)"};
+    say(options.quiet, files.picture + " is there already, and its view draws the same bytes");
+    return {};
+}
+
+}  // namespace
+
+Result<void> run_shot(const ShotOptions& options) {
+    ORO_TRY(const ShotFiles files, shot_files(options));
+    return is_check(options, files) ? check_shot(options, files) : take_shot(options, files);
+}
+
+}  // namespace oro

@@ -1,0 +1,18 @@
+// Styles: how heights become colours. Data, not code: data/styles/*.json.
+#pragma once
+
+#include <string>
+
+#include "apps/view.h"
+#include "shaders/shared.h"
+
+namespace oro {
+
+// A style by name (in the data folder) or by path (ending in .json), lit by the view's sun where it has one.
+// Colours are turned from sRGB to linear light. Errors: no such style, or what is wrong in it.
+Result<gpu::FrameStyle> load_style(const std::string& name, const std::optional<SunDirection>& sun);
+
+// The sun of a style, for reports.
+SunDirection sun_of(const gpu::FrameStyle& style);
+
+}  // namespace oro

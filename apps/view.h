@@ -1,0 +1,52 @@
+// A view: all that decides a picture, complete and resolved. Written beside every picture and read back.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/options.h"
+#include "core/camera.h"
+#include "core/page.h"
+#include "geo/region.h"
+
+namespace oro {
+
+struct SunDirection {
+    double azimuth_deg;    // clockwise from true north
+    double elevation_deg;  // above the horizon, (0, 90]
+};
+
+struct View {
+    RegionRequest region;
+    Camera camera;  // the eye's h is above the ellipsoid
+    double exaggeration{1.0};
+    int samples{1};
+    std::optional<SunDirection> sun;  // nothing: the style's
+    std::string style{"default"};
+    std::int64_t time_utc_s{};
+};
+
+// What to read, from the options. Usage errors: no path, a malformed box or tile.
+Result<RegionRequest> region_request(const RegionOptions& options);
+
+// Everything of a view that needs no terrain, checked: sizes, ranges, times. The camera has no eye yet.
+Result<View> view_without_eye(const ViewOptions& options, RegionRequest region);
+
+// Puts the eye of a view where the options say: at a place over the ground or above sea level, or so that the
+// whole region is in the picture. Errors: no data under an eye that is placed over the ground (no_data).
+Result<void> place_eye(View& view, const ViewOptions& options, const Region& region);
+
+// Changes a view read from a file as far as options other than the eye's are given; those of the eye are
+// usage errors.
+Result<void> change_view(View& view, const ViewOptions& options);
+
+// A view as JSON text: compact, every double with all its digits.
+std::string view_to_json(const View& view, bool pretty);
+// Errors name what is missing or wrong, and `where` it was read from.
+Result<View> view_from_json(const std::string& text, const std::string& where);
+// From a .json file, or from a picture that carries its view.
+Result<View> read_view(const std::string& path);
+
+}  // namespace oro

@@ -1,0 +1,14 @@
+// Distances and directions over the ellipsoid.
+#pragma once
+
+namespace oro {
+
+struct GeodesicPath {
+    double distance_m;   // along WGS84
+    double bearing_deg;  // true, at the start, [0, 360)
+};
+// Shortest path between two places. Error: 15 nm (C. F. F. Karney, Algorithms for geodesics, J. Geodesy 87,
+// 2013).
+GeodesicPath geodesic_between(double from_lat_deg, double from_lon_deg, double to_lat_deg, double to_lon_deg);
+
+}  // namespace oro

@@ -1,0 +1,25 @@
+// Which libraries and geoid grids this machine has, and what the lack of one means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace oro {
+
+struct GeoidGridReport {
+    std::string name;  // "EGM96"
+    std::string file;  // the grid's file name, found or looked for
+    bool found{};
+    std::string meaning;  // what works with it, or what stands in without it
+};
+
+struct LibraryReport {
+    std::string gdal;
+    std::string proj;
+    std::string geographiclib;
+    std::vector<GeoidGridReport> geoids;
+};
+
+LibraryReport report_libraries();
+
+}  // namespace oro
