@@ -10,8 +10,8 @@
 
 namespace oro {
 
-// How an eye looks, in the local frame of its place. Heading is true, clockwise from north; pitch is 0 level and
-// negative downwards; roll is clockwise as the viewer sees it (the right side goes down).
+// How an eye looks, in the local frame of its place. Heading is true, clockwise from north; pitch is 0 level
+// and negative downwards; roll is clockwise as the viewer sees it (the right side goes down).
 struct Attitude {
     double heading_deg{};
     double pitch_deg{};
@@ -31,7 +31,8 @@ struct Camera {
     [[nodiscard]] glm::dmat3 view_from_ecef() const;
     // Tangents of half the field of view, (horizontal, vertical).
     [[nodiscard]] glm::dvec2 half_fov_tangent() const;
-    // Unit ECEF direction through a point of the picture, pixels from the top left corner (0.5, 0.5 is the centre of the first).
+    // Unit ECEF direction through a point of the picture, pixels from the top left corner (0.5, 0.5 is the
+    // centre of the first).
     [[nodiscard]] glm::dvec3 ecef_direction_at(glm::dvec2 point_px) const;
 };
 
@@ -50,8 +51,9 @@ struct Tile {
     glm::dvec2 sample_px{0.5, 0.5};  // where in each pixel the ray goes through, in [0, 1)
 };
 
-// Clip coordinates of a view position v for a tile: (scale.x v.x + shift.x w, scale.y v.y + shift.y w, near, w) with w = -v.z.
-// Depth is reversed (near plane 1, infinity 0); y of the framebuffer points down. The float forms go to the GPU.
+// Clip coordinates of a view position v for a tile: (scale.x v.x + shift.x w, scale.y v.y + shift.y w, near,
+// w) with w = -v.z. Depth is reversed (near plane 1, infinity 0); y of the framebuffer points down. The float
+// forms go to the GPU.
 struct Projection {
     glm::dvec2 scale;
     glm::dvec2 shift;
@@ -62,7 +64,8 @@ Projection projection_of_tile(const Camera& camera, const Tile& tile);
 
 // A plane n.p + d >= 0 inside, n of unit length: (n, d).
 using Plane = glm::dvec4;
-// Left, right, bottom, top, near planes of a tile in view coordinates, pointing inwards. There is no far plane.
+// Left, right, bottom, top, near planes of a tile in view coordinates, pointing inwards. There is no far
+// plane.
 std::array<Plane, 5> frustum_planes_view(const Projection& projection);
 
 }  // namespace oro

@@ -12,8 +12,12 @@ struct Radians {
     double rad{};
     explicit constexpr Radians(double value_rad = 0.0) : rad(value_rad) {}
 };
-constexpr Radians radians_from_deg(double angle_deg) { return Radians{angle_deg * (std::numbers::pi / 180.0)}; }
-constexpr double deg_from_radians(Radians angle) { return angle.rad * (180.0 / std::numbers::pi); }
+constexpr Radians radians_from_deg(double angle_deg) {
+    return Radians{angle_deg * (std::numbers::pi / 180.0)};
+}
+constexpr double deg_from_radians(Radians angle) {
+    return angle.rad * (180.0 / std::numbers::pi);
+}
 
 // WGS84. Source: NIMA TR8350.2, third edition, 2000, table 3.1.
 inline constexpr double wgs84_a_m = 6378137.0;
@@ -43,8 +47,9 @@ struct SineCosine {
     double sine;
     double cosine;
 };
-// Sine and cosine of an angle in degrees, exact at every multiple of 90, and the same bits for angles that differ
-// by whole turns (so -180 and 180 are one meridian, and 90 N is one point). Error: 2 units in the last place.
+// Sine and cosine of an angle in degrees, exact at every multiple of 90, and the same bits for angles that
+// differ by whole turns (so -180 and 180 are one meridian, and 90 N is one point). Error: 2 units in the last
+// place.
 SineCosine sine_cosine_deg(double angle_deg);
 
 // The same longitude in (-180, 180].
@@ -59,13 +64,14 @@ double meridian_radius_m(double lat_deg);
 // Position of a geodetic point. Error: below 4 nm up to heights of 10 km (against GeographicLib).
 Ecef ecef_from_geodetic(const Geodetic& point);
 
-// The inverse. Valid from 6,300 km below the surface (not at the centre) to beyond the Moon; error: below 1e-6 m and 1e-13 degree
-// wherever |h| < 1,000 km. At a pole the longitude is 0; on the axis the nearer pole is given.
-// Source: H. Vermeille, An analytical method to transform geocentric into geodetic coordinates, J. Geodesy 85,
-// 2011, refined by Newton steps.
+// The inverse. Valid from 6,300 km below the surface (not at the centre) to beyond the Moon; error: below
+// 1e-6 m and 1e-13 degree wherever |h| < 1,000 km. At a pole the longitude is 0; on the axis the nearer pole
+// is given. Source: H. Vermeille, An analytical method to transform geocentric into geodetic coordinates, J.
+// Geodesy 85, 2011, refined by Newton steps.
 Geodetic geodetic_from_ecef(const Ecef& point);
 
-// Columns east, north, up at a place, in ECEF axes: ecef offset = ecef_from_enu * enu offset. Orthonormal to 1e-15.
+// Columns east, north, up at a place, in ECEF axes: ecef offset = ecef_from_enu * enu offset. Orthonormal to
+// 1e-15.
 glm::dmat3 ecef_from_enu(double lat_deg, double lon_deg);
 
 }  // namespace oro

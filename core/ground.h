@@ -1,4 +1,5 @@
-// Questions to the surface itself, in double precision: how high is the ground here, where does this ray meet it.
+// Questions to the surface itself, in double precision: how high is the ground here, where does this ray meet
+// it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,16 +11,19 @@
 namespace oro {
 
 // Height of the exaggerated surface above the ellipsoid at a place; nothing where there is no data.
-std::optional<double> ground_h_m(const HeightField& field, double lat_deg, double lon_deg, double exaggeration = 1.0);
+std::optional<double> ground_h_m(const HeightField& field, double lat_deg, double lon_deg,
+                                 double exaggeration = 1.0);
 
 // Where a ray meets the ground.
 struct GroundHit {
     Geodetic point;       // h above the ellipsoid
     double distance_m{};  // along the ray
 };
-// First crossing of a ray (unit ECEF direction) with the surface, from either side; nothing when it meets none within reach_m.
-// Error: 1 mm along the normal; crossings narrower than half a post spacing can be missed.
-std::optional<GroundHit> first_ground_hit(const HeightField& field, const Ecef& eye, const glm::dvec3& direction,
-                                          double reach_m, double exaggeration = 1.0);
+// First crossing of a ray (unit ECEF direction) with the surface, from either side; nothing when it meets
+// none within reach_m. Error: 1 mm along the normal; crossings narrower than half a post spacing can be
+// missed.
+std::optional<GroundHit> first_ground_hit(const HeightField& field, const Ecef& eye,
+                                          const glm::dvec3& direction, double reach_m,
+                                          double exaggeration = 1.0);
 
 }  // namespace oro

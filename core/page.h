@@ -17,7 +17,8 @@ struct PageIndex {
     int column{};
 };
 
-// Pages of a region: number of pages along each axis (the last ones may be partly beyond the grid: void there).
+// Pages of a region: number of pages along each axis (the last ones may be partly beyond the grid: void
+// there).
 struct PageLayout {
     int rows{};
     int columns{};
@@ -34,25 +35,26 @@ RegionShape region_shape(const HeightField& field, double exaggeration);
 // What the CPU keeps of a page: enough to choose it and to place its frame.
 struct PageSummary {
     PageIndex index;
-    Geodetic origin;               // the page's middle post position and the middle of its heights
+    Geodetic origin;  // the page's middle post position and the middle of its heights
     Ecef origin_ecef;
-    glm::dmat3 ecef_from_page;     // rotation by the origin's longitude about the axis
-    glm::dvec3 centre_m;           // sphere around all posts, page frame, relative to the origin
+    glm::dmat3 ecef_from_page;  // rotation by the origin's longitude about the axis
+    glm::dvec3 centre_m;        // sphere around all posts, page frame, relative to the origin
     double radius_m{};
     HorizonCone horizon;
     double lowest_h_m{};
     double highest_h_m{};
-    std::uint32_t triangles{};     // 0: nothing to draw
-    std::uint32_t meshlets{};      // those with a triangle
+    std::uint32_t triangles{};  // 0: nothing to draw
+    std::uint32_t meshlets{};   // those with a triangle
 };
 
-// Position of a post that is not void on the exaggerated surface, canonical: the same bits for the same post from whatever page
-// it is asked. Row and column may be one meridian's two numbers where a region goes round the Earth.
+// Position of a post that is not void on the exaggerated surface, canonical: the same bits for the same post
+// from whatever page it is asked. Row and column may be one meridian's two numbers where a region goes round
+// the Earth.
 Ecef post_ecef(const HeightField& field, int row, int column, double exaggeration);
 
-// Fills `block` for a page and gives its summary. Posts of the block are placed within 1 mm of their true position for pages up
-// to 4 km wide, 2 mm up to 12 km (evaluated in float32 as shaders/place.glsl does).
-PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index, gpu::PageBlock& block);
-
+// Fills `block` for a page and gives its summary. Posts of the block are placed within 1 mm of their true
+// position for pages up to 4 km wide, 2 mm up to 12 km (evaluated in float32 as shaders/place.glsl does).
+PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
+                       gpu::PageBlock& block);
 
 }  // namespace oro

@@ -4,18 +4,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace oro {
 
-// Posts along one axis of a region, evenly spaced in degrees. A post's angle depends on its *index in the world*,
-// not on where the region starts, so a post has the same bits in every region that holds it.
+// Posts along one axis of a region, evenly spaced in degrees. A post's angle depends on its *index in the
+// world*, not on where the region starts, so a post has the same bits in every region that holds it.
 struct GridAxis {
     double posts_per_deg{1.0};  // > 0; for SRTM3 1200, for SRTM1 3600
     double phase_deg{0.0};      // angle of the post with world index 0
     std::int64_t first{0};      // world index of the region's post number 0
-    int step{1};                // +1: angles grow with the post's number (longitude); -1: they fall (latitude)
-    int count{0};               // posts in the region, at least 1 (2 make a surface)
+    int step{1};   // +1: angles grow with the post's number (longitude); -1: they fall (latitude)
+    int count{0};  // posts in the region, at least 1 (2 make a surface)
 
     [[nodiscard]] double spacing_deg() const { return 1.0 / posts_per_deg; }
     // Angle of post i (also beyond the ends). Error: one rounding.
@@ -28,9 +29,9 @@ struct GridAxis {
     }
 };
 
-// Rows run from north to south, columns from west to east. Longitudes may run past 180 where a region crosses the
-// antimeridian (first column in [-180, 180)); a region is at most 360 degrees wide, and one that wide has the same
-// meridian in its first and last column.
+// Rows run from north to south, columns from west to east. Longitudes may run past 180 where a region crosses
+// the antimeridian (first column in [-180, 180)); a region is at most 360 degrees wide, and one that wide has
+// the same meridian in its first and last column.
 struct PostGrid {
     GridAxis lat;
     GridAxis lon;
@@ -46,26 +47,33 @@ struct PostGrid {
     }
     // Column number of a longitude: that of the whole turn which falls into the grid, or the nearest to it.
     [[nodiscard]] double column_at(double lon_deg) const;
+    // True for a region 360 degrees wide: its last column is its first.
+    [[nodiscard]] bool goes_round() const;
 };
 
-// The height of a post that has none. Not a height that any source can hold, and no NaN, so that none can reach the GPU.
+// The height of a post that has none. Not a height that any source can hold, and no NaN, so that none can
+// reach the GPU.
 inline constexpr float void_height_m = -std::numeric_limits<float>::max();
-[[nodiscard]] constexpr bool is_void(float height_m) { return height_m == void_height_m; }
+[[nodiscard]] constexpr bool is_void(float height_m) {
+    return height_m == void_height_m;
+}
 
-// The geoid's undulation N over a region, on nodes of its own, bilinear between them: exactly the surface that PROJ
-// gives for a gridded geoid when the nodes include those of its grid. An empty field is N = 0 everywhere.
+// The geoid's undulation N over a region, on nodes of its own, bilinear between them: exactly the surface
+// that PROJ gives for a gridded geoid when the nodes include those of its grid. An empty field is N = 0
+// everywhere.
 struct UndulationField {
     GridAxis lat;  // step -1
     GridAxis lon;  // step +1
     std::vector<float> N_m;
 
-    // N in metres at a place; places beyond the nodes take the nearest value. Error: 8 um of rounding.
+    // N in metres at a place; places beyond the nodes take the nearest value (in whichever whole turn of the
+    // longitude is nearest). Error: 8 um of rounding.
     [[nodiscard]] double at_m(double lat_deg, double lon_deg) const;
 };
 
-// The true surface of a scene: orthometric heights H on a post grid, and the undulation N that lifts them onto the
-// ellipsoid (h = H + N). Each cell is two triangles, split by the diagonal from its north-west to its south-east
-// post; between posts H is linear over those triangles in geodetic coordinates.
+// The true surface of a scene: orthometric heights H on a post grid, and the undulation N that lifts them
+// onto the ellipsoid (h = H + N). Each cell is two triangles, split by the diagonal from its north-west to
+// its south-east post; between posts H is linear over those triangles in geodetic coordinates.
 struct HeightField {
     PostGrid grid;
     std::vector<float> H_m;  // row by row, rows() * columns(); void_height_m where there is none
@@ -79,6 +87,8 @@ struct HeightField {
     [[nodiscard]] double h_at_post_m(int row, int column) const;
     // H of the surface at a place, or void_height_m outside the region and on triangles with a void post.
     [[nodiscard]] float H_at_m(double lat_deg, double lon_deg) const;
+    // The same in double, before it is rounded to 0.5 mm.
+    [[nodiscard]] std::optional<double> surface_H_m(double lat_deg, double lon_deg) const;
 };
 
 struct HeightRange {
