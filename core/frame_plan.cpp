@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/high_low.h"
+
 namespace oro {
 namespace {
 
@@ -63,11 +65,6 @@ gpu::FrameConstants frame_constants(const Camera& camera, const Tile& tile, cons
 }
 
 }  // namespace
-
-void split_high_low(const glm::dvec3& value, gpu::vec3& high, gpu::vec3& low) {
-    high = gpu::vec3(value);
-    low = gpu::vec3(value - glm::dvec3(high));
-}
 
 FramePlan plan_frame(std::span<const PageSummary> pages, const RegionShape& shape, const Camera& camera,
                      const Tile& tile) {

@@ -26,7 +26,4 @@ struct FramePlan {
 FramePlan plan_frame(std::span<const PageSummary> pages, const RegionShape& shape, const Camera& camera,
                      const Tile& tile);
 
-// A double vector as two floats whose sum is within 2^-48 of it.
-void split_high_low(const glm::dvec3& value, gpu::vec3& high, gpu::vec3& low);
-
 }  // namespace oro

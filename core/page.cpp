@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "core/high_low.h"
+
 namespace oro {
 namespace {
 
@@ -223,8 +225,7 @@ void Draft::fill_borders() {
             if (!drawable(row, column)) continue;
             const glm::dvec3 m =
                 post_ecef(field_, first_row_ + row, first_column_ + column, shape_.exaggeration).m;
-            border.high = gpu::vec3(m);
-            border.low = gpu::vec3(m - glm::dvec3(border.high));
+            split_high_low(m, border.high, border.low);
         }
     }
 }

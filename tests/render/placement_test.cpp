@@ -1,0 +1,134 @@
+// Must hold: a post lands within 1 mm of GeographicLib's answer on pages up to 4 km, 2 mm up to 12 km, as the
+// mesh shader itself places it on the GPU.
+#include <GeographicLib/Geocentric.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <random>
+
+#include "render/picture_renderer.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/made_terrain.h"
+
+namespace oro {
+namespace {
+
+constexpr unsigned seed = 20261121;
+
+struct Row {
+    double lat_deg;
+    double page_m;
+    std::size_t posts;
+    double worst_m;
+    double worst_rim_m;
+};
+
+struct Placed {
+    double worst_m{};
+    double worst_rim_m{};
+    std::size_t posts{};
+};
+
+bool on_rim(int row, int column) {
+    return row == 0 || column == 0 || row == 128 || column == 128;
+}
+
+class PlacementOnGpu : public test::GpuTest {
+  protected:
+    // One page of posts at a latitude with heights around h0, drawn from above; the largest error of its
+    // posts.
+    Placed place_page(double lat_deg, double lon_deg, double page_m, double h0_m, std::mt19937& random) {
+        const double m_per_deg = meridian_radius_m(lat_deg) * std::numbers::pi / 180.0;
+        // Round a pole a page reaches as far beyond as before it: its rows stay within half its width of the
+        // pole.
+        const double to_pole_m = (90.0 - std::abs(lat_deg)) * m_per_deg;
+        const double rows_m = to_pole_m > 0.5 * page_m ? page_m : 0.5 * page_m;
+        const double lat_spacing = rows_m / 128.0 / m_per_deg;
+        const double around_m =
+            std::max(1.0, prime_vertical_radius_m(lat_deg) * std::cos(radians_from_deg(lat_deg).rad));
+        const double lon_spacing =
+            std::min(page_m / 128.0 / (around_m * std::numbers::pi / 180.0), 350.0 / 128.0);
+        std::uniform_real_distribution<float> height(static_cast<float>(h0_m) - 2000.0F,
+                                                     static_cast<float>(h0_m) + 2000.0F);
+        HeightField field;
+        const double north = std::clamp(lat_deg + 64.0 * lat_spacing, -90.0 + 128.0 * lat_spacing, 90.0);
+        field.grid.lat = {1.0 / lat_spacing, north, 0, -1, 129};
+        field.grid.lon = {1.0 / lon_spacing, lon_deg - 64.0 * lon_spacing, 0, 1, 129};
+        for (int row = 0; row < 129; ++row) {
+            // The posts of a pole's row are one place, and so have one height.
+            const bool at_pole = std::abs(field.grid.lat.at_deg(row)) == 90.0;
+            const float one = height(random);
+            for (int column = 0; column < 129; ++column) field.H_m.push_back(at_pole ? one : height(random));
+        }
+
+        auto scene = create_scene(*gpu_, field, 1.0);
+        EXPECT_TRUE(scene.ok()) << scene.error().line();
+        FrameRendererOptions options;
+        options.extent = {64, 64};
+        options.record_positions = true;
+        auto renderer = FrameRenderer::create(*gpu_, options);
+        EXPECT_TRUE(renderer.ok()) << renderer.error().line();
+        Camera camera;
+        // In the page's middle: rim posts are placed relative to the eye, and so within reach of a float.
+        camera.eye = {field.grid.lat.at_deg(64), normalised_lon_deg(field.grid.lon.at_deg(64)), h0_m};
+        camera.vertical_fov_deg = 110.0;
+        camera.width_px = camera.height_px = 64;
+        FramePlan plan = plan_frame(scene->pages, scene->shape, camera, {0, 0, 64, 64, {0.5, 0.5}});
+        EXPECT_EQ(plan.pages.size(), 1U);
+        for (gpu::FramePage& page : plan.pages) page.cull = 0;  // every meshlet is to be placed
+        auto drawn = renderer->draw(scene->store, plan, {});
+        EXPECT_TRUE(drawn.ok()) << drawn.error().line();
+        EXPECT_EQ(drawn->counts.meshlets_drawn, 256U);
+        return worst_error(field, scene->pages[0], camera, renderer->recorded());
+    }
+
+    static Placed worst_error(const HeightField& field, const PageSummary& page, const Camera& camera,
+                              const std::vector<gpu::vec3>& recorded) {
+        const auto& earth = GeographicLib::Geocentric::WGS84();
+        Placed placed;
+        for (int row = 0; row < 129; ++row) {
+            for (int column = 0; column < 129; ++column) {
+                glm::dvec3 truth;
+                earth.Forward(field.grid.lat.at_deg(row), field.grid.lon.at_deg(column),
+                              field.h_at_post_m(row, column), truth.x, truth.y, truth.z);
+                const glm::dvec3 from_gpu(recorded[static_cast<std::size_t>(row * 129 + column)]);
+                ++placed.posts;
+                if (on_rim(row, column)) {
+                    const double error = glm::length(from_gpu - (truth - camera.eye_ecef().m));
+                    placed.worst_rim_m = std::max(placed.worst_rim_m, error);
+                } else {
+                    const double error =
+                        glm::length(page.origin_ecef.m + page.ecef_from_page * from_gpu - truth);
+                    placed.worst_m = std::max(placed.worst_m, error);
+                }
+            }
+        }
+        return placed;
+    }
+};
+
+TEST_F(PlacementOnGpu, AgreesWithGeographicLibAtAllLatitudes) {
+    std::mt19937 random(seed);
+    std::printf("placement on %s against GeographicLib (seed %u)\n", gpu_->report().name.c_str(), seed);
+    std::printf("%10s %8s %8s %14s %14s\n", "latitude", "page", "posts", "worst inside", "worst on rim");
+    std::size_t posts = 0;
+    for (const double page_m : {4000.0, 12000.0}) {
+        const double bound_m = page_m <= 4000.0 ? 0.001 : 0.002;
+        for (const double lat_deg : {-89.99, -71.3, -45.0, -12.0, 0.0, 23.4, 46.5, 60.0, 80.0, 89.5, 89.99}) {
+            const double lon_deg = std::uniform_real_distribution<double>(-180.0, 180.0)(random);
+            const double h0_m = std::uniform_real_distribution<double>(-9000.0, 7000.0)(random);
+            const Placed placed = place_page(lat_deg, lon_deg, page_m, h0_m, random);
+            posts += placed.posts;
+            std::printf("%9.2f° %6.0f m %8zu %11.3f mm %11.3f mm\n", lat_deg, page_m, placed.posts,
+                        1e3 * placed.worst_m, 1e3 * placed.worst_rim_m);
+            EXPECT_LE(placed.worst_m, bound_m) << "at latitude " << lat_deg;
+            EXPECT_LE(placed.worst_rim_m, bound_m) << "at latitude " << lat_deg;
+        }
+    }
+    EXPECT_GE(posts, 100000U);
+}
+
+}  // namespace
+}  // namespace oro

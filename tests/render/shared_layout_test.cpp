@@ -1,0 +1,134 @@
+// The structs of shaders/shared.h lie in memory as the compiled shaders expect: SPIR-V's member offsets
+// against offsetof.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <span>
+#include <string>
+
+#include "shaders/shared.h"
+#include "spirv/shade_comp.h"
+#include "spirv/terrain_mesh.h"
+#include "spirv/terrain_task.h"
+
+namespace oro {
+namespace {
+
+// Offsets by "Struct.member", read from a module's OpName, OpMemberName and OpMemberDecorate Offset
+// instructions. Source: SPIR-V Specification 1.6, sections 2.3 and 3.
+std::map<std::string, std::uint32_t> member_offsets(std::span<const std::uint32_t> words) {
+    constexpr std::uint32_t op_name = 5, op_member_name = 6, op_member_decorate = 72, offset_decoration = 35;
+    std::map<std::uint32_t, std::string> names;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> members;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> offsets;
+    for (std::size_t i = 5; i < words.size(); i += words[i] >> 16U) {
+        const std::uint32_t op = words[i] & 0xffffU;
+        const auto text = [&](std::size_t at) {
+            return std::string(reinterpret_cast<const char*>(&words[at]));
+        };
+        if (op == op_name) names[words[i + 1]] = text(i + 2);
+        if (op == op_member_name) members[{words[i + 1], words[i + 2]}] = text(i + 3);
+        if (op == op_member_decorate && words[i + 3] == offset_decoration)
+            offsets[{words[i + 1], words[i + 2]}] = words[i + 4];
+    }
+    std::map<std::string, std::uint32_t> by_name;
+    for (const auto& [key, offset] : offsets) by_name[names[key.first] + "." + members[key]] = offset;
+    return by_name;
+}
+
+std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
+    std::map<std::string, std::uint32_t> all;
+    for (const std::span<const std::uint32_t> words : {std::span<const std::uint32_t>(terrain_task_spirv),
+                                                       std::span<const std::uint32_t>(terrain_mesh_spirv),
+                                                       std::span<const std::uint32_t>(shade_comp_spirv)}) {
+        all.merge(member_offsets(words));
+    }
+    return all;
+}
+
+TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
+    const auto spirv = offsets_of_all_shaders();
+    const auto expect = [&](const std::string& name, std::size_t offset) {
+        const auto found = spirv.find(name);
+        ASSERT_NE(found, spirv.end()) << name << " is in no shader";
+        EXPECT_EQ(found->second, offset) << name;
+    };
+#define ORO_MEMBER(type, member) expect(#type "." #member, offsetof(gpu::type, member))
+    ORO_MEMBER(RowTerms, R);
+    ORO_MEMBER(RowTerms, C);
+    ORO_MEMBER(RowTerms, S);
+    ORO_MEMBER(RowTerms, P);
+    ORO_MEMBER(RowTerms, Z);
+    ORO_MEMBER(ColumnTerms, V);
+    ORO_MEMBER(ColumnTerms, W);
+    ORO_MEMBER(BorderPost, high);
+    ORO_MEMBER(BorderPost, low);
+    ORO_MEMBER(MeshletBounds, centre);
+    ORO_MEMBER(MeshletBounds, radius);
+    ORO_MEMBER(MeshletBounds, horizon_offset);
+    ORO_MEMBER(MeshletBounds, horizon_angle_rad);
+    ORO_MEMBER(PageBlock, rows);
+    ORO_MEMBER(PageBlock, columns);
+    ORO_MEMBER(PageBlock, borders);
+    ORO_MEMBER(PageBlock, meshlets);
+    ORO_MEMBER(PageBlock, h0_m);
+    ORO_MEMBER(PageBlock, row_spacing_m);
+    ORO_MEMBER(PageBlock, column_spacing_rad);
+    ORO_MEMBER(PageBlock, exaggeration);
+    ORO_MEMBER(PageBlock, N_m);
+    ORO_MEMBER(PageBlock, dh);
+    ORO_MEMBER(FramePage, view_from_page);
+    ORO_MEMBER(FramePage, origin_view);
+    ORO_MEMBER(FramePage, planes);
+    ORO_MEMBER(FramePage, horizon_direction);
+    ORO_MEMBER(FramePage, block);
+    ORO_MEMBER(FramePage, cull);
+    ORO_MEMBER(FrameCounts, meshlets_beyond_frustum);
+    ORO_MEMBER(FrameCounts, meshlets_beyond_horizon);
+    ORO_MEMBER(FrameCounts, meshlets_void);
+    ORO_MEMBER(FrameCounts, meshlets_drawn);
+    ORO_MEMBER(FrameCounts, triangles_drawn);
+    ORO_MEMBER(TintStop, H_m);
+    ORO_MEMBER(TintStop, colour);
+    ORO_MEMBER(FrameStyle, tints);
+    ORO_MEMBER(FrameStyle, tint_count);
+    ORO_MEMBER(FrameStyle, sun_enu);
+    ORO_MEMBER(FrameStyle, ambient);
+    ORO_MEMBER(FrameStyle, haze_colour);
+    ORO_MEMBER(FrameStyle, haze_distance_m);
+    ORO_MEMBER(FrameStyle, zenith_colour);
+    ORO_MEMBER(FrameStyle, no_data_colour);
+    ORO_MEMBER(FrameStyle, sky_scale_height_m);
+    ORO_MEMBER(FrameConstants, view_from_ecef);
+    ORO_MEMBER(FrameConstants, eye_high);
+    ORO_MEMBER(FrameConstants, eye_low);
+    ORO_MEMBER(FrameConstants, projection_scale);
+    ORO_MEMBER(FrameConstants, projection_shift);
+    ORO_MEMBER(FrameConstants, near_m);
+    ORO_MEMBER(FrameConstants, horizon_angle_rad);
+    ORO_MEMBER(FrameConstants, up_view);
+    ORO_MEMBER(FrameConstants, eye_h_m);
+    ORO_MEMBER(FrameConstants, earth_radius_m);
+    ORO_MEMBER(FrameConstants, width_px);
+    ORO_MEMBER(FrameConstants, height_px);
+    ORO_MEMBER(FrameConstants, page_count);
+    ORO_MEMBER(FrameConstants, sample_index);
+    ORO_MEMBER(FrameConstants, sample_count);
+    ORO_MEMBER(FrameConstants, pages);
+    ORO_MEMBER(FrameConstants, counts);
+    ORO_MEMBER(FrameConstants, recorded);
+    ORO_MEMBER(FrameConstants, style);
+#undef ORO_MEMBER
+}
+
+// The array strides: what follows an array must start where the C++ array ends.
+TEST(SharedLayout, StridesFollowFromOffsets) {
+    EXPECT_EQ(offsetof(gpu::PageBlock, columns), 129 * sizeof(gpu::RowTerms));
+    EXPECT_EQ(offsetof(gpu::PageBlock, dh) % 4, 0U);
+    EXPECT_EQ(sizeof(gpu::PageBlock), offsetof(gpu::PageBlock, dh) + 4 * gpu::page_heights);
+}
+
+}  // namespace
+}  // namespace oro
