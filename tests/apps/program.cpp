@@ -1,0 +1,124 @@
+#include "tests/apps/program.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <linux/capability.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/test_data.h"
+
+namespace oro::test {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int cannot_start = 127;
+
+void redirect(const fs::path& file, int descriptor, int flags) {
+    const int opened = open(file.c_str(), flags, 0600);
+    if (opened < 0 || dup2(opened, descriptor) < 0) _exit(cannot_start);
+    close(opened);
+}
+
+void give_up_power_over_permissions() {
+    prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0);
+    prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH, 0, 0, 0);
+}
+
+// In the child, between fork and exec.
+void take_on(const Circumstances& circumstances) {
+    for (const std::string& setting : circumstances.environment) {
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string::npos) {
+            unsetenv(setting.c_str());
+        } else {
+            setenv(setting.substr(0, equals).c_str(), setting.c_str() + equals + 1, 1);
+        }
+    }
+    if (circumstances.largest_file_bytes) {
+        const rlimit limit{*circumstances.largest_file_bytes, *circumstances.largest_file_bytes};
+        if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(cannot_start);
+    }
+    if (circumstances.bound_by_permissions) give_up_power_over_permissions();
+    if (!circumstances.folder.empty() && chdir(circumstances.folder.c_str()) != 0) _exit(cannot_start);
+}
+
+}  // namespace
+
+std::vector<std::string> Outcome::err_lines() const {
+    std::vector<std::string> lines;
+    std::istringstream text(err);
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
+}
+
+Outcome run_program(const std::vector<std::string>& words, const Circumstances& circumstances) {
+    const fs::path said = scratch_folder();
+    const pid_t child = fork();
+    if (child == 0) {
+        redirect("/dev/null", STDIN_FILENO, O_RDONLY);
+        redirect(said / "out", STDOUT_FILENO, O_WRONLY | O_CREAT);
+        redirect(said / "err", STDERR_FILENO, O_WRONLY | O_CREAT);
+        take_on(circumstances);
+        std::vector<char*> arguments;
+        for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+        arguments.push_back(nullptr);
+        execvp(arguments[0], arguments.data());
+        _exit(cannot_start);
+    }
+    int status = 0;
+    EXPECT_GT(child, 0);
+    EXPECT_EQ(waitpid(child, &status, 0), child);
+    Outcome outcome;
+    outcome.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+    EXPECT_NE(outcome.exit_code, cannot_start) << words[0] << " cannot be started";
+    outcome.out = bytes_of(said / "out");
+    outcome.err = bytes_of(said / "err");
+    return outcome;
+}
+
+Outcome run_orograph(std::vector<std::string> words, const Circumstances& circumstances) {
+    words.insert(words.begin(), OROGRAPH_PROGRAM);
+    return run_program(words, circumstances);
+}
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    EXPECT_TRUE(stream.is_open()) << file;
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    return bytes.str();
+}
+
+void write_bytes(const fs::path& file, const std::string& bytes) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << bytes;
+    stream.close();
+    EXPECT_TRUE(stream.good()) << file;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool permissions_bind() {
+    const fs::path file = scratch_folder() / "locked";
+    write_bytes(file, "locked");
+    fs::permissions(file, fs::perms::none);
+    Circumstances bound;
+    bound.bound_by_permissions = true;
+    return run_program({"cat", file.string()}, bound).exit_code != 0;
+}
+
+}  // namespace oro::test

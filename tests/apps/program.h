@@ -1,0 +1,42 @@
+// Runs the program as a user does, and tells what it said.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oro::test {
+
+// What is unlike a plain run.
+struct Circumstances {
+    std::vector<std::string> environment;             // "NAME=VALUE" sets, "NAME" removes
+    std::optional<std::uint64_t> largest_file_bytes;  // as `ulimit -f` sets it, to stand for a full disk
+    bool bound_by_permissions{false};                 // root, too, heeds the permissions of files
+    std::filesystem::path folder;                     // the working folder, if not the test's
+};
+
+struct Outcome {
+    int exit_code{};  // 128 + signal when a signal ended it
+    std::string out;
+    std::string err;
+
+    // The lines of standard error.
+    [[nodiscard]] std::vector<std::string> err_lines() const;
+};
+
+// Runs a program (looked up in PATH when it has no slash) with standard input closed.
+Outcome run_program(const std::vector<std::string>& words, const Circumstances& circumstances = {});
+// Runs the program under test.
+Outcome run_orograph(std::vector<std::string> words, const Circumstances& circumstances = {});
+
+// The file's bytes; a failed expectation when it cannot be read.
+std::string bytes_of(const std::filesystem::path& file);
+void write_bytes(const std::filesystem::path& file, const std::string& bytes);
+// Names of what lies in a folder, sorted.
+std::vector<std::string> names_in(const std::filesystem::path& folder);
+
+// True when this process may take root's power over permissions from its children, or has none.
+bool permissions_bind();
+
+}  // namespace oro::test
