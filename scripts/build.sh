@@ -2,7 +2,8 @@
 
 say() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; }
 
-# build_release NAME [-D... options and targets]: no targets means all. What CMake and Ninja say is shown when it fails.
+# build_release NAME [-D... options and targets]: no targets means all. What CMake says is shown when it fails; what
+# Ninja says, too, and its count of steps on a terminal.
 build_release() {
   local name=$1 options=() targets=() word log
   shift
@@ -14,6 +15,8 @@ build_release() {
   say "configuring build/release"
   cmake --preset release "${options[@]}" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
   say "building"
-  cmake --build --preset release ${targets[0]+--target "${targets[@]}"} >"$log" 2>&1 ||
+  local build=(cmake --build --preset release ${targets[0]+--target "${targets[@]}"})
+  if [ -t 1 ]; then "${build[@]}" || { say "the build failed"; exit 1; }; return; fi
+  "${build[@]}" >"$log" 2>&1 ||
     { grep -v '^\[' "$log" | tail -n 60 >&2; say "the build failed; all it said is in $log"; exit 1; }
 }
