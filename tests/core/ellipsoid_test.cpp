@@ -5,8 +5,8 @@
 #include <GeographicLib/Geocentric.hpp>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <cstdint>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <random>
