@@ -8,6 +8,8 @@ namespace oro {
 
 // Writes a geotagged picture and, beside it, its view.
 Result<void> run_shot(const ShotOptions& options);
+// Opens a window to fly over a region.
+Result<void> run_view(const WindowOptions& options);
 // Tells what the sources of a region are and what is missing.
 Result<void> run_info(const InfoOptions& options);
 // Tells what the machine has and what each lack means.

@@ -26,6 +26,18 @@ void add_shot(CLI::App& app, oro::ShotOptions& options) {
     command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
 }
 
+void add_view(CLI::App& app, oro::WindowOptions& options) {
+    CLI::App& command = *app.add_subcommand("view", "Fly over a region in a window");
+    command.footer(
+        "W A S D: move. Space, Ctrl: up, down. Shift: faster. Mouse drag or Q E R F: look. G: go to a place. "
+        "P: write a geotagged picture here. Esc: leave.");
+    oro::add_region_options(command, options.region);
+    oro::add_view_options(command, options.view);
+    command.add_option("--view", options.view_file,
+                       "Start from a view: the .json beside a picture, or the picture");
+    command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
+}
+
 void add_info(CLI::App& app, oro::InfoOptions& options) {
     CLI::App& command = *app.add_subcommand("info", "Tell what elevation data are and what is missing");
     oro::add_region_options(command, options.region);
@@ -52,9 +64,11 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "orograph " OROGRAPH_VERSION);
     oro::ShotOptions shot;
+    oro::WindowOptions view;
     oro::InfoOptions info;
     oro::DoctorOptions doctor;
     add_shot(app, shot);
+    add_view(app, view);
     add_info(app, info);
     add_doctor(app, doctor);
     try {
@@ -65,6 +79,7 @@ int main(int argc, char** argv) {
         return static_cast<int>(oro::ErrorKind::usage);
     }
     if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
+    if (app.got_subcommand("view")) return exit_code(oro::run_view(view));
     if (app.got_subcommand("info")) return exit_code(oro::run_info(info));
     return exit_code(oro::run_doctor(doctor));
 }

@@ -10,15 +10,12 @@
 
 #include "apps/commands.h"
 #include "apps/json_text.h"
+#include "apps/picture_file.h"
 #include "apps/progress_bar.h"
 #include "apps/region_json.h"
 #include "apps/style.h"
 #include "apps/view.h"
 #include "core/ground.h"
-#include "geo/geodesic.h"
-#include "geo/picture.h"
-#include "geo/whole_file.h"
-#include "render/picture_renderer.h"
 
 namespace oro {
 namespace {
@@ -40,7 +37,6 @@ struct ShotTimes {
 struct ShotResult {
     View view;
     Region region;
-    std::optional<DestinationTag> destination;
     PictureReport picture;
     std::size_t pages{};
     std::uint64_t triangles_at_full_resolution{};
@@ -49,18 +45,8 @@ struct ShotResult {
 
 namespace fs = std::filesystem;
 
-// The file that a shot goes to, and the view beside it.
-struct ShotFiles {
-    std::string picture;
-    std::string view;
-};
-
-ShotFiles beside(const std::string& picture) {
-    return {picture, fs::path(picture).replace_extension(".json").string()};
-}
-
 // Without --out a view goes back to the picture that it came from.
-Result<ShotFiles> shot_files(const ShotOptions& options) {
+Result<PictureFiles> shot_files(const ShotOptions& options) {
     if (options.out.empty() && options.view_file.empty())
         return Error{ErrorKind::usage, "--out", "is missing: name the picture to write (.png, .jpg or .tif)"};
     std::string out = options.out.empty() ? options.view_file : options.out;
@@ -73,55 +59,19 @@ Result<ShotFiles> shot_files(const ShotOptions& options) {
         }
     }
     ORO_CHECK(picture_format(out));
-    return beside(out);
+    return picture_files(out);
 }
 
 // A picture drawn again from its own view: made in a scratch folder and compared, so that nothing is
 // replaced.
-bool is_check(const ShotOptions& options, const ShotFiles& files) {
+bool is_check(const ShotOptions& options, const PictureFiles& files) {
     std::error_code ignored;
     return options.out.empty() && !options.overwrite && fs::exists(files.picture, ignored);
 }
 
-std::optional<DestinationTag> destination_of(const View& view, const Region& region) {
-    const Camera& camera = view.camera;
-    const glm::dvec3 ray = camera.ecef_direction_at({0.5 * camera.width_px, 0.5 * camera.height_px});
-    constexpr double reach_m =
-        1.5e6;  // farther than any sight line over the Earth, and than most orbits are high
-    const auto hit = first_ground_hit(region.field, camera.eye_ecef(), ray,
-                                      std::max(reach_m, 2.0 * camera.eye.h_m), view.exaggeration);
-    if (!hit) return std::nullopt;
-    const GeodesicPath path =
-        geodesic_between(camera.eye.lat_deg, camera.eye.lon_deg, hit->point.lat_deg, hit->point.lon_deg);
-    return DestinationTag{hit->point.lat_deg, hit->point.lon_deg, path.bearing_deg, path.distance_m};
-}
-
-Geotags geotags_of(const ShotResult& shot) {
-    const Camera& camera = shot.view.camera;
-    Geotags tags;
-    tags.lat_deg = camera.eye.lat_deg;
-    tags.lon_deg = camera.eye.lon_deg;
-    tags.h_m = camera.eye.h_m;
-    tags.N_m = shot.region.field.undulation.at_m(tags.lat_deg, tags.lon_deg);
-    tags.H_m = tags.h_m - tags.N_m;
-    tags.geoid = shot.region.geoid;
-    tags.heading_deg = camera.attitude.heading_deg;
-    tags.pitch_deg = camera.attitude.pitch_deg;
-    tags.roll_deg = camera.attitude.roll_deg;
-    tags.vertical_fov_deg = camera.vertical_fov_deg;
-    tags.width_px = camera.width_px;
-    tags.height_px = camera.height_px;
-    tags.time_utc_s = shot.view.time_utc_s;
-    tags.destination = shot.destination;
-    tags.attribution = attribution_of(shot.region);
-    tags.software = "Orograph " OROGRAPH_VERSION;
-    tags.view_json = view_to_json(shot.view, false);
-    return tags;
-}
-
-ordered_json shot_json(const ShotResult& shot, const ShotFiles& files, const Gpu& gpu,
+ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
                        const gpu::FrameStyle& style) {
-    const Geotags tags = geotags_of(shot);
+    const Geotags tags = geotags_of(shot.view, shot.region);
     const glm::dvec3 ecef = shot.view.camera.eye_ecef().m;
     const gpu::FrameCounts& counts = shot.picture.frame.counts;
     const SunDirection sun = sun_of(style);
@@ -145,7 +95,7 @@ ordered_json shot_json(const ShotResult& shot, const ShotFiles& files, const Gpu
     json["sun"] = {{"azimuth_deg", sun.azimuth_deg}, {"elevation_deg", sun.elevation_deg}};
     json["time"] = time_text(shot.view.time_utc_s);
     json["destination"] = nullptr;
-    if (const auto& d = shot.destination)
+    if (const auto& d = tags.destination)
         json["destination"] = {{"lat_deg", d->lat_deg},
                                {"lon_deg", d->lon_deg},
                                {"bearing_deg", d->bearing_deg},
@@ -214,32 +164,11 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
     }
 }
 
-// Draws into the picture's file, and puts the view beside it when both are whole.
-Result<void> draw_into_file(const ShotOptions& options, const ShotFiles& files, const Gpu& gpu,
-                            const Scene& scene, const gpu::FrameStyle& style, ProgressBar& bar,
-                            ShotResult& shot) {
-    const auto start = Clock::now();
-    ORO_TRY(const std::unique_ptr<PictureWriter> writer,
-            create_picture(files.picture, geotags_of(shot), options.overwrite));
-    PictureOptions picture;
-    picture.samples = shot.view.samples;
-    ORO_TRY(shot.picture, render_picture(
-                              gpu, scene, shot.view.camera, style, picture,
-                              [&](std::span<const std::uint8_t> rgb) { return writer->write_row(rgb); },
-                              [&](double share) { bar.show(share, "drawing"); }));
-    if (!gpu.validation_messages().empty())
-        return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
-    ORO_CHECK(write_whole_file(files.view, view_to_json(shot.view, true) + "\n", options.overwrite));
-    ORO_CHECK(writer->finish());
-    shot.times.draw_s = seconds_since(start);
-    return {};
-}
-
 }  // namespace
 
 namespace {
 
-Result<void> take_shot(const ShotOptions& options, const ShotFiles& files) {
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     for (const std::string& file : {files.picture, files.view}) {
         if (!options.overwrite && access(file.c_str(), F_OK) == 0)
             return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
@@ -250,7 +179,6 @@ Result<void> take_shot(const ShotOptions& options, const ShotFiles& files) {
     ORO_TRY(const gpu::FrameStyle style, load_style(shot.view.style, shot.view.sun));
     bar.clear();
     say_notes(options, shot);
-    shot.destination = destination_of(shot.view, shot.region);
 
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     const auto start = Clock::now();
@@ -260,7 +188,10 @@ Result<void> take_shot(const ShotOptions& options, const ShotFiles& files) {
     shot.pages = scene.pages.size();
     shot.triangles_at_full_resolution = scene.triangles;
     shot.times.pages_s = seconds_since(start);
-    ORO_CHECK(draw_into_file(options, files, *gpu, scene, style, bar, shot));
+    const auto drawing = Clock::now();
+    ORO_TRY(shot.picture, write_picture(files, options.overwrite, shot.view, shot.region, *gpu, scene, style,
+                                        [&](double share) { bar.show(share, "drawing"); }));
+    shot.times.draw_s = seconds_since(drawing);
     bar.clear();
     say(options.quiet, "wrote " + files.picture + " and " + files.view);
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, *gpu, style), true).c_str());
@@ -286,10 +217,11 @@ struct ScratchFolder {
     }
 };
 
-Result<void> check_shot(const ShotOptions& options, const ShotFiles& files) {
+Result<void> check_shot(const ShotOptions& options, const PictureFiles& files) {
     const ScratchFolder scratch;
     if (!scratch.made) return Error{ErrorKind::failed, scratch.path, "cannot be made"};
-    const ShotFiles again = beside((fs::path(scratch.path) / fs::path(files.picture).filename()).string());
+    const PictureFiles again =
+        picture_files((fs::path(scratch.path) / fs::path(files.picture).filename()).string());
     ORO_CHECK(take_shot(options, again));
     if (!same_bytes(again.picture, files.picture))
         return Error{
@@ -302,7 +234,7 @@ Result<void> check_shot(const ShotOptions& options, const ShotFiles& files) {
 }  // namespace
 
 Result<void> run_shot(const ShotOptions& options) {
-    ORO_TRY(const ShotFiles files, shot_files(options));
+    ORO_TRY(const PictureFiles files, shot_files(options));
     return is_check(options, files) ? check_shot(options, files) : take_shot(options, files);
 }
 

@@ -65,6 +65,12 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     return renderer;
 }
 
+Result<void> FrameRenderer::resize(VkExtent2D extent) {
+    options_.extent = extent;
+    ORO_CHECK(create_images());
+    return create_set();
+}
+
 Result<void> FrameRenderer::create_images() {
     const VkExtent2D extent = options_.extent;
     const VkExtent2D sum_extent = options_.several_samples ? extent : VkExtent2D{1, 1};

@@ -30,6 +30,9 @@ class FrameRenderer {
   public:
     static Result<FrameRenderer> create(const Gpu& gpu, const FrameRendererOptions& options);
 
+    // Takes another size of picture (waits for nothing: draw() has waited).
+    Result<void> resize(VkExtent2D extent);
+
     // Draws one sample of a plan (its tile is within the extent) and waits for it. With sample_count > 1 the
     // picture is complete after the last sample_index. Same plan, pages and style: same bytes, on one driver.
     Result<FrameReport> draw(const PageStore& pages, FramePlan plan, const gpu::FrameStyle& style,

@@ -1,6 +1,6 @@
 #include "render/page_store.h"
 
-#include <algorithm>
+#include <cstring>
 
 namespace oro {
 namespace {
@@ -17,14 +17,11 @@ Result<PageStore> PageStore::create(const Gpu& gpu) {
     return store;
 }
 
-Result<gpu::PageBlock*> PageStore::add_page() {
+Result<void> PageStore::add_page(const gpu::PageBlock& block) {
     if (count_ - sent_ == pages_in_staging) ORO_CHECK(send());
-    auto* const slots = reinterpret_cast<gpu::PageBlock*>(staging_.mapped);
-    return slots + (count_++ - sent_);
-}
-
-void PageStore::drop_last() {
-    --count_;
+    std::memcpy(staging_.mapped + (count_ - sent_) * sizeof(gpu::PageBlock), &block, sizeof block);
+    ++count_;
+    return {};
 }
 
 Result<void> PageStore::finish() {

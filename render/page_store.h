@@ -14,11 +14,8 @@ class PageStore {
   public:
     static Result<PageStore> create(const Gpu& gpu);
 
-    // A page's slot, to be filled by the caller before the next call of add_page or finish. The pointer is
-    // into upload memory (write-only). Errors: out of memory.
-    Result<gpu::PageBlock*> add_page();
-    // Drops the page added last.
-    void drop_last();
+    // Adds a page. Errors: out of memory.
+    Result<void> add_page(const gpu::PageBlock& block);
     // Sends what is not yet sent; to be called after the last page.
     Result<void> finish();
 

@@ -72,14 +72,13 @@ Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exag
     ORO_TRY(PageStore store, PageStore::create(gpu));
     Scene scene{region_shape(field, exaggeration), {}, std::move(store), 0};
     const PageLayout layout = page_layout(field.grid);
+    // Built here and sent as a whole: memory that the GPU reads from is slow to read back.
+    const auto block = std::make_unique<gpu::PageBlock>();
     for (int row = 0; row < layout.rows; ++row) {
         for (int column = 0; column < layout.columns; ++column) {
-            ORO_TRY(gpu::PageBlock* const block, scene.store.add_page());
             const PageSummary page = build_page(field, scene.shape, {row, column}, *block);
-            if (page.triangles == 0) {
-                scene.store.drop_last();
-                continue;
-            }
+            if (page.triangles == 0) continue;
+            ORO_CHECK(scene.store.add_page(*block));
             scene.pages.push_back(page);
             scene.triangles += page.triangles;
         }

@@ -1,0 +1,71 @@
+#include "apps/picture_file.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/region_json.h"
+#include "core/ground.h"
+#include "geo/geodesic.h"
+#include "geo/whole_file.h"
+
+namespace oro {
+
+PictureFiles picture_files(const std::string& picture) {
+    return {picture, std::filesystem::path(picture).replace_extension(".json").string()};
+}
+
+std::optional<DestinationTag> destination_of(const View& view, const Region& region) {
+    const Camera& camera = view.camera;
+    const glm::dvec3 ray = camera.ecef_direction_at({0.5 * camera.width_px, 0.5 * camera.height_px});
+    constexpr double reach_m =
+        1.5e6;  // farther than any sight line over the Earth, and than most orbits are high
+    const auto hit = first_ground_hit(region.field, camera.eye_ecef(), ray,
+                                      std::max(reach_m, 2.0 * camera.eye.h_m), view.exaggeration);
+    if (!hit) return std::nullopt;
+    const GeodesicPath path =
+        geodesic_between(camera.eye.lat_deg, camera.eye.lon_deg, hit->point.lat_deg, hit->point.lon_deg);
+    return DestinationTag{hit->point.lat_deg, hit->point.lon_deg, path.bearing_deg, path.distance_m};
+}
+
+Geotags geotags_of(const View& view, const Region& region) {
+    const Camera& camera = view.camera;
+    Geotags tags;
+    tags.lat_deg = camera.eye.lat_deg;
+    tags.lon_deg = camera.eye.lon_deg;
+    tags.h_m = camera.eye.h_m;
+    tags.N_m = region.field.undulation.at_m(tags.lat_deg, tags.lon_deg);
+    tags.H_m = tags.h_m - tags.N_m;
+    tags.geoid = region.geoid;
+    tags.heading_deg = camera.attitude.heading_deg;
+    tags.pitch_deg = camera.attitude.pitch_deg;
+    tags.roll_deg = camera.attitude.roll_deg;
+    tags.vertical_fov_deg = camera.vertical_fov_deg;
+    tags.width_px = camera.width_px;
+    tags.height_px = camera.height_px;
+    tags.time_utc_s = view.time_utc_s;
+    tags.destination = destination_of(view, region);
+    tags.attribution = attribution_of(region);
+    tags.software = "Orograph " OROGRAPH_VERSION;
+    tags.view_json = view_to_json(view, false);
+    return tags;
+}
+
+Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
+                                    const Region& region, const Gpu& gpu, const Scene& scene,
+                                    const gpu::FrameStyle& style, const RenderProgress& progress) {
+    ORO_TRY(const std::unique_ptr<PictureWriter> writer,
+            create_picture(files.picture, geotags_of(view, region), overwrite));
+    PictureOptions options;
+    options.samples = view.samples;
+    ORO_TRY(PictureReport report,
+            render_picture(
+                gpu, scene, view.camera, style, options,
+                [&](std::span<const std::uint8_t> rgb) { return writer->write_row(rgb); }, progress));
+    if (!gpu.validation_messages().empty())
+        return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
+    ORO_CHECK(write_whole_file(files.view, view_to_json(view, true) + "\n", overwrite));
+    ORO_CHECK(writer->finish());
+    return report;
+}
+
+}  // namespace oro

@@ -1,0 +1,29 @@
+// A view drawn into a file with its geotags, and the view put beside it. Used by shot and by the viewer.
+#pragma once
+
+#include "apps/view.h"
+#include "geo/picture.h"
+#include "render/picture_renderer.h"
+
+namespace oro {
+
+// A picture's file and the view beside it.
+struct PictureFiles {
+    std::string picture;
+    std::string view;
+};
+PictureFiles picture_files(const std::string& picture);
+
+// Where the centre ray of a view meets the ground; nothing where it meets none.
+std::optional<DestinationTag> destination_of(const View& view, const Region& region);
+
+// All that a picture of a view says of itself.
+Geotags geotags_of(const View& view, const Region& region);
+
+// Draws and writes both files, each whole or not at all. Errors: those of the files and of the device; any
+// message of the validation layer, where it is on.
+Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
+                                    const Region& region, const Gpu& gpu, const Scene& scene,
+                                    const gpu::FrameStyle& style, const RenderProgress& progress);
+
+}  // namespace oro

@@ -1,0 +1,229 @@
+// orograph view: a window to fly over a region.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "apps/commands.h"
+#include "apps/flight.h"
+#include "apps/json_text.h"
+#include "apps/picture_file.h"
+#include "apps/progress_bar.h"
+#include "apps/style.h"
+#include "core/ground.h"
+#include "geo/place.h"
+#include "render/window.h"
+
+namespace oro {
+namespace {
+
+// Everything that lives while the window is open.
+struct Viewer {
+    const WindowOptions& options;
+    View view;
+    Region region;
+    gpu::FrameStyle style;
+    const Gpu& gpu;
+    const Scene& scene;
+    Window& window;
+    FrameRenderer& renderer;
+    bool asking_place{false};
+    std::string place_text;
+    std::string message;  // shown in the title until the eye moves
+};
+
+std::string title_of(const Viewer& viewer) {
+    if (viewer.asking_place) return "Go to: " + viewer.place_text + "_";
+    const Camera& camera = viewer.view.camera;
+    const double N_m = viewer.region.field.undulation.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
+    char text[160];
+    std::snprintf(text, sizeof text, "%.6f° %.6f°  H %.1f m  heading %.1f°", camera.eye.lat_deg,
+                  camera.eye.lon_deg, camera.eye.h_m - N_m, camera.attitude.heading_deg);
+    return (viewer.message.empty() ? "" : viewer.message + "  |  ") + text;
+}
+
+FlightStep step_of(const WindowInput& input, const Camera& camera) {
+    const auto axis = [&](Key plus, Key minus) {
+        return (input.is_held(plus) ? 1.0 : 0.0) - (input.is_held(minus) ? 1.0 : 0.0);
+    };
+    FlightStep step;
+    step.forward = axis(Key::forward, Key::back);
+    step.right = axis(Key::right, Key::left);
+    step.up = axis(Key::up, Key::down);
+    step.fast = input.is_held(Key::fast);
+    step.elapsed_s = std::min(input.elapsed_s, 0.25);  // a slow frame must not become a leap
+    const double turn_deg_s = camera.vertical_fov_deg;
+    const double deg_per_px = camera.vertical_fov_deg / camera.height_px;
+    // Dragging takes hold of the scene: it follows the cursor.
+    step.turn_right_deg =
+        axis(Key::look_right, Key::look_left) * turn_deg_s * step.elapsed_s - input.dragged_px.x * deg_per_px;
+    step.turn_up_deg =
+        axis(Key::look_up, Key::look_down) * turn_deg_s * step.elapsed_s + input.dragged_px.y * deg_per_px;
+    return step;
+}
+
+bool moves(const FlightStep& step) {
+    return step.forward != 0.0 || step.right != 0.0 || step.up != 0.0 || step.turn_right_deg != 0.0 ||
+           step.turn_up_deg != 0.0;
+}
+
+// Jumps to a place, as high over its ground as the eye was over the old one.
+void jump(Viewer& viewer) {
+    const auto place = parse_place(viewer.place_text);
+    viewer.asking_place = false;
+    if (!place.ok()) {
+        viewer.message = place.error().line();
+        say(false, viewer.message);
+        return;
+    }
+    Camera& camera = viewer.view.camera;
+    const double exaggeration = viewer.view.exaggeration;
+    const HeightField& field = viewer.region.field;
+    const auto from = ground_h_m(field, camera.eye.lat_deg, camera.eye.lon_deg, exaggeration);
+    const auto to = ground_h_m(field, place->lat_deg, place->lon_deg, exaggeration);
+    const double above_m = std::max(eye_clearance_m, camera.eye.h_m - from.value_or(0.0));
+    camera.eye = {place->lat_deg, place->lon_deg, to ? *to + above_m : std::max(camera.eye.h_m, above_m)};
+    viewer.message = to ? "" : "no data there";
+}
+
+// Typing a place: characters, backspace, enter, escape.
+void ask_place(Viewer& viewer, const WindowInput& input) {
+    viewer.place_text += input.typed;
+    if (input.backspace && !viewer.place_text.empty()) {
+        while (!viewer.place_text.empty() &&
+               (static_cast<unsigned char>(viewer.place_text.back()) & 0xC0U) == 0x80U)
+            viewer.place_text.pop_back();
+        if (!viewer.place_text.empty()) viewer.place_text.pop_back();
+    }
+    if (input.escape) viewer.asking_place = false;
+    if (input.enter) jump(viewer);
+}
+
+// The next free name, from the time: orograph-20261121T090000Z.png, then -2, -3 ...
+std::string free_picture_name(std::int64_t time_utc_s) {
+    std::string stem = "orograph-" + time_text(time_utc_s);
+    std::erase_if(stem, [](char c) { return c == ':'; });
+    std::error_code ignored;
+    for (int i = 1;; ++i) {
+        const std::string name = stem + (i > 1 ? "-" + std::to_string(i) : "") + ".png";
+        if (!std::filesystem::exists(name, ignored) &&
+            !std::filesystem::exists(picture_files(name).view, ignored))
+            return name;
+    }
+}
+
+void take_picture(Viewer& viewer) {
+    viewer.view.time_utc_s =
+        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
+            .count();
+    const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
+    const auto written =
+        write_picture(files, false, viewer.view, viewer.region, viewer.gpu, viewer.scene, viewer.style, {});
+    viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
+    say(viewer.options.quiet && written.ok(), viewer.message);
+}
+
+// One turn of the loop: input, then a frame where something has changed. False when the user leaves.
+Result<bool> turn(Viewer& viewer, bool& changed) {
+    const WindowInput input = viewer.window.poll(changed ? 0.0 : 0.05);
+    if (input.closed) return false;
+    const std::string title_before = title_of(viewer);
+    if (viewer.asking_place) {
+        ask_place(viewer, input);
+        changed = changed || !viewer.asking_place;
+    } else if (input.escape) {
+        return false;
+    } else if (input.go_to) {
+        viewer.asking_place = true;
+        viewer.place_text.clear();
+    } else {
+        const FlightStep step = step_of(input, viewer.view.camera);
+        if (moves(step)) {
+            viewer.view.camera =
+                flown(viewer.view.camera, step, viewer.region.field, viewer.view.exaggeration);
+            viewer.message.clear();
+            changed = true;
+        }
+        if (input.take_picture) take_picture(viewer);
+    }
+    if (title_of(viewer) != title_before) viewer.window.set_title(title_of(viewer));
+    return true;
+}
+
+Result<void> draw_frame(Viewer& viewer, bool& changed) {
+    const VkExtent2D extent = viewer.window.extent();
+    Camera& camera = viewer.view.camera;
+    if (extent.width == 0 || extent.height == 0) return {};
+    if (extent.width != viewer.renderer.extent().width || extent.height != viewer.renderer.extent().height) {
+        ORO_CHECK(viewer.renderer.resize(extent));
+        changed = true;
+    }
+    if (!changed) return {};
+    camera.width_px = static_cast<int>(extent.width);
+    camera.height_px = static_cast<int>(extent.height);
+    const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+    ORO_CHECK(viewer.renderer.draw(
+        viewer.scene.store, plan_frame(viewer.scene.pages, viewer.scene.shape, camera, tile), viewer.style));
+    ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
+    changed = !shown;
+    return {};
+}
+
+Result<void> run_loop(Viewer& viewer) {
+    bool changed = true;
+    viewer.window.set_title(title_of(viewer));
+    for (;;) {
+        ORO_CHECK(draw_frame(viewer, changed));
+        if (!viewer.gpu.validation_messages().empty())
+            return Error{ErrorKind::failed, "Vulkan validation", viewer.gpu.validation_messages().front()};
+        ORO_TRY(const bool stays, turn(viewer, changed));
+        if (!stays) return {};
+    }
+}
+
+Result<void> open_view(const WindowOptions& options, ProgressBar& bar, View& view, Region& region) {
+    const auto progress = [&](double share, const std::string& what) { bar.show(share, "reading " + what); };
+    if (!options.view_file.empty()) {
+        ORO_TRY(view, read_view(options.view_file));
+        ORO_CHECK(change_view(view, options.view));
+        if (!options.region.paths.empty()) view.region.paths = options.region.paths;
+        ORO_TRY(region, open_region(view.region, progress));
+    } else {
+        ORO_TRY(RegionRequest request, region_request(options.region));
+        ORO_TRY(view, view_without_eye(options.view, std::move(request)));
+        ORO_TRY(region, open_region(view.region, progress));
+        ORO_CHECK(place_eye(view, options.view, region));
+    }
+    view.camera = above_ground(view.camera, region.field, view.exaggeration);
+    return {};
+}
+
+}  // namespace
+
+Result<void> run_view(const WindowOptions& options) {
+    ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
+    ProgressBar bar(options.quiet);
+    View view;
+    Region region;
+    ORO_CHECK(open_view(options, bar, view, region));
+    ORO_TRY(const gpu::FrameStyle style, load_style(view.style, view.sun));
+    GpuOptions gpu_options = gpu_options_from_environment();
+    gpu_options.instance_extensions = extensions;
+    gpu_options.presents = true;
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
+    ORO_TRY(const Scene scene, create_scene(*gpu, region.field, view.exaggeration,
+                                            [&](double share) { bar.show(share, "placing posts"); }));
+    if (scene.pages.empty()) return Error{ErrorKind::no_data, "region", "every post is void"};
+    bar.clear();
+    for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
+    ORO_TRY(const std::unique_ptr<Window> window,
+            Window::create(*gpu, view.camera.width_px, view.camera.height_px, "Orograph"));
+    FrameRendererOptions renderer_options;
+    renderer_options.extent = window->extent();
+    if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
+    ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
+    Viewer viewer{options, std::move(view), std::move(region), style, *gpu, scene, *window, renderer};
+    return run_loop(viewer);
+}
+
+}  // namespace oro
