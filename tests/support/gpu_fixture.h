@@ -1,4 +1,5 @@
-// A GPU for render tests, with the validation layer and synchronization validation on: any message fails the test.
+// A GPU for render tests, with the validation layer and synchronization validation on: any message fails the
+// test.
 #pragma once
 
 #include <gtest/gtest.h>

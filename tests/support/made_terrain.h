@@ -7,7 +7,8 @@
 
 namespace oro::test {
 
-// A grid with its north-west post at (north, west), `posts_per_deg` along both axes, H from a function of (lat, lon) in degrees.
+// A grid with its north-west post at (north, west), `posts_per_deg` along both axes, H from a function of
+// (lat, lon) in degrees.
 inline HeightField made_field(double north_deg, double west_deg, double posts_per_deg, int rows, int columns,
                               const std::function<float(double, double)>& H_m) {
     HeightField field;

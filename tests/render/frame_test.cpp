@@ -1,0 +1,211 @@
+// What a frame shows against what is there: rays cast on the CPU, no gaps, and culling that changes nothing.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "core/ground.h"
+#include "render/picture_renderer.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/rough_terrain.h"
+
+namespace oro {
+namespace {
+
+class Frame : public test::GpuTest {
+  protected:
+    static constexpr int side_px = 96;
+
+    void SetUp() override {
+        GpuTest::SetUp();
+        field_ = test::rough_field(46.9, 8.1, 400, 400);
+        auto scene = create_scene(*gpu_, field_, 1.0);
+        ASSERT_TRUE(scene.ok()) << scene.error().line();
+        scene_.emplace(std::move(scene).value());
+        FrameRendererOptions options;
+        options.extent = {side_px, side_px};
+        auto renderer = FrameRenderer::create(*gpu_, options);
+        ASSERT_TRUE(renderer.ok()) << renderer.error().line();
+        renderer_.emplace(std::move(renderer).value());
+    }
+
+    void TearDown() override {
+        renderer_.reset();
+        scene_.reset();
+        GpuTest::TearDown();
+    }
+
+    // An eye over the middle of the region; above_m over its ground.
+    Camera random_camera(std::mt19937& random, double lowest_m, double highest_m, double pitch_low_deg,
+                         double pitch_high_deg) {
+        const auto between = [&](double a, double b) {
+            return std::uniform_real_distribution<double>(a, b)(random);
+        };
+        Camera camera;
+        const double lat_deg = between(46.7, 46.8), lon_deg = between(8.22, 8.32);
+        const double above_m = std::exp(between(std::log(lowest_m), std::log(highest_m)));
+        camera.eye = {lat_deg, lon_deg, *ground_h_m(field_, lat_deg, lon_deg) + above_m};
+        camera.attitude = {between(0, 360), between(pitch_low_deg, pitch_high_deg), between(-180, 180)};
+        camera.vertical_fov_deg = 40.0;
+        camera.width_px = camera.height_px = side_px;
+        return camera;
+    }
+
+    FramePlan plan(const Camera& camera) const {
+        return plan_frame(scene_->pages, scene_->shape, camera, {0, 0, side_px, side_px, {0.5, 0.5}});
+    }
+
+    std::vector<std::uint32_t> drawn_ids(FramePlan frame_plan) {
+        auto drawn = renderer_->draw(scene_->store, std::move(frame_plan), {});
+        EXPECT_TRUE(drawn.ok()) << drawn.error().line();
+        auto ids = renderer_->read_ids(side_px, side_px);
+        EXPECT_TRUE(ids.ok()) << ids.error().line();
+        return *ids;
+    }
+
+    std::vector<float> drawn_depths() {
+        auto depths = renderer_->read_depths(side_px, side_px);
+        EXPECT_TRUE(depths.ok()) << depths.error().line();
+        return *depths;
+    }
+
+    HeightField field_;
+    std::optional<Scene> scene_;
+    std::optional<FrameRenderer> renderer_;
+};
+
+// The distance of each pixel against a ray on the CPU: placement, camera, projection and rasteriser together.
+// Along a ray that grazes the ground the crossing is uncertain by the rasteriser's own grain (1/256 px), so
+// the difference is measured across the ray: the distance error times the sine between ray and surface is not
+// known here, and 1 px of it is allowed for.
+TEST_F(Frame, DistancesAgreeWithRaysOnTheCpu) {
+    constexpr unsigned seed = 41;
+    std::mt19937 random(seed);
+    int compared = 0, far_off = 0, missed = 0;
+    double worst_share = 0.0;
+    for (int i = 0; i < 12; ++i) {
+        const Camera camera = random_camera(random, 2.0, 4000.0, -70.0, -10.0);
+        const auto ids = drawn_ids(plan(camera));
+        const auto depths = drawn_depths();
+        for (int y = 3; y < side_px; y += 7) {
+            for (int x = 3; x < side_px; x += 7) {
+                const glm::dvec3 ray = camera.ecef_direction_at({x + 0.5, y + 0.5});
+                const auto hit = first_ground_hit(field_, camera.eye_ecef(), ray, 1e5);
+                const std::size_t at = static_cast<std::size_t>(y * side_px + x);
+                if (!hit || ids[at] == 0) {
+                    missed += hit.has_value() != (ids[at] != 0) ? 1 : 0;
+                    continue;
+                }
+                const glm::dvec3 view = camera.view_from_ecef() * ray;
+                const double drawn_m = near_plane_m / static_cast<double>(depths[at]) / -view.z;
+                const double share = std::abs(drawn_m - hit->distance_m) / hit->distance_m;
+                ++compared;
+                if (share > 0.01)
+                    ++far_off;
+                else
+                    worst_share = std::max(worst_share, share);
+            }
+        }
+    }
+    std::printf(
+        "seed %u: %d pixels compared, %d on other surfaces or grazing, %d seen by one side only, worst other "
+        "%.2g of the distance\n",
+        seed, compared, far_off, missed, worst_share);
+    EXPECT_GT(compared, 1500);
+    EXPECT_LE(far_off, compared / 50);  // skylines within the picture
+    EXPECT_LE(missed, compared / 100);
+}
+
+TEST_F(Frame, LookingDownShowsNoGap) {
+    constexpr unsigned seed = 42;
+    std::mt19937 random(seed);
+    std::printf("seed %u\n", seed);
+    for (int i = 0; i < 150; ++i) {
+        const Camera camera = random_camera(random, 30.0, 6000.0, -90.0, -75.0);
+        const auto ids = drawn_ids(plan(camera));
+        ASSERT_EQ(std::count(ids.begin(), ids.end(), 0U), 0)
+            << "camera " << i << " at " << camera.eye.lat_deg << "," << camera.eye.lon_deg << " h "
+            << camera.eye.h_m;
+    }
+}
+
+TEST_F(Frame, CullingChangesNoPixel) {
+    constexpr unsigned seed = 43;
+    std::mt19937 random(seed);
+    std::printf("seed %u\n", seed);
+    for (int i = 0; i < 40; ++i) {
+        const Camera camera = random_camera(random, 2.0, 200000.0, -90.0, 20.0);
+        drawn_ids(plan(camera));
+        const auto culled = drawn_depths();
+        // Every page and every meshlet: pages made so large and so high that no test drops them, and no test
+        // on the GPU.
+        std::vector<PageSummary> pages = scene_->pages;
+        for (PageSummary& page : pages) {
+            page.radius_m = 1e12;
+            page.horizon.angle_rad = std::numbers::pi;
+        }
+        FramePlan all = plan_frame(pages, scene_->shape, camera, {0, 0, side_px, side_px, {0.5, 0.5}});
+        ASSERT_EQ(all.pages.size(), pages.size());
+        for (gpu::FramePage& page : all.pages) page.cull = 0;
+        drawn_ids(std::move(all));
+        ASSERT_EQ(culled, drawn_depths()) << "camera " << i;
+    }
+}
+
+TEST_F(Frame, SameInputGivesSameBytes) {
+    std::mt19937 random(44);
+    const Camera camera = random_camera(random, 100.0, 1000.0, -40.0, -10.0);
+    gpu::FrameStyle style{};
+    style.tint_count = 1;
+    style.tints[0].colour = gpu::vec3(0.5F);
+    style.sun_enu = gpu::vec3(0.0F, 0.0F, 1.0F);
+    style.haze_distance_m = 1e5F;
+    style.sky_scale_height_m = 8000.0F;
+    std::vector<std::uint8_t> first;
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(renderer_->draw(scene_->store, plan(camera), style).ok());
+        auto picture = renderer_->read_picture(side_px, side_px);
+        ASSERT_TRUE(picture.ok());
+        if (i == 0) first = *picture;
+        EXPECT_EQ(*picture, first) << "run " << i;
+    }
+}
+
+TEST_F(Frame, TilesJoinIntoTheSamePicture) {
+    std::mt19937 random(45);
+    Camera camera = random_camera(random, 300.0, 1000.0, -30.0, -10.0);
+    camera.width_px = 150;
+    camera.height_px = 100;
+    gpu::FrameStyle style{};
+    style.tint_count = 1;
+    style.tints[0].colour = gpu::vec3(0.5F);
+    style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
+    style.haze_distance_m = 1e5F;
+    style.sky_scale_height_m = 8000.0F;
+    const auto picture = [&](int tile_px, int samples) {
+        std::vector<std::uint8_t> rows;
+        PictureOptions options;
+        options.largest_tile_px = tile_px;
+        options.samples = samples;
+        const auto report = render_picture(*gpu_, *scene_, camera, style, options,
+                                           [&](std::span<const std::uint8_t> rgb) -> Result<void> {
+                                               rows.insert(rows.end(), rgb.begin(), rgb.end());
+                                               return {};
+                                           });
+        EXPECT_TRUE(report.ok()) << report.error().line();
+        return rows;
+    };
+    for (const int samples : {1, 4}) {
+        const auto whole = picture(0, samples), tiled = picture(37, samples);
+        ASSERT_EQ(whole.size(), tiled.size());
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < whole.size(); ++i)
+            different += std::abs(int{whole[i]} - int{tiled[i]}) > 2 ? 1U : 0U;
+        // A tile's projection rounds on its own: a pixel on a skyline may fall to the other side.
+        EXPECT_LE(different, whole.size() / 500) << samples << " samples";
+    }
+}
+
+}  // namespace
+}  // namespace oro
