@@ -222,7 +222,7 @@ Result<void> run_view(const WindowOptions& options) {
     renderer_options.extent = window->extent();
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
-    Viewer viewer{options, std::move(view), std::move(region), style, *gpu, scene, *window, renderer};
+    Viewer viewer{options, std::move(view), std::move(region), style, *gpu, scene, *window, renderer, false, "", ""};
     return run_loop(viewer);
 }
 
