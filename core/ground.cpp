@@ -11,16 +11,9 @@ namespace {
 // A ray against the surface.
 class Ray {
   public:
-    Ray(const HeightField& field, const Ecef& eye, const glm::dvec3& direction, double exaggeration)
-        : field_(field), eye_(eye), direction_(direction), exaggeration_(exaggeration) {
-        const HeightRange range = height_range(field);
-        const auto [lowest_N, highest_N] =
-            std::minmax_element(field.undulation.N_m.begin(), field.undulation.N_m.end());
-        const bool has_N = !field.undulation.N_m.empty();
-        lowest_h_m_ = range.lowest_m * exaggeration + (has_N ? static_cast<double>(*lowest_N) : 0.0) - 1.0e-3;
-        highest_h_m_ =
-            range.highest_m * exaggeration + (has_N ? static_cast<double>(*highest_N) : 0.0) + 1.0e-3;
-    }
+    Ray(const HeightField& field, const GroundLayer& layer, const Ecef& eye, const glm::dvec3& direction,
+        double exaggeration)
+        : field_(field), layer_(layer), eye_(eye), direction_(direction), exaggeration_(exaggeration) {}
 
     std::optional<GroundHit> first_hit(double reach_m) const;
 
@@ -39,11 +32,10 @@ class Ray {
     std::optional<Sample> crossing(const Sample& from, const Sample& to) const;
 
     const HeightField& field_;
+    const GroundLayer& layer_;
     Ecef eye_;
     glm::dvec3 direction_;
     double exaggeration_;
-    double lowest_h_m_{};
-    double highest_h_m_{};
 };
 
 constexpr double refined_m = 1.0e-4;  // along the ray
@@ -65,12 +57,12 @@ double Ray::stride_m(const Sample& here) const {
         field_.grid.lon.spacing_deg() * metres_per_deg * std::cos(radians_from_deg(here.point.lat_deg).rad);
     // Cells turn into slivers towards the poles; narrower than an eighth of their height is not followed.
     const double half_post_m = 0.5 * std::min(row_m, std::max(column_m, row_m / 8.0));
-    return std::max({half_post_m, here.point.h_m - highest_h_m_, lowest_h_m_ - here.point.h_m});
+    return std::max({half_post_m, here.point.h_m - layer_.highest_h_m, layer_.lowest_h_m - here.point.h_m});
 }
 
 // Above everything and climbing: the height along a line is convex, so it never comes down again.
 bool Ray::leaves(const Sample& here) const {
-    if (here.point.h_m <= highest_h_m_) return false;
+    if (here.point.h_m <= layer_.highest_h_m) return false;
     return glm::dot(ecef_from_enu(here.point.lat_deg, here.point.lon_deg)[2], direction_) >= 0.0;
 }
 
@@ -124,9 +116,29 @@ std::optional<double> ground_h_m(const HeightField& field, double lat_deg, doubl
     return *H_m * exaggeration + field.undulation.at_m(lat_deg, lon_deg);
 }
 
+GroundLayer ground_layer(const HeightField& field, double exaggeration) {
+    const HeightRange range = height_range(field);
+    GroundLayer layer{range.lowest_m * exaggeration, range.highest_m * exaggeration};
+    if (!field.undulation.N_m.empty()) {
+        const auto [lowest, highest] =
+            std::minmax_element(field.undulation.N_m.begin(), field.undulation.N_m.end());
+        layer.lowest_h_m += static_cast<double>(*lowest);
+        layer.highest_h_m += static_cast<double>(*highest);
+    }
+    // A millimetre for the rounding of what lies between the posts.
+    layer.lowest_h_m -= 1.0e-3;
+    layer.highest_h_m += 1.0e-3;
+    return layer;
+}
+
+std::optional<GroundHit> first_ground_hit(const HeightField& field, const GroundLayer& layer, const Ecef& eye,
+                                          const glm::dvec3& direction, double reach_m, double exaggeration) {
+    return Ray(field, layer, eye, direction, exaggeration).first_hit(reach_m);
+}
+
 std::optional<GroundHit> first_ground_hit(const HeightField& field, const Ecef& eye,
                                           const glm::dvec3& direction, double reach_m, double exaggeration) {
-    return Ray(field, eye, direction, exaggeration).first_hit(reach_m);
+    return first_ground_hit(field, ground_layer(field, exaggeration), eye, direction, reach_m, exaggeration);
 }
 
 }  // namespace oro
