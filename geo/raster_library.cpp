@@ -1,0 +1,67 @@
+#include "geo/raster_library.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+
+#include <mutex>
+
+namespace oro {
+
+void start_gdal() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        // Terrain files never send this program into the network, whatever a VRT inside them says.
+        CPLSetConfigOption("GDAL_SKIP",
+                           "WMS WMTS WCS HTTP PLMOSAIC PLSCENES EEDA EEDAI DAAS NGW OGCAPI STACTA STACIT "
+                           "PostGISRaster Rasterlite "
+                           "GeoRaster SAFE RDA");
+        CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_FILENAME", "none");
+        OSRSetPROJEnableNetwork(0);
+        // GDAL would write FILE.gz.properties beside a compressed file it has measured.
+        CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
+        // Otherwise GeoTIFF 1.0 files lose the vertical datum that they state.
+        CPLSetConfigOption("GTIFF_REPORT_COMPD_CS", "YES");
+        CPLPushErrorHandler(CPLQuietErrorHandler);  // drivers that this build of GDAL lacks anyway
+        GDALAllRegister();
+        CPLPopErrorHandler();
+        CPLErrorReset();
+    });
+}
+
+GdalMessages::GdalMessages() {
+    CPLPushErrorHandlerEx(&GdalMessages::take, this);
+}
+
+GdalMessages::~GdalMessages() {
+    CPLPopErrorHandler();
+    CPLErrorReset();
+}
+
+void CPL_STDCALL GdalMessages::take(CPLErr severity, CPLErrorNum, const char* message) {
+    if (severity < CE_Failure || message == nullptr) return;
+    static_cast<GdalMessages*>(CPLGetErrorHandlerUserData())->text_ = message;
+}
+
+std::string GdalMessages::last(const std::string& otherwise) const {
+    if (text_.empty()) return otherwise;
+    std::string line = text_;
+    for (char& c : line) {
+        if (c == '\n' || c == '\r') c = ' ';
+    }
+    return line;
+}
+
+SpatialReference wgs84_degrees() {
+    SpatialReference reference(OSRNewSpatialReference(nullptr));
+    OSRImportFromEPSG(reference.get(), 4326);
+    OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    return reference;
+}
+
+SpatialReference spatial_reference(const std::string& wkt) {
+    SpatialReference reference(OSRNewSpatialReference(wkt.c_str()));
+    if (reference) OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    return reference;
+}
+
+}  // namespace oro

@@ -1,0 +1,248 @@
+#include "geo/region_grid.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/ellipsoid.h"
+
+namespace oro {
+namespace {
+
+// Overlaps narrower than this are lines, not areas (1e-7 degree is 1 cm).
+constexpr double line_deg = 1e-7;
+// Posts nearer to a bound than this share of their spacing are on it.
+constexpr double on_post = 1e-6;
+
+double whole_turns(double lon_deg) {
+    return std::floor((lon_deg + 180.0) / 360.0) * 360.0;
+}
+
+// The narrowest interval that holds all spans: what is left of the circle without its largest gap.
+LonSpan narrowest(std::span<const Source> sources) {
+    std::vector<LonSpan> spans;
+    for (const Source& source : sources) {
+        if (source.full_circle) return {-180.0, 180.0};
+        const double turn = whole_turns(source.lon.west_deg);
+        spans.push_back({source.lon.west_deg - turn, source.lon.east_deg - turn});
+    }
+    std::ranges::sort(spans, {}, &LonSpan::west_deg);
+    double covered = spans.front().east_deg;
+    double start = spans.front().west_deg;
+    double largest_gap = -1.0;
+    for (std::size_t i = 1; i < spans.size(); ++i) {
+        const double gap = spans[i].west_deg - covered;
+        if (gap > largest_gap) {
+            largest_gap = gap;
+            start = spans[i].west_deg;
+        }
+        covered = std::max(covered, spans[i].east_deg);
+    }
+    const double gap_over_antimeridian = spans.front().west_deg + 360.0 - covered;
+    if (gap_over_antimeridian >= largest_gap) {
+        largest_gap = gap_over_antimeridian;
+        start = spans.front().west_deg;
+    }
+    if (largest_gap < line_deg) return {-180.0, 180.0};
+    return {start, start + 360.0 - largest_gap};
+}
+
+double finest_per_deg(std::span<const Source> sources, bool latitude, double lat_nearest_equator_deg) {
+    double finest = 0.0;
+    for (const Source& source : sources) {
+        double spacing = latitude ? source.lat_spacing_deg : source.lon_spacing_deg;
+        if (!latitude && source.projected) {
+            const double radius = prime_vertical_radius_m(lat_nearest_equator_deg) *
+                                  std::max(1e-6, std::cos(radians_from_deg(lat_nearest_equator_deg).rad));
+            // Meridians run together towards a pole; a degree is close enough there whatever the metres.
+            spacing = std::min(1.0, deg_from_radians(Radians(source.report.spacing_m / radius)));
+        }
+        finest = std::max(finest, 1.0 / spacing);
+    }
+    return finest;
+}
+
+// A whole number of posts a degree, or of degrees a post, no coarser than asked.
+double rounded_per_deg(double per_deg) {
+    if (per_deg >= 1.0) return std::ceil(per_deg - on_post);
+    return 1.0 / std::floor(1.0 / per_deg + on_post);
+}
+
+// Angle of the post nearest to zero of an axis with posts at `start`.
+double phase_of(double start_deg, double per_deg) {
+    const double index = start_deg * per_deg;
+    const double beside = index - std::round(index);
+    if (std::abs(beside) < on_post) return 0.0;
+    if (std::abs(std::abs(beside) - 0.5) < on_post) return 0.5 / per_deg;
+    return beside / per_deg;
+}
+
+struct Spacing {
+    double per_deg;
+    double phase_deg;
+};
+
+Spacing spacing_of(std::span<const Source> sources, bool latitude, const BoundingBox& box) {
+    const double nearest_equator = box.south_deg <= 0.0 && box.north_deg >= 0.0
+                                       ? 0.0
+                                       : std::min(std::abs(box.south_deg), std::abs(box.north_deg));
+    const double needed = finest_per_deg(sources, latitude, nearest_equator);
+    const Source* reference = nullptr;
+    const auto per_deg = [&](const Source& s) {
+        return latitude ? s.lat_axis.posts_per_deg : s.lon_axis.posts_per_deg;
+    };
+    for (const Source& source : sources) {
+        if (source.on_degrees && (!reference || per_deg(source) > per_deg(*reference))) reference = &source;
+    }
+    if (!reference) return {rounded_per_deg(needed), 0.0};
+    // A quarter coarser than another source is fine enough: a whole second grid would cost twice the posts.
+    const double parts = std::max(1.0, std::ceil(needed / per_deg(*reference) - 0.25));
+    double start = latitude ? reference->lat_axis.start_deg : reference->lon_axis.start_deg;
+    if (!latitude) {
+        const auto turns = turns_that_meet(reference->lon, box.west_deg, box.east_deg);
+        if (!turns.empty()) start += 360.0 * turns.front();
+    }
+    return {parts * per_deg(*reference), phase_of(start, per_deg(*reference))};
+}
+
+// World indices of the first and last post between two angles: outwards where that bound was asked for,
+// otherwise inwards.
+std::pair<std::int64_t, std::int64_t> posts_between(const Spacing& spacing, double low_deg, bool low_asked,
+                                                    double high_deg, bool high_asked) {
+    const double low = (low_deg - spacing.phase_deg) * spacing.per_deg;
+    const double high = (high_deg - spacing.phase_deg) * spacing.per_deg;
+    const double first_out = std::floor(low + on_post);
+    const double last_out = std::ceil(high - on_post);
+    double first = low_asked ? first_out : std::ceil(low - on_post);
+    double last = high_asked ? last_out : std::floor(high + on_post);
+    if (last - first < 1.0) {
+        first = first_out;
+        last = std::max(last_out, first_out + 1.0);
+    }
+    return {static_cast<std::int64_t>(first), static_cast<std::int64_t>(last)};
+}
+
+Result<void> check_size(double rows, double columns, const BoundingBox& box) {
+    // Heights, what is known of each post, and the pages built from them.
+    constexpr double bytes_a_post = 12.0;
+    const double memory =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    const double posts = rows * columns;
+    const double most = std::min(0.75 * memory / bytes_a_post, 1e6 * std::numeric_limits<int>::max());
+    if (posts <= most && std::max(rows, columns) < std::numeric_limits<int>::max()) return {};
+    const double side = std::sqrt(most / posts);
+    char what[320];
+    std::snprintf(what, sizeof what,
+                  "the region would have %.0f x %.0f = %.3g posts, which need %.3g GB; this machine has %.3g "
+                  "GB. Narrow it with "
+                  "--bbox to about %.3g x %.3g degrees, or leave out its finest source",
+                  rows, columns, posts, posts * bytes_a_post / 1e9, memory / 1e9,
+                  (box.east_deg - box.west_deg) * side * 0.99, (box.north_deg - box.south_deg) * side * 0.99);
+    return Error{ErrorKind::failed, "region too large", what};
+}
+
+}  // namespace
+
+BoundingBox unwrapped(const BoundingBox& box) {
+    BoundingBox result = box;
+    if (result.west_deg > result.east_deg) result.east_deg += 360.0;
+    const double turn = whole_turns(result.west_deg);
+    result.west_deg -= turn;
+    result.east_deg -= turn;
+    return result;
+}
+
+std::vector<int> turns_that_meet(const LonSpan& span, double west_deg, double east_deg) {
+    std::vector<int> turns;
+    for (const int turn : {-2, -1, 0, 1, 2}) {
+        const double overlap = std::min(span.east_deg + 360.0 * turn, east_deg) -
+                               std::max(span.west_deg + 360.0 * turn, west_deg);
+        if (overlap > line_deg) turns.push_back(turn);
+    }
+    return turns;
+}
+
+bool meets(const Source& source, const BoundingBox& box) {
+    if (std::min(source.north_deg, box.north_deg) - std::max(source.south_deg, box.south_deg) <= line_deg)
+        return false;
+    return source.full_circle || !turns_that_meet(source.lon, box.west_deg, box.east_deg).empty();
+}
+
+std::optional<RegionExtent> region_extent(std::span<const Source> sources,
+                                          const std::optional<BoundingBox>& asked) {
+    if (sources.empty()) return std::nullopt;
+    BoundingBox limits{};
+    if (asked) {
+        limits = unwrapped(*asked);
+    } else {
+        const LonSpan span = narrowest(sources);
+        limits = {span.west_deg, -90.0, span.east_deg, 90.0};
+    }
+    BoundingBox hull{limits.east_deg, 90.0, limits.west_deg, -90.0};
+    bool any = false;
+    for (const Source& source : sources) {
+        if (!meets(source, limits)) continue;
+        any = true;
+        hull.south_deg = std::min(hull.south_deg, std::max(source.south_deg, limits.south_deg));
+        hull.north_deg = std::max(hull.north_deg, std::min(source.north_deg, limits.north_deg));
+        if (source.full_circle) {
+            hull.west_deg = limits.west_deg;
+            hull.east_deg = limits.east_deg;
+            continue;
+        }
+        for (const int turn : turns_that_meet(source.lon, limits.west_deg, limits.east_deg)) {
+            hull.west_deg =
+                std::min(hull.west_deg, std::max(source.lon.west_deg + 360.0 * turn, limits.west_deg));
+            hull.east_deg =
+                std::max(hull.east_deg, std::min(source.lon.east_deg + 360.0 * turn, limits.east_deg));
+        }
+    }
+    if (!any) return std::nullopt;
+    RegionExtent extent{hull};
+    if (asked) {
+        extent.west_asked = hull.west_deg == limits.west_deg;
+        extent.east_asked = hull.east_deg == limits.east_deg;
+        extent.south_asked = hull.south_deg == limits.south_deg;
+        extent.north_asked = hull.north_deg == limits.north_deg;
+    }
+    const double turn = whole_turns(extent.box.west_deg);
+    extent.box.west_deg -= turn;
+    extent.box.east_deg -= turn;
+    return extent;
+}
+
+Result<PostGrid> region_grid(std::span<const Source> sources, const RegionExtent& extent) {
+    const BoundingBox& box = extent.box;
+    const Spacing lat = spacing_of(sources, true, box);
+    const Spacing lon = spacing_of(sources, false, box);
+    auto [south, north] =
+        posts_between(lat, box.south_deg, extent.south_asked, box.north_deg, extent.north_asked);
+    const auto pole = [&](double pole_deg) { return (pole_deg - lat.phase_deg) * lat.per_deg; };
+    north = std::min(north, static_cast<std::int64_t>(std::floor(pole(90.0) + on_post)));
+    south = std::max(south, static_cast<std::int64_t>(std::ceil(pole(-90.0) - on_post)));
+    auto [west, east] = posts_between(lon, box.west_deg, extent.west_asked, box.east_deg, extent.east_asked);
+    const double circle = 360.0 * lon.per_deg;
+    if (box.east_deg - box.west_deg >= 360.0 - line_deg ||
+        static_cast<double>(east - west) > circle + on_post) {
+        west = static_cast<std::int64_t>(std::ceil((box.west_deg - lon.phase_deg) * lon.per_deg - on_post));
+        east = west + static_cast<std::int64_t>(std::floor(circle + on_post));
+    }
+    // A first post snapped beyond the antimeridian is the same one at the other end of the world, if the
+    // posts close up.
+    if (lon.phase_deg + static_cast<double>(west) / lon.per_deg < -180.0) {
+        const bool closes = std::abs(circle - std::round(circle)) < on_post;
+        const auto turn = static_cast<std::int64_t>(std::round(circle));
+        west += closes ? turn : 1;
+        east += closes ? turn : 0;
+    }
+    ORO_CHECK(check_size(static_cast<double>(north - south + 1), static_cast<double>(east - west + 1), box));
+    PostGrid grid;
+    grid.lat = {lat.per_deg, lat.phase_deg, north, -1, static_cast<int>(north - south + 1)};
+    grid.lon = {lon.per_deg, lon.phase_deg, west, +1, static_cast<int>(east - west + 1)};
+    return grid;
+}
+
+}  // namespace oro

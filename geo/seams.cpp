@@ -1,0 +1,115 @@
+#include "geo/seams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+namespace oro {
+namespace {
+
+std::string_view file_name(const Source& source) {
+    const std::string_view path = source.report.path;
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string_view::npos ? path : path.substr(slash + 1);
+}
+
+}  // namespace
+
+std::vector<std::size_t> by_precedence(std::span<const Source> sources) {
+    // Spacings are compared in classes, so that the order stays one: each class starts at its finest member.
+    std::vector<std::size_t> order(sources.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return sources[i].lat_spacing_deg; });
+    std::vector<int> spacing_class(sources.size());
+    double finest = 0.0;
+    int current = 0;
+    for (const std::size_t i : order) {
+        if (sources[i].lat_spacing_deg > finest * (1.0 + 1e-6)) {
+            finest = sources[i].lat_spacing_deg;
+            ++current;
+        }
+        spacing_class[i] = current;
+    }
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+        if (spacing_class[a] != spacing_class[b]) return spacing_class[a] < spacing_class[b];
+        const std::string_view name_a = file_name(sources[a]);
+        const std::string_view name_b = file_name(sources[b]);
+        if (name_a != name_b) return name_a < name_b;
+        return sources[a].report.path < sources[b].report.path;
+    });
+    return order;
+}
+
+JoinedSurface::JoinedSurface(const PostGrid& grid)
+    : grid_(grid), heights_(grid.post_count(), void_height_m), marks_(grid.post_count(), 0) {}
+
+void JoinedSurface::lay(int row, int first_column, std::span<const float> heights,
+                        std::span<const unsigned char> inside, bool own_posts) {
+    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
+                              static_cast<std::size_t>(first_column);
+    for (std::size_t c = 0; c < heights.size(); ++c) {
+        if (!inside[c]) continue;
+        const std::size_t post = start + c;
+        unsigned char& marks = marks_[post];
+        marks |= covered_mark;
+        if (is_void(heights[c])) continue;
+        if (is_void(heights_[post])) {
+            heights_[post] = heights[c];
+            if (own_posts) marks |= own_mark;
+            continue;
+        }
+        if (!own_posts || !(marks & own_mark)) continue;
+        if (!(marks & shared_mark)) ++seams_.shared_posts;
+        marks |= shared_mark;
+        const double difference =
+            std::abs(static_cast<double>(heights[c]) - static_cast<double>(heights_[post]));
+        if (difference > 0.0 && !(marks & disagreeing_mark)) {
+            ++seams_.disagreeing_posts;
+            marks |= disagreeing_mark;
+        }
+        seams_.largest_difference_m = std::max(seams_.largest_difference_m, difference);
+    }
+}
+
+void JoinedSurface::lay_later(int row, int first_column, std::span<const float> heights) {
+    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
+                              static_cast<std::size_t>(first_column);
+    for (std::size_t c = 0; c < heights.size(); ++c) {
+        if (!is_void(heights[c])) later_.push_back({start + c, heights[c]});
+    }
+}
+
+void JoinedSurface::unite_pole(int row) {
+    const auto columns = static_cast<std::size_t>(grid_.columns());
+    const std::span<float> posts(heights_.data() + static_cast<std::size_t>(row) * columns, columns);
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const float height : posts) {
+        if (is_void(height)) continue;
+        sum += static_cast<double>(height);
+        ++count;
+    }
+    if (count == 0) return;
+    std::ranges::fill(posts, static_cast<float>(sum / static_cast<double>(count)));
+}
+
+void JoinedSurface::finish() {
+    for (const Later& later : later_) {
+        if (is_void(heights_[later.post])) heights_[later.post] = later.height;
+    }
+    later_ = {};
+    const auto columns = static_cast<std::size_t>(grid_.columns());
+    if (grid_.columns() > 1 && std::abs(grid_.east_deg() - grid_.west_deg() - 360.0) < 1e-9) {
+        for (std::size_t first = 0; first < heights_.size(); first += columns) {
+            float& west = heights_[first];
+            float& east = heights_[first + columns - 1];
+            if (is_void(west)) west = east;
+            east = west;
+        }
+    }
+    if (grid_.north_deg() >= 90.0) unite_pole(0);
+    if (grid_.south_deg() <= -90.0) unite_pole(grid_.rows() - 1);
+}
+
+}  // namespace oro
