@@ -20,13 +20,16 @@ std::vector<std::size_t> by_precedence(std::span<const Source> sources) {
     // Spacings are compared in classes, so that the order stays one: each class starts at its finest member.
     std::vector<std::size_t> order(sources.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, {}, [&](std::size_t i) { return sources[i].lat_spacing_deg; });
+    const auto spacing = [&](std::size_t i) {
+        return std::sqrt(sources[i].lat_spacing_deg * sources[i].lon_spacing_deg);
+    };
+    std::ranges::sort(order, {}, spacing);
     std::vector<int> spacing_class(sources.size());
     double finest = 0.0;
     int current = 0;
     for (const std::size_t i : order) {
-        if (sources[i].lat_spacing_deg > finest * (1.0 + 1e-6)) {
-            finest = sources[i].lat_spacing_deg;
+        if (spacing(i) > finest * (1.0 + 1e-6)) {
+            finest = spacing(i);
             ++current;
         }
         spacing_class[i] = current;

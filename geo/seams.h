@@ -12,7 +12,8 @@
 
 namespace oro {
 
-// The order in which sources take posts: the finer spacing first (equal when within a millionth), among
+// The order in which sources take posts: the finer spacing first (the
+// geometric mean of both axes' degrees; equal when within a millionth), among
 // equals by the byte order of file names, then of whole paths.
 std::vector<std::size_t> by_precedence(std::span<const Source> sources);
 

@@ -99,14 +99,19 @@ Weights linear_weights(double at, const Weights& cubic) {
 
 }  // namespace
 
-float cubic_height_m(const PostBlock& block, int rows, int columns, bool round, double column, double row) {
+float cubic_height_m(const PostBlock& block, int rows, int columns, bool round, double column, double row,
+                     double limit_m) {
+    const double on_column = round ? column : std::clamp(column, 0.0, columns - 1.0);
+    const double on_row = std::clamp(row, 0.0, rows - 1.0);
     const Weights u = cubic_weights(column, columns, round);
     const Weights v = cubic_weights(row, rows, false);
-    double height = 0.0;
-    if (weighted(block, columns, round, u, v, height)) return static_cast<float>(height);
-    if (weighted(block, columns, round, linear_weights(column, u), linear_weights(row, v), height))
-        return static_cast<float>(height);
-    return void_height_m;
+    const Weights u_linear = linear_weights(on_column, cubic_weights(on_column, columns, round));
+    const Weights v_linear = linear_weights(on_row, cubic_weights(on_row, rows, false));
+    double linear = 0.0;
+    double cubic = 0.0;
+    if (!weighted(block, columns, round, u_linear, v_linear, linear)) return void_height_m;
+    if (!weighted(block, columns, round, u, v, cubic)) return static_cast<float>(linear);
+    return static_cast<float>(std::clamp(cubic, linear - limit_m, linear + limit_m));
 }
 
 // WGS84 degrees to (fractional) post numbers of a source.
@@ -233,7 +238,8 @@ std::string SourceOnGrid::placement() const {
     if (fit_ == Fit::every_kth_post)
         return "interpolated over its triangles, every " + std::to_string(std::max(lat_part_, lon_part_)) +
                "th post of the region" + moved;
-    return "cubic resampling from " + source_->report.crs.substr(0, source_->report.crs.find(' '));
+    const std::string& crs = source_->report.crs;
+    return "cubic resampling from " + (crs.starts_with("EPSG:") ? crs.substr(0, crs.find(' ')) : crs);
 }
 
 PostWindow SourceOnGrid::window_for(int first_row, int rows) {
@@ -377,13 +383,14 @@ void SourceOnGrid::resample_row(int row, std::span<float> heights, std::span<flo
     const int rows = source_->on_degrees ? source_->lat_axis.count : source_->report.rows;
     const int columns = source_->on_degrees ? source_->lon_axis.count : source_->report.columns;
     constexpr double slack = 1e-6;
+    const double limit_m = 0.5 * source_->report.spacing_m;  // a slope of 45 degrees
     for (std::size_t c = 0; c < count; ++c) {
         if (std::isnan(x[c])) continue;
         const double out_columns = round ? 0.0 : std::max(-x[c], x[c] - (columns - 1));
         const double out = std::max({out_columns, -y[c], y[c] - (rows - 1)});
         if (out > 0.5 + slack) continue;
         inside[c] = 1;
-        const float height = cubic_height_m(block_, rows, columns, round, x[c], y[c]);
+        const float height = cubic_height_m(block_, rows, columns, round, x[c], y[c], limit_m);
         (out > slack ? beyond : heights)[c] = height;
     }
 }
