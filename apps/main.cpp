@@ -1,6 +1,7 @@
 // The program's door: reads the command line, runs one command, turns an error into one line and an exit
 // code.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 
 #include "apps/commands.h"
@@ -59,6 +60,8 @@ int exit_code(const oro::Result<void>& result) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // A file that outgrows the shell's limit is a write that fails, and told as such.
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app{about, "orograph"};
     app.footer(exit_codes);
     app.require_subcommand(1);

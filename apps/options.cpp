@@ -3,14 +3,24 @@
 #include <CLI/CLI.hpp>
 
 namespace oro {
+namespace {
+
+// `--bbox "$BOX"` with nothing in BOX must not mean the whole region.
+std::string fault_if_empty(const std::string& text) {
+    return text.empty() ? "is empty" : "";
+}
+
+}  // namespace
 
 void add_region_options(CLI::App& command, RegionOptions& options) {
     command.add_option("PATH", options.paths,
                        "Elevation data: files, folders, .zip, .gz; what GDAL opens and .hgt");
     CLI::Option* bbox = command.add_option(
         "--bbox", options.bbox, "Region as west,south,east,north in degrees; west > east crosses 180");
+    bbox->check(fault_if_empty);
     command
         .add_option("--tile", options.tile, "Region as a cell N46E008 or a range of cells N46E006:N47E010")
+        ->check(fault_if_empty)
         ->excludes(bbox);
     command.add_option("--height-unit", options.height_unit, "Unit of the heights, over what the files say")
         ->check(CLI::IsMember({"m", "ft", "us-ft", "cm"}));

@@ -70,11 +70,10 @@ bool is_check(const ShotOptions& options, const PictureFiles& files) {
 }
 
 ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
-                       const gpu::FrameStyle& style) {
+                       const Style& style) {
     const Geotags tags = geotags_of(shot.view, shot.region);
     const glm::dvec3 ecef = shot.view.camera.eye_ecef().m;
     const gpu::FrameCounts& counts = shot.picture.frame.counts;
-    const SunDirection sun = sun_of(style);
     ordered_json json;
     json["picture"] = files.picture;
     json["view"] = files.view;
@@ -92,7 +91,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["size_px"] = {tags.width_px, tags.height_px};
     json["samples"] = shot.view.samples;
     json["exaggeration"] = shot.view.exaggeration;
-    json["sun"] = {{"azimuth_deg", sun.azimuth_deg}, {"elevation_deg", sun.elevation_deg}};
+    json["sun"] = {{"azimuth_deg", style.sun.azimuth_deg}, {"elevation_deg", style.sun.elevation_deg}};
     json["time"] = time_text(shot.view.time_utc_s);
     json["destination"] = nullptr;
     if (const auto& d = tags.destination)
@@ -168,7 +167,7 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
 
 namespace {
 
-Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, bool announced) {
     for (const std::string& file : {files.picture, files.view}) {
         if (!options.overwrite && access(file.c_str(), F_OK) == 0)
             return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
@@ -176,7 +175,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     ProgressBar bar(options.quiet);
     ShotResult shot;
     ORO_CHECK(open_view(options, bar, shot));
-    ORO_TRY(const gpu::FrameStyle style, load_style(shot.view.style, shot.view.sun));
+    ORO_TRY(const Style style, load_style(shot.view.style, shot.view.sun));
     bar.clear();
     say_notes(options, shot);
 
@@ -189,11 +188,11 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     shot.triangles_at_full_resolution = scene.triangles;
     shot.times.pages_s = seconds_since(start);
     const auto drawing = Clock::now();
-    ORO_TRY(shot.picture, write_picture(files, options.overwrite, shot.view, shot.region, *gpu, scene, style,
-                                        [&](double share) { bar.show(share, "drawing"); }));
+    ORO_TRY(shot.picture, write_picture(files, options.overwrite, shot.view, shot.region, *gpu, scene,
+                                        style.frame, [&](double share) { bar.show(share, "drawing"); }));
     shot.times.draw_s = seconds_since(drawing);
     bar.clear();
-    say(options.quiet, "wrote " + files.picture + " and " + files.view);
+    say(options.quiet || !announced, "wrote " + files.picture + " and " + files.view);
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, *gpu, style), true).c_str());
     return {};
 }
@@ -222,7 +221,7 @@ Result<void> check_shot(const ShotOptions& options, const PictureFiles& files) {
     if (!scratch.made) return Error{ErrorKind::failed, scratch.path, "cannot be made"};
     const PictureFiles again =
         picture_files((fs::path(scratch.path) / fs::path(files.picture).filename()).string());
-    ORO_CHECK(take_shot(options, again));
+    ORO_CHECK(take_shot(options, again, false));
     if (!same_bytes(again.picture, files.picture))
         return Error{
             ErrorKind::failed, files.picture,
@@ -235,7 +234,7 @@ Result<void> check_shot(const ShotOptions& options, const PictureFiles& files) {
 
 Result<void> run_shot(const ShotOptions& options) {
     ORO_TRY(const PictureFiles files, shot_files(options));
-    return is_check(options, files) ? check_shot(options, files) : take_shot(options, files);
+    return is_check(options, files) ? check_shot(options, files) : take_shot(options, files, true);
 }
 
 }  // namespace oro

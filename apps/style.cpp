@@ -39,7 +39,7 @@ float positive(const nlohmann::json& json, const char* name) {
     return value;
 }
 
-gpu::FrameStyle read_style(const nlohmann::json& json, const std::optional<SunDirection>& wanted_sun) {
+Style read_style(const nlohmann::json& json, const std::optional<SunDirection>& wanted_sun) {
     gpu::FrameStyle style{};
     const auto& tints = json.at("tints");
     if (tints.empty() || tints.size() > gpu::tint_stops_max)
@@ -59,17 +59,18 @@ gpu::FrameStyle read_style(const nlohmann::json& json, const std::optional<SunDi
     style.ambient = json.at("ambient").get<float>();
     if (!(style.ambient >= 0.0F && style.ambient <= 1.0F))
         throw StyleFault{"ambient must be between 0 and 1"};
+    style.relief = positive(json, "relief");
     style.haze_colour = colour_of(json.at("haze").at("colour"));
     style.haze_distance_m = positive(json.at("haze"), "distance_m");
     style.zenith_colour = colour_of(json.at("sky").at("zenith"));
     style.sky_scale_height_m = positive(json.at("sky"), "scale_height_m");
     style.no_data_colour = colour_of(json.at("no_data"));
-    return style;
+    return {style, sun};
 }
 
 }  // namespace
 
-Result<gpu::FrameStyle> load_style(const std::string& name, const std::optional<SunDirection>& sun) {
+Result<Style> load_style(const std::string& name, const std::optional<SunDirection>& sun) {
     const bool is_path = name.ends_with(".json") || name.find('/') != std::string::npos;
     const std::string path = is_path ? name : (data_folder() / "styles" / (name + ".json")).string();
     std::ifstream file(path);
@@ -83,12 +84,6 @@ Result<gpu::FrameStyle> load_style(const std::string& name, const std::optional<
     } catch (const StyleFault& fault) {
         return Error{ErrorKind::failed, path, fault.what};
     }
-}
-
-SunDirection sun_of(const gpu::FrameStyle& style) {
-    const double azimuth = deg_from_radians(Radians{std::atan2(style.sun_enu.x, style.sun_enu.y)});
-    return {std::fmod(azimuth + 360.0, 360.0),
-            deg_from_radians(Radians{std::asin(static_cast<double>(style.sun_enu.z))})};
 }
 
 }  // namespace oro

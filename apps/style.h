@@ -8,11 +8,14 @@
 
 namespace oro {
 
+// A style ready for the GPU, and the sun it is lit by.
+struct Style {
+    gpu::FrameStyle frame;
+    SunDirection sun;
+};
+
 // A style by name (in the data folder) or by path (ending in .json), lit by the view's sun where it has one.
 // Colours are turned from sRGB to linear light. Errors: no such style, or what is wrong in it.
-Result<gpu::FrameStyle> load_style(const std::string& name, const std::optional<SunDirection>& sun);
-
-// The sun of a style, for reports.
-SunDirection sun_of(const gpu::FrameStyle& style);
+Result<Style> load_style(const std::string& name, const std::optional<SunDirection>& sun);
 
 }  // namespace oro

@@ -206,7 +206,7 @@ Result<void> run_view(const WindowOptions& options) {
     View view;
     Region region;
     ORO_CHECK(open_view(options, bar, view, region));
-    ORO_TRY(const gpu::FrameStyle style, load_style(view.style, view.sun));
+    ORO_TRY(const Style style, load_style(view.style, view.sun));
     GpuOptions gpu_options = gpu_options_from_environment();
     gpu_options.instance_extensions = extensions;
     gpu_options.presents = true;
@@ -222,7 +222,9 @@ Result<void> run_view(const WindowOptions& options) {
     renderer_options.extent = window->extent();
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
-    Viewer viewer{options, std::move(view), std::move(region), style, *gpu, scene, *window, renderer, false, "", ""};
+    Viewer viewer{options, std::move(view), std::move(region), style.frame, *gpu,
+                  scene,   *window,         renderer,          false,       "",
+                  ""};
     return run_loop(viewer);
 }
 

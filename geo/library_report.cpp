@@ -31,10 +31,10 @@ LibraryReport report_libraries() {
     report.proj = proj.version;
     report.geographiclib = GEOGRAPHICLIB_VERSION_STRING;
     report.geoids = {
-        look_for("EGM96", {"us_nga_egm96_15.tif", "egm96_15.gtx"},
+        look_for("EGM96", {"egm96_15.gtx", "us_nga_egm96_15.tif"},
                  "SRTM heights are lifted onto the ellipsoid by it",
                  "N = 0 stands in: heights above the ellipsoid are off by up to 107 m (install proj-data)"),
-        look_for("EGM2008", {"us_nga_egm08_25.tif", "egm08_25.gtx"},
+        look_for("EGM2008", {"egm08_25.gtx", "us_nga_egm08_25.tif"},
                  "heights that state EGM2008 are honoured",
                  "EGM96 stands in for heights that state EGM2008 (differences are mostly below 1 m); "
                  "--strict-datum refuses them"),

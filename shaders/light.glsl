@@ -24,9 +24,10 @@ vec3 in_haze(vec3 colour, float to_h_m, float distance_m) {
 }
 
 vec3 lit_ground(SurfacePoint point) {
-    float direct = max(dot(point.normal, FRAME.style.sun_enu), 0.0);
+    vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
+    float direct = max(dot(normal, FRAME.style.sun_enu), 0.0);
     // The sky's share falls with the slope: a wall sees half of it.
-    float diffuse = 0.5 + 0.5 * point.normal.z;
+    float diffuse = 0.5 + 0.5 * normal.z;
     float light = FRAME.style.ambient * diffuse + (1.0 - FRAME.style.ambient) * direct;
     return in_haze(tint(FRAME.style, point.H_m) * light, point.H_m, length(point.view));
 }

@@ -113,6 +113,7 @@ struct FrameStyle {
     uint tint_count;
     vec3 sun_enu;            // unit vector towards the sun in the local frame of every place (a map's light)
     float ambient;           // share of the light that has no direction
+    float relief;            // slopes are shaded as if they were this much steeper (1: as they are)
     vec3 haze_colour;
     float haze_distance_m;   // distance at which haze has taken 63 % of the colour
     vec3 zenith_colour;

@@ -160,6 +160,7 @@ TEST_F(Frame, SameInputGivesSameBytes) {
     style.tint_count = 1;
     style.tints[0].colour = gpu::vec3(0.5F);
     style.sun_enu = gpu::vec3(0.0F, 0.0F, 1.0F);
+    style.relief = 1.0F;
     style.haze_distance_m = 1e5F;
     style.sky_scale_height_m = 8000.0F;
     std::vector<std::uint8_t> first;
@@ -181,6 +182,7 @@ TEST_F(Frame, TilesJoinIntoTheSamePicture) {
     style.tint_count = 1;
     style.tints[0].colour = gpu::vec3(0.5F);
     style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
+    style.relief = 1.0F;
     style.haze_distance_m = 1e5F;
     style.sky_scale_height_m = 8000.0F;
     const auto picture = [&](int tile_px, int samples) {

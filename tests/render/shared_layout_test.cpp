@@ -96,6 +96,7 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(FrameStyle, tint_count);
     ORO_MEMBER(FrameStyle, sun_enu);
     ORO_MEMBER(FrameStyle, ambient);
+    ORO_MEMBER(FrameStyle, relief);
     ORO_MEMBER(FrameStyle, haze_colour);
     ORO_MEMBER(FrameStyle, haze_distance_m);
     ORO_MEMBER(FrameStyle, zenith_colour);
