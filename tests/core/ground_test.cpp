@@ -170,13 +170,16 @@ TEST(Ground, HolesAreSeenThrough) {
 TEST(Ground, TheRimOfTheDataIsExact) {
     // A steep plane whose rim the ray meets within its last stride: found on the data, missed beside it.
     const HeightField field = alpine_field([](double, double) { return 500.0; });
+    const GroundLayer layer = ground_layer(field);
     for (const double offset_deg : {-1.0e-7, 1.0e-7}) {  // 1 cm
-        const Geodetic target{46.0 - offset_deg, 8.5, 500.0};
-        const Geodetic eye{45.9, 8.5, 20000.0};
-        const Attitude attitude = attitude_towards(eye, target);
-        const auto hit = first_ground_hit(field, ecef_from_geodetic(eye),
-                                          towards(eye, attitude.heading_deg, attitude.pitch_deg), 1e5);
-        EXPECT_EQ(hit.has_value(), offset_deg < 0.0);
+        for (const double eye_lat_deg : {45.9, 46.1}) {  // from outside, and over the data
+            const Geodetic target{46.0 - offset_deg, 8.5, 500.0};
+            const Geodetic eye{eye_lat_deg, 8.5, 20000.0};
+            const Attitude attitude = attitude_towards(eye, target);
+            const auto hit = first_ground_hit(field, layer, ecef_from_geodetic(eye),
+                                              towards(eye, attitude.heading_deg, attitude.pitch_deg), 1e5);
+            EXPECT_EQ(hit.has_value(), offset_deg < 0.0) << eye_lat_deg;
+        }
     }
 }
 
