@@ -23,6 +23,9 @@ struct PageLayout {
     int rows{};
     int columns{};
 };
+// Where a region goes round the Earth and its quads are no multiple of 128, its last column lies within a
+// page, and so may a pole's row: those posts are placed like inner ones, within the page's error of their
+// twins on the first column's rim.
 PageLayout page_layout(const PostGrid& grid);
 
 // What holds for the whole region and every page of it.
