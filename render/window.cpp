@@ -187,8 +187,10 @@ WindowInput Window::poll(double wait_s) {
     }
     glm::dvec2 cursor;
     glfwGetCursorPos(window_, &cursor.x, &cursor.y);
-    if (glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
-        input_.dragged_px = cursor - cursor_;
+    // A drag begins where the button went down, not where the cursor was before.
+    const bool pressed = glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
+    if (pressed && dragging_) input_.dragged_px = cursor - cursor_;
+    dragging_ = pressed;
     cursor_ = cursor;
     input_.closed = glfwWindowShouldClose(window_) != 0;
     const double now = glfwGetTime();

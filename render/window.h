@@ -81,6 +81,7 @@ class Window {
     OwnedSemaphore acquired_, drawn_;
     WindowInput input_;
     glm::dvec2 cursor_{0.0};
+    bool dragging_{false};
     double last_poll_s_{};
 };
 
