@@ -173,9 +173,13 @@ std::string without_inner_spaces(std::string text) {
 
 // One angle, with GeographicLib for degrees, minutes and seconds. Its sums ("40:30+0:0:30") and a sign beside
 // a letter
-// ("S-46") are refused: they are typing errors more often than meant.
+// ("S-46") are refused: they are typing errors more often than meant. The form is checked here to the end,
+// for version 2.1.2 writes outside its arrays when there are more than three components.
 Result<double> read_angle(const std::string& text, const std::string& token, GeographicLib::DMS::flag& kind) {
-    static const std::regex form(R"([+-]?[0-9.:dD'"]+|[NSEWnsew][0-9.:dD'"]+|[0-9.:dD'"]+[NSEWnsew])");
+    static const std::string number = R"(([0-9]+\.?[0-9]*|\.[0-9]+))";
+    static const std::string marks = number + "([dD](" + number + "('(" + number + "\"?)?)?)?)?";
+    static const std::string angle = "(" + marks + "|" + number + ":" + number + "(:" + number + ")?)";
+    static const std::regex form("[+-]?" + angle + "|[NSEWnsew]" + angle + "|" + angle + "[NSEWnsew]");
     kind = GeographicLib::DMS::NONE;
     if (const auto plain = decimal_number(token)) return *plain;
     if (!std::regex_match(token, form)) return refused(text, "\"" + token + "\" is not an angle");

@@ -164,6 +164,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "not an angle"},
         Refusal{"S-46 E8", "not an angle"}, Refusal{"46N 47N", "two latitudes"},
         Refusal{"7E 8E", "two longitudes"}, Refusal{"46d61' 8d", "61"}, Refusal{"46d34'60.5\" 8d", "60.5"},
+        // Found by the fuzzer: GeographicLib 2.1.2 crashes on four components.
+        Refusal{"46:36:34:346:36:34:35 7", "not an angle"}, Refusal{"1d2d3d4d5d,7", "not an angle"},
+        Refusal{"46d35\",7d", "not an angle"}, Refusal{"46d34'35\"36 7d", "not an angle"},
+        Refusal{"46.5d34' 7d", "place"}, Refusal{"34',7d", "not an angle"}, Refusal{"46:,7", "not an angle"},
         // out of range
         Refusal{"90.0001,8", "latitude 90.0001 is outside"}, Refusal{"200,8", "latitude 200 is outside"},
         Refusal{"95N 8E", "latitude 95 is outside"}, Refusal{"0,190", "write -170"},
