@@ -11,20 +11,17 @@ void start_gdal() {
     static std::once_flag once;
     std::call_once(once, [] {
         // Terrain files never send this program into the network, whatever a VRT inside them says.
-        CPLSetConfigOption("GDAL_SKIP",
-                           "WMS WMTS WCS HTTP PLMOSAIC PLSCENES EEDA EEDAI DAAS NGW OGCAPI STACTA STACIT "
-                           "PostGISRaster Rasterlite "
-                           "GeoRaster SAFE RDA");
         CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_FILENAME", "none");
         OSRSetPROJEnableNetwork(0);
         // GDAL would write FILE.gz.properties beside a compressed file it has measured.
         CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
         // Otherwise GeoTIFF 1.0 files lose the vertical datum that they state.
         CPLSetConfigOption("GTIFF_REPORT_COMPD_CS", "YES");
-        CPLPushErrorHandler(CPLQuietErrorHandler);  // drivers that this build of GDAL lacks anyway
         GDALAllRegister();
-        CPLPopErrorHandler();
-        CPLErrorReset();
+        for (const char* name : {"WMS", "WMTS", "WCS", "HTTP", "PLMOSAIC", "PLSCENES", "EEDA", "EEDAI",
+                                 "DAAS", "NGW", "OGCAPI", "STACTA", "STACIT", "PostGISRaster"}) {
+            if (const GDALDriverH driver = GDALGetDriverByName(name)) GDALDeregisterDriver(driver);
+        }
     });
 }
 
