@@ -63,8 +63,14 @@ Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, c
                 [&](std::span<const std::uint8_t> rgb) { return writer->write_row(rgb); }, progress));
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
-    ORO_CHECK(write_whole_file(files.view, view_to_json(view, true) + "\n", overwrite));
+    // The view is on the disk before the picture gets its name, and gets its own name after: when the disk is
+    // full, neither changes.
+    ORO_TRY(WholeFile view_file, WholeFile::create(files.view, overwrite));
+    const std::string text = view_to_json(view, true) + "\n";
+    ORO_CHECK(view_file.write(text.data(), text.size()));
+    ORO_CHECK(view_file.settle());
     ORO_CHECK(writer->finish());
+    ORO_CHECK(view_file.commit());
     return report;
 }
 

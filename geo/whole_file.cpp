@@ -155,12 +155,19 @@ Result<void> WholeFile::write(const void* bytes, std::size_t count) {
     return fault(path_, "cannot be written: " + reason(errno ? errno : EIO));
 }
 
-Result<void> WholeFile::commit() {
+Result<void> WholeFile::settle() {
     assert(stream_);
     errno = 0;
-    const bool whole = !std::ferror(stream_) && std::fflush(stream_) == 0 && fsync(fileno(stream_)) == 0;
-    int why = whole ? 0 : (errno ? errno : EIO);
-    if (std::fclose(std::exchange(stream_, nullptr)) != 0 && why == 0) why = errno;
+    if (!std::ferror(stream_) && std::fflush(stream_) == 0 && fsync(fileno(stream_)) == 0) return {};
+    return fault(path_, "cannot be written: " + reason(errno ? errno : EIO));
+}
+
+Result<void> WholeFile::commit() {
+    if (auto settled = settle(); !settled.ok()) {
+        abandon();
+        return settled;
+    }
+    int why = std::fclose(std::exchange(stream_, nullptr)) == 0 ? 0 : errno;
     if (why == 0) {
         const int renamed = overwrite_ ? rename(temporary_path_.c_str(), path_.c_str())
                                        : rename_without_replacing(temporary_path_.c_str(), path_.c_str());

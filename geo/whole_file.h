@@ -24,6 +24,9 @@ class WholeFile {
     [[nodiscard]] const std::string& temporary_path() const { return temporary_path_; }
     // Appends; reports the system's reason (a full disk, a file size limit).
     Result<void> write(const void* bytes, std::size_t count);
+    // Puts what was written so far on the disk, so that of commit() only the renaming is left: for files that
+    // must appear together.
+    Result<void> settle();
     // Flushes, syncs, closes and renames over the real name (fails, when overwrite is false and the name was taken since).
     Result<void> commit();
 

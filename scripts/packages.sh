@@ -4,7 +4,7 @@ build_packages=(
   cmake g++ ninja-build pkg-config
   glslang-tools libvulkan-dev
   libgdal-dev libgeographiclib-dev libproj-dev proj-data
-  libglm-dev libglfw3-dev libimgui-dev libcli11-dev nlohmann-json3-dev
+  libglm-dev libglfw3-dev libcli11-dev nlohmann-json3-dev
   libpng-dev libjpeg-dev libtiff-dev libexif-dev
 )
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <linux/capability.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -41,10 +40,6 @@ void take_on(const Circumstances& circumstances) {
         } else {
             setenv(setting.substr(0, equals).c_str(), setting.c_str() + equals + 1, 1);
         }
-    }
-    if (circumstances.largest_file_bytes) {
-        const rlimit limit{*circumstances.largest_file_bytes, *circumstances.largest_file_bytes};
-        if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(cannot_start);
     }
     if (circumstances.bound_by_permissions) give_up_power_over_permissions();
     if (!circumstances.folder.empty() && chdir(circumstances.folder.c_str()) != 0) _exit(cannot_start);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +9,9 @@ namespace oro::test {
 
 // What is unlike a plain run.
 struct Circumstances {
-    std::vector<std::string> environment;             // "NAME=VALUE" sets, "NAME" removes
-    std::optional<std::uint64_t> largest_file_bytes;  // as `ulimit -f` sets it, to stand for a full disk
-    bool bound_by_permissions{false};                 // root, too, heeds the permissions of files
-    std::filesystem::path folder;                     // the working folder, if not the test's
+    std::vector<std::string> environment;  // "NAME=VALUE" sets, "NAME" removes
+    bool bound_by_permissions{false};      // root, too, heeds the permissions of files
+    std::filesystem::path folder;          // the working folder, if not the test's
 };
 
 struct Outcome {

@@ -172,10 +172,9 @@ TEST_F(Shot, InfoAndDoctorAreOneObject) {
     const Outcome info = run_orograph({"info", bundled(), "--json"});
     ASSERT_EQ(info.exit_code, 0) << info.err;
     const json source = one_object(info.out).at("sources").at(0);
-    EXPECT_EQ(source["rows"], 344) << source;
-    EXPECT_EQ(source["columns"], 403);
-    EXPECT_EQ(source["lowest_m"], 236);
-    EXPECT_EQ(source["highest_m"], 1076);
+    EXPECT_EQ(source["posts"], json({{"columns", 403}, {"rows", 344}})) << source;
+    EXPECT_EQ(source["H_m"], json({{"lowest", 236.0}, {"highest", 1076.0}}));
+    EXPECT_EQ(source["voids"], 0);
     const Outcome doctor = run_orograph({"doctor", "--json"});
     ASSERT_EQ(doctor.exit_code, 0) << doctor.err;
     EXPECT_FALSE(one_object(doctor.out).at("devices").empty());

@@ -1,0 +1,42 @@
+#!/bin/sh
+# A person at the window, as xdotool plays one: window_session.sh PROGRAM DATA, in an empty folder, on a display.
+# Prints the window's title at each stop; ends with the program's own exit code.
+program=$1 data=$2
+"$program" view "$data" --size 320x240 --at 36.6,-84.2 --above 500 --heading 30 -q &
+viewer=$!
+
+fail() { echo "$*" >&2; kill "$viewer" 2>/dev/null; exit 90; }
+window=
+for try in $(seq 300); do
+  window=$(xdotool search --onlyvisible --pid "$viewer" 2>/dev/null | head -n 1)
+  [ -z "$window" ] || break
+  kill -0 "$viewer" 2>/dev/null || { wait "$viewer"; exit $?; }
+  sleep 0.1
+done
+[ -n "$window" ] || fail "no window came"
+title() { xdotool getwindowname "$window"; }
+# says NAME PATTERN: waits until the title holds the pattern.
+says() {
+  for try in $(seq 200); do
+    if title | grep -q "$2"; then printf '%s: %s\n' "$1" "$(title)"; return; fi
+    sleep 0.1
+  done
+  fail "$1: the title stays '$(title)'"
+}
+# holds KEY: for a while, as a hand does.
+holds() { xdotool keydown "$1"; sleep 0.7; xdotool keyup "$1"; sleep 0.3; }
+
+says start 'heading 30'
+xdotool windowfocus --sync "$window"
+holds w; says forward 'heading'
+holds e; says turned 'heading'
+holds space; says risen 'heading'
+xdotool key g; says asked 'Go to:'
+xdotool type '36.5,-84.3'; says typed 'Go to: 36.5,-84.3'
+xdotool key Return; says jumped '36.500000'
+holds f; holds f; says looked-down 'heading'
+for press in 1 2 3 4; do holds Control_L; done; says sunk 'heading'
+xdotool windowsize --sync "$window" 400 200; sleep 1; says resized 'heading'
+xdotool key p; says pictured 'wrote orograph-'
+xdotool key Escape
+wait "$viewer"

@@ -1,0 +1,97 @@
+// The window on a virtual display: a scripted person flies, jumps, takes a picture and leaves.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// What the window's title says of the eye.
+struct Title {
+    double lat_deg{}, lon_deg{}, H_m{}, heading_deg{};
+    bool read{false};
+};
+
+std::map<std::string, Title> titles_of(const std::string& session) {
+    std::map<std::string, Title> titles;
+    std::istringstream lines(session);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t colon = line.find(": "), bar = line.find("  |  ");
+        if (colon == std::string::npos) continue;
+        const std::string text = line.substr(bar == std::string::npos ? colon + 2 : bar + 5);
+        Title title;
+        title.read = std::sscanf(text.c_str(), "%lf° %lf°  H %lf m  heading %lf", &title.lat_deg,
+                                 &title.lon_deg, &title.H_m, &title.heading_deg) == 4;
+        titles[line.substr(0, colon)] = title;
+    }
+    return titles;
+}
+
+json object_of(const oro::test::Outcome& outcome) {
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return json::parse(outcome.out, nullptr, false);
+}
+
+TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
+    const fs::path folder = oro::test::scratch_folder();
+    const std::string data = (oro::test::bundled_data() / "jacksboro.tif").string();
+    oro::test::Circumstances there;
+    there.folder = folder;
+    there.environment = {"WAYLAND_DISPLAY", "OROGRAPH_VALIDATION=1"};
+    const auto session = oro::test::run_program(
+        {"xvfb-run", "-a", "-s", "-screen 0 800x600x24", OROGRAPH_WINDOW_SESSION, OROGRAPH_PROGRAM, data},
+        there);
+    ASSERT_EQ(session.exit_code, 0) << session.out << session.err;
+    auto at = titles_of(session.out);
+    for (const char* stop : {"start", "forward", "turned", "risen", "jumped", "sunk", "pictured"})
+        ASSERT_TRUE(at[stop].read) << stop << " in\n" << session.out;
+
+    EXPECT_NEAR(at["start"].lat_deg, 36.6, 1e-6);
+    EXPECT_NEAR(at["start"].lon_deg, -84.2, 1e-6);
+    // W goes where the eye looks: north and east in the proportion of heading 30, give or take the title's
+    // digits.
+    const double north = at["forward"].lat_deg - at["start"].lat_deg;
+    const double east =
+        (at["forward"].lon_deg - at["start"].lon_deg) * std::cos(36.6 * std::numbers::pi / 180.0);
+    EXPECT_GT(north, 0.0);
+    EXPECT_NEAR(std::atan2(east, north) * 180.0 / std::numbers::pi, 30.0, 1.0);
+    EXPECT_GT(at["turned"].heading_deg, at["forward"].heading_deg);
+    EXPECT_GT(at["risen"].H_m, at["turned"].H_m);
+    EXPECT_NEAR(at["jumped"].lat_deg, 36.5, 1e-6);
+    EXPECT_NEAR(at["jumped"].lon_deg, -84.3, 1e-6);
+    EXPECT_LT(at["sunk"].H_m, at["jumped"].H_m);
+
+    // It never goes below the ground.
+    const json ground =
+        object_of(oro::test::run_orograph({"shot", data, "--at", "36.5,-84.3", "--above", "0", "--size",
+                                           "16x16", "--out", folder / "ground.png", "--json", "-q"}));
+    EXPECT_GE(at["sunk"].H_m, ground["eye"]["H_m"].get<double>() - 0.05);  // the title has one decimal
+
+    fs::path picture;
+    for (const std::string& name : oro::test::names_in(folder)) {
+        if (name.rfind("orograph-", 0) == 0 && name.ends_with(".png")) picture = folder / name;
+    }
+    ASSERT_FALSE(picture.empty()) << session.out;
+    const json tags = object_of(oro::test::run_program({"exiftool", "-n", "-j", picture})).at(0);
+    EXPECT_NEAR(tags["GPSLatitude"].get<double>(), 36.5, 1e-7);
+    EXPECT_NEAR(tags["GPSLongitude"].get<double>(), -84.3, 1e-7);
+    EXPECT_NEAR(tags["GPSAltitude"].get<double>(), at["pictured"].H_m, 0.06);
+    EXPECT_EQ(tags["ImageWidth"], 400);
+    EXPECT_EQ(tags["ImageHeight"], 200);
+    const auto again =
+        oro::test::run_orograph({"shot", "--view", picture, "--out", folder / "again.png", "-q"});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_TRUE(oro::test::bytes_of(folder / "again.png") == oro::test::bytes_of(picture));
+}
+
+}  // namespace
