@@ -17,6 +17,9 @@ void start_gdal() {
         CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
         // Otherwise GeoTIFF 1.0 files lose the vertical datum that they state.
         CPLSetConfigOption("GTIFF_REPORT_COMPD_CS", "YES");
+        // Sidecar files are asked for by name: listing a folder of thousands of tiles for each of them takes
+        // minutes.
+        CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE");
         GDALAllRegister();
         for (const char* name : {"WMS", "WMTS", "WCS", "HTTP", "PLMOSAIC", "PLSCENES", "EEDA", "EEDAI",
                                  "DAAS", "NGW", "OGCAPI", "STACTA", "STACIT", "PostGISRaster"}) {

@@ -121,12 +121,14 @@ struct Reading {
     JoinedSurface& surface;
 };
 
-// Lays one source into the surface, at one whole turn, in strips that fit memory.
-Result<void> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, const Reading& to) {
+// Lays one source into the surface, at one whole turn, in strips that fit memory. Gives how many void posts
+// of finer sources it filled.
+Result<std::uint64_t> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, const Reading& to) {
     constexpr std::size_t posts_a_strip = std::size_t{1} << 26;
     ORO_TRY(SourceOnGrid placed, SourceOnGrid::create(source, to.grid, turn));
     const GridRect& rect = placed.rect();
-    if (rect.rows <= 0 || rect.columns <= 0) return {};
+    std::uint64_t lent = 0;
+    if (rect.rows <= 0 || rect.columns <= 0) return lent;
     SourceReport& report = source.report;
     report.placement = placed.placement();
     const auto columns = static_cast<std::size_t>(rect.columns);
@@ -147,7 +149,9 @@ Result<void> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, c
             const double lat_deg = to.grid.lat.at_deg(row);
             shift.apply(to.undulation, lat_deg, lon_deg, heights);
             shift.apply(to.undulation, lat_deg, lon_deg, beyond);
-            to.surface.lay(row, rect.first_column, heights, inside, placed.fit() == Fit::same_posts);
+            const bool own_posts = placed.fit() == Fit::same_posts;
+            const std::uint64_t filled = to.surface.lay(row, rect.first_column, heights, inside, own_posts);
+            lent += own_posts ? 0 : filled;
             if (placed.fit() == Fit::elsewhere) to.surface.lay_later(row, rect.first_column, beyond);
             for (const float height : heights) {
                 if (is_void(height)) continue;
@@ -156,7 +160,7 @@ Result<void> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, c
             }
         }
     }
-    return {};
+    return lent;
 }
 
 // All turns at which a source meets the grid. A source round the Earth whose posts are not copied finds every
@@ -194,11 +198,16 @@ Result<void> lay_sources(std::vector<Source>& sources, const GeoidOfRegion& geoi
         }
         report.lowest_m = std::numeric_limits<double>::max();
         report.highest_m = std::numeric_limits<double>::lowest();
+        std::uint64_t lent = 0;
         for (const int turn : turns_of(source, to.grid)) {
-            ORO_CHECK(lay_source(source, turn, shift, to));
+            ORO_TRY(const std::uint64_t filled, lay_source(source, turn, shift, to));
+            lent += filled;
             // One pass is the whole circle unless posts are copied column by column.
             if (source.full_circle && report.placement.find("copied") == std::string::npos) break;
         }
+        if (lent > 0)
+            add_note(notes, std::to_string(lent) + " void posts of finer sources take their height from " +
+                                report.path);
         if (report.lowest_m > report.highest_m) report.lowest_m = report.highest_m = 0.0;
         if (shift.beyond_grid() > 0) {
             const std::string what = std::to_string(shift.beyond_grid()) + " posts of " + report.path +

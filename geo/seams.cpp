@@ -47,18 +47,21 @@ std::vector<std::size_t> by_precedence(std::span<const Source> sources) {
 JoinedSurface::JoinedSurface(const PostGrid& grid)
     : grid_(grid), heights_(grid.post_count(), void_height_m), marks_(grid.post_count(), 0) {}
 
-void JoinedSurface::lay(int row, int first_column, std::span<const float> heights,
-                        std::span<const unsigned char> inside, bool own_posts) {
+std::uint64_t JoinedSurface::lay(int row, int first_column, std::span<const float> heights,
+                                 std::span<const unsigned char> inside, bool own_posts) {
     const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
                               static_cast<std::size_t>(first_column);
+    std::uint64_t lent = 0;
     for (std::size_t c = 0; c < heights.size(); ++c) {
         if (!inside[c]) continue;
         const std::size_t post = start + c;
         unsigned char& marks = marks_[post];
+        const bool covered_before = (marks & covered_mark) != 0;
         marks |= covered_mark;
         if (is_void(heights[c])) continue;
         if (is_void(heights_[post])) {
             heights_[post] = heights[c];
+            lent += covered_before;
             if (own_posts) marks |= own_mark;
             continue;
         }
@@ -73,6 +76,7 @@ void JoinedSurface::lay(int row, int first_column, std::span<const float> height
         }
         seams_.largest_difference_m = std::max(seams_.largest_difference_m, difference);
     }
+    return lent;
 }
 
 void JoinedSurface::lay_later(int row, int first_column, std::span<const float> heights) {

@@ -69,9 +69,27 @@ TEST(Region, FinerSpacingWinsAndCoarserFillsWithItsTriangles) {
     }
     for (const SourceReport& source : region->sources) {
         if (source.rows == 1201) {
-            EXPECT_NE(source.placement.find("every 3th"), std::string::npos) << source.placement;
+            EXPECT_NE(source.placement.find("3 x 3"), std::string::npos) << source.placement;
         }
     }
+}
+
+TEST(Region, PostsThatACoarserSourceLendsToAVoidAreSaid) {
+    const fs::path folder = scratch_folder();
+    write_hgt(folder / "N10E020.hgt", 3601, [](int r, int c) { return r == 7 && c < 5 ? -32768 : 300; });
+    Raster raster;
+    raster.rows = raster.columns = 3;
+    raster.cell_corners = posts_from(19.0, 12.0, 1.0);
+    write_raster(folder / "coarse.tif", raster, [](int, int) { return 310.0; });
+    RegionRequest request = request_for({folder.string()});
+    request.box = BoundingBox{20, 10, 21, 11};
+    const auto region = opened(request);
+    ASSERT_TRUE(region);
+    EXPECT_EQ(region->voids, 0U);
+    EXPECT_EQ(region->field.H_at_post_m(7, 2), 310.0F);
+    ASSERT_EQ(region->notes.size(), 1U);
+    EXPECT_NE(region->notes[0].find("5 void posts"), std::string::npos) << region->notes[0];
+    EXPECT_NE(region->notes[0].find("coarse.tif"), std::string::npos) << region->notes[0];
 }
 
 TEST(Region, MissingCellsAreNamed) {

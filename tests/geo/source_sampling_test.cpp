@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
+#include "geo/source_cubic.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -126,10 +128,10 @@ TEST(Resampling, TouchingProjectedRastersJoin) {
 
 // N46E008 from .hgt.zip and from the same tile in other CRSs and units. The common grid is the one that the
 // resampled file opens on (90 m, as its own posts); the tile is its full-resolution surface there. The files
-// are bilinear 90 m resamplings of the tile (GDAL's bilinear warp of the tile gives them back to 0.1 mm), so
-// no reader can do much better: GDAL's cubic warp of the tile onto a file's own posts differs from it by 2.9
-// m RMS, its cubic warp of the files back onto the tile's posts by 5.3 to 5.9 m. A tenth of a post of
-// misplacement would show in the mean and add several metres.
+// hold less than the tile: the UTM one is its bilinear 90 m resampling (GDAL's bilinear warp of the tile
+// gives the same values to 0.2 mm), from which GDAL's cubic warp of the tile to the same posts differs by 2.9
+// m RMS, and GDAL's cubic warp of the file back to the tile's posts by 5.3 m. A tenth of a post of
+// misplacement would add several metres.
 TEST(Resampling, RealTileInThreeOtherSystems) {
     const auto hgt = real_data("alps/N46E008.SRTMGL3.hgt.zip");
     if (!hgt || !real_data("geotiff")) GTEST_SKIP() << "needs alps, geotiff";
