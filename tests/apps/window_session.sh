@@ -30,6 +30,9 @@ says start 'heading 30'
 xdotool windowfocus --sync "$window"
 holds w; says forward 'heading'
 holds e; says turned 'heading'
+# The cursor comes from elsewhere: a drag begins where the button goes down.
+xdotool mousemove --window "$window" 100 100 mousedown 1; sleep 0.4
+xdotool mousemove_relative 40 0; sleep 0.4; xdotool mouseup 1; sleep 0.3; says dragged 'heading'
 holds space; says risen 'heading'
 xdotool key g; says asked 'Go to:'
 xdotool type '36.5,-84.3'; says typed 'Go to: 36.5,-84.3'

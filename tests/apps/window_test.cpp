@@ -53,7 +53,7 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
         there);
     ASSERT_EQ(session.exit_code, 0) << session.out << session.err;
     auto at = titles_of(session.out);
-    for (const char* stop : {"start", "forward", "turned", "risen", "jumped", "sunk", "pictured"})
+    for (const char* stop : {"start", "forward", "turned", "dragged", "risen", "jumped", "sunk", "pictured"})
         ASSERT_TRUE(at[stop].read) << stop << " in\n" << session.out;
 
     EXPECT_NEAR(at["start"].lat_deg, 36.6, 1e-6);
@@ -66,6 +66,8 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
     EXPECT_GT(north, 0.0);
     EXPECT_NEAR(std::atan2(east, north) * 180.0 / std::numbers::pi, 30.0, 1.0);
     EXPECT_GT(at["turned"].heading_deg, at["forward"].heading_deg);
+    // Dragging to the right takes the scene along: 40 of 240 pixels, a sixth of 45 degrees.
+    EXPECT_NEAR(at["dragged"].heading_deg, at["turned"].heading_deg - 7.5, 0.2);
     EXPECT_GT(at["risen"].H_m, at["turned"].H_m);
     EXPECT_NEAR(at["jumped"].lat_deg, 36.5, 1e-6);
     EXPECT_NEAR(at["jumped"].lon_deg, -84.3, 1e-6);

@@ -1,0 +1,90 @@
+// Golden pictures of the bundled region on the software driver: what a change of code must not change unseen.
+// To make them anew after a wanted change, run with OROGRAPH_WRITE_GOLDENS=1 and look at every one.
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int largest_difference = 3;              // of 255, in any channel, for a pixel to count as the same
+constexpr double largest_share_differing = 0.002;  // of all pixels
+
+struct Pixels {
+    png_uint_32 width{}, height{};
+    std::vector<png_byte> rgb;
+};
+
+Pixels pixels_of(const fs::path& file) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    Pixels pixels;
+    if (!png_image_begin_read_from_file(&image, file.c_str())) return pixels;
+    image.format = PNG_FORMAT_RGB;
+    pixels.rgb.resize(PNG_IMAGE_SIZE(image));
+    if (!png_image_finish_read(&image, nullptr, pixels.rgb.data(), 0, nullptr)) return {};
+    pixels.width = image.width;
+    pixels.height = image.height;
+    return pixels;
+}
+
+struct Golden {
+    const char* name;
+    std::vector<std::string> view;
+};
+
+class GoldenPicture : public ::testing::TestWithParam<Golden> {};
+
+TEST_P(GoldenPicture, IsDrawnAsItWas) {
+    const fs::path golden =
+        oro::test::bundled_data() / ".." / "tests" / "goldens" / (std::string(GetParam().name) + ".png");
+    const bool write = std::getenv("OROGRAPH_WRITE_GOLDENS") != nullptr;
+    const fs::path drawn = write ? golden : oro::test::scratch_folder() / "drawn.png";
+    std::vector<std::string> words{"shot",   "jacksboro.tif",        "--size",      "320x180",
+                                   "--time", "2026-01-01T00:00:00Z", "--overwrite", "-q",
+                                   "--out",  drawn.string()};
+    words.insert(words.end(), GetParam().view.begin(), GetParam().view.end());
+    // Named as seen from its folder: a picture carries the names of its sources, and a golden must not carry
+    // a machine's.
+    oro::test::Circumstances in_data;
+    in_data.folder = oro::test::bundled_data();
+    const auto outcome = oro::test::run_orograph(words, in_data);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    if (write) {
+        fs::remove(fs::path(golden).replace_extension(".json"));
+        FAIL() << "wrote " << golden << ": look at it, then run without OROGRAPH_WRITE_GOLDENS";
+    }
+    const Pixels is = pixels_of(drawn), was = pixels_of(golden);
+    ASSERT_GT(was.width, 0U) << golden << " cannot be read";
+    ASSERT_EQ(is.width, was.width);
+    ASSERT_EQ(is.height, was.height);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < is.rgb.size(); i += 3) {
+        int most = 0;
+        for (std::size_t c = i; c < i + 3; ++c)
+            most = std::max(most, std::abs(int{is.rgb[c]} - int{was.rgb[c]}));
+        differing += most > largest_difference ? 1U : 0U;
+    }
+    EXPECT_LE(static_cast<double>(differing),
+              largest_share_differing * static_cast<double>(is.rgb.size() / 3))
+        << differing << " pixels differ by more than " << largest_difference;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Jacksboro, GoldenPicture,
+    ::testing::Values(
+        Golden{"overview", {}}, Golden{"overview_samples", {"--samples", "8", "--exaggeration", "2"}},
+        Golden{"valley", {"--at", "36.47,-84.27", "--above", "300", "--heading", "50", "--pitch", "-8"}},
+        Golden{"edge",
+               {"--at", "36.6,-84.38", "--above", "1500", "--heading", "250", "--pitch", "-15", "--roll",
+                "10"}},
+        Golden{"from_space", {"--at", "36.5,-84.2", "--altitude", "2000000", "--pitch", "-89", "--fov", "4"}},
+        Golden{"nadir", {"--at", "36.5,-84.2", "--altitude", "30000", "--pitch", "-90", "--sun", "90,20"}}),
+    [](const auto& golden) { return std::string(golden.param.name); });
+
+}  // namespace
