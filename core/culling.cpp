@@ -65,6 +65,30 @@ HorizonCone horizon_cone_scaled(std::span<const glm::dvec3> points_scaled) {
         return cone;
     }
     cone.direction = sum / length;
+    // Sine and cosine of a point's angle acos(1 / r) + angle(point, direction), without a call to either. Up
+    // to a quarter turn the sines have the order of the angles, so one arc is enough; beyond it (a region as
+    // wide as a continent) each point is asked.
+    double largest_sine = 0.0;
+    double its_cosine = 1.0;
+    double smallest_cosine = 1.0;
+    for (const glm::dvec3& point : points_scaled) {
+        const double rr = glm::dot(point, point);
+        const double along = glm::dot(point, cone.direction);
+        const glm::dvec3 across_point = glm::cross(point, cone.direction);
+        const double across = std::sqrt(glm::dot(across_point, across_point));
+        const double r = std::sqrt(rr);
+        const double tangent = r > 1.0 ? std::sqrt((r - 1.0) * (r + 1.0)) : 0.0;
+        const double scale = 1.0 / (r * std::max(1.0, r));
+        const double sine = (tangent * along + across) * scale;
+        const double cosine = (along - tangent * across) * scale;
+        its_cosine = sine > largest_sine ? cosine : its_cosine;
+        largest_sine = std::max(largest_sine, sine);
+        smallest_cosine = std::min(smallest_cosine, cosine);
+    }
+    if (smallest_cosine > 0.0) {
+        cone.angle_rad = std::atan2(largest_sine, its_cosine);
+        return cone;
+    }
     for (const glm::dvec3& point : points_scaled) {
         cone.angle_rad = std::max(
             cone.angle_rad, horizon_angle_rad(glm::length(point)) + angle_between_rad(point, cone.direction));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/high_low.h"
+#include "core/parallel.h"
 
 namespace oro {
 namespace {
@@ -23,13 +24,9 @@ constexpr int meshlet_quads = static_cast<int>(gpu::meshlet_quads);
 constexpr int meshlets_per_side = static_cast<int>(gpu::meshlets_per_side);
 
 // Latitude of a row; a row whose spacing was rounded on its way here still ends exactly on the pole.
-double row_lat_deg(const PostGrid& grid, int row) {
+double row_lat_deg(const PostGrid& grid, std::int64_t row) {
     const double lat_deg = grid.lat.at_deg(row);
     return std::abs(std::abs(lat_deg) - 90.0) < 1.0e-9 ? std::copysign(90.0, lat_deg) : lat_deg;
-}
-
-bool within(const PostGrid& grid, int row, int column) {
-    return row >= 0 && row < grid.rows() && column >= 0 && column < grid.columns();
 }
 
 // The post that stands for all that are the same point: column 0 for the last one of a region that goes round
@@ -46,10 +43,17 @@ PageIndex canonical_post(const HeightField& field, int row, int column) {
     return {row, twin && !is_void(field.H_at_post_m(row, 0)) ? 0 : column};
 }
 
+// The nearest step, halves upwards.
+std::int32_t height_steps(double h_m) {
+    return static_cast<std::int32_t>(std::floor(h_m * (1.0 / height_step_m) + 0.5));
+}
+
 // Drawn height of a canonical post.
 double drawn_h_m(const HeightField& field, PageIndex post, double exaggeration) {
-    return static_cast<double>(field.H_at_post_m(post.row, post.column)) * exaggeration +
-           field.undulation.at_m(row_lat_deg(field.grid, post.row), field.grid.lon.at_deg(post.column));
+    const double h_m =
+        static_cast<double>(field.H_at_post_m(post.row, post.column)) * exaggeration +
+        field.undulation.at_m(row_lat_deg(field.grid, post.row), field.grid.lon.at_deg(post.column));
+    return height_steps(h_m) * height_step_m;
 }
 
 // The terms of gpu::RowTerms and gpu::ColumnTerms before they are rounded.
@@ -63,10 +67,14 @@ struct Column {
 // A page while it is built: its posts in double, then what the block and the summary make of them.
 class Draft {
   public:
-    Draft(const HeightField& field, const RegionShape& shape, PageIndex index, gpu::PageBlock& block)
+    // `heights` may be null: then each post's is worked out where it is needed.
+    Draft(const HeightField& field, const RegionShape& shape, const DrawnHeights* heights, PageIndex index,
+          gpu::PageBlock& block)
         : field_(field),
           shape_(shape),
+          heights_(heights),
           block_(block),
+          level_(level_grid(field.grid, index.level)),
           first_row_(index.row * quads),
           first_column_(index.column * quads) {
         summary_.index = index;
@@ -96,6 +104,7 @@ class Draft {
     void bound_meshlet(int number);
     int mark_triangles(int number);
     std::optional<PageIndex> region_post(int row, int column) const;
+    double height_m(PageIndex post) const;
     glm::dvec3 scaled(const glm::dvec3& position_m) const;
 
     static std::size_t at(int row, int column) {
@@ -108,8 +117,10 @@ class Draft {
 
     const HeightField& field_;
     const RegionShape& shape_;
+    const DrawnHeights* heights_;
     gpu::PageBlock& block_;
-    int first_row_;
+    LevelGrid level_;
+    int first_row_;  // of the level's posts
     int first_column_;
     PageSummary summary_{};
     double middle_lon_deg_{};  // of the origin, in the region's own whole turn
@@ -124,18 +135,34 @@ class Draft {
         directions_{};  // of the meshlets' horizon cones, page frame
 };
 
+// Number in the region of a level's post, and where that post would lie beyond the region's end.
+std::int64_t post_beyond(const LevelAxis& axis, int post) {
+    return post <= axis.quads ? axis.region_post(post) : std::int64_t{post} << axis.level;
+}
+
 // The region's post at a page's row and column, -1 .. 129; nothing outside the region. The apron goes on
 // round the Earth.
 std::optional<PageIndex> Draft::region_post(int row, int column) const {
-    const PostGrid& grid = field_.grid;
-    const int region_row = first_row_ + row;
-    int region_column = first_column_ + column;
-    if (grid.goes_round()) {
-        if (region_column == -1) region_column = grid.columns() - 2;
-        if (region_column == grid.columns() && column == posts) region_column = 1;
+    const int level_row = first_row_ + row;
+    int level_column = first_column_ + column;
+    const int quads_round = level_.column.quads;
+    if (field_.grid.goes_round()) {
+        if (level_column == -1) level_column = quads_round - 1;
+        if (level_column == quads_round + 1 && column == posts) level_column = 1;
     }
-    if (!within(grid, region_row, region_column)) return std::nullopt;
-    return PageIndex{region_row, region_column};
+    if (level_row < 0 || level_row > level_.row.quads) return std::nullopt;
+    if (level_column < 0 || level_column > quads_round) return std::nullopt;
+    return PageIndex{level_.row.region_post(level_row), level_.column.region_post(level_column)};
+}
+
+// Drawn height of a region's post; NaN where void.
+double Draft::height_m(PageIndex post) const {
+    if (heights_ != nullptr) {
+        const std::int32_t steps = heights_->at(post.row, post.column);
+        return steps == void_height_steps ? std::numeric_limits<double>::quiet_NaN() : steps * height_step_m;
+    }
+    if (is_void(field_.H_at_post_m(post.row, post.column))) return std::numeric_limits<double>::quiet_NaN();
+    return drawn_h_m(field_, canonical_post(field_, post.row, post.column), shape_.exaggeration);
 }
 
 void Draft::measure_heights() {
@@ -146,9 +173,8 @@ void Draft::measure_heights() {
             double& h_m = h_m_[static_cast<std::size_t>((row + 1) * stride + column + 1)];
             h_m = std::numeric_limits<double>::quiet_NaN();
             const std::optional<PageIndex> post = region_post(row, column);
-            if (!post || is_void(field_.H_at_post_m(post->row, post->column))) continue;
-            h_m = drawn_h_m(field_, canonical_post(field_, post->row, post->column), shape_.exaggeration);
-            if (row < 0 || row == posts || column < 0 || column == posts) continue;
+            if (post) h_m = height_m(*post);
+            if (std::isnan(h_m) || row < 0 || row == posts || column < 0 || column == posts) continue;
             lowest_m = std::min(lowest_m, h_m);
             highest_m = std::max(highest_m, h_m);
         }
@@ -161,8 +187,14 @@ void Draft::measure_heights() {
 
 void Draft::place_origin() {
     const PostGrid& grid = field_.grid;
-    const double lat_deg = 0.5 * (grid.lat.at_deg(first_row_) + grid.lat.at_deg(first_row_ + quads));
-    middle_lon_deg_ = 0.5 * (grid.lon.at_deg(first_column_) + grid.lon.at_deg(first_column_ + quads));
+    // A coarse page may be far larger than what the region has of it.
+    const auto end = [&](const LevelAxis& axis, int first) {
+        return axis.level == 0 ? first + quads : axis.region_post(std::min(first + quads, axis.quads));
+    };
+    const double lat_deg = 0.5 * (grid.lat.at_deg(post_beyond(level_.row, first_row_)) +
+                                  grid.lat.at_deg(end(level_.row, first_row_)));
+    middle_lon_deg_ = 0.5 * (grid.lon.at_deg(post_beyond(level_.column, first_column_)) +
+                             grid.lon.at_deg(end(level_.column, first_column_)));
     // A coarse page may hang over a pole; its origin stays on this side.
     summary_.origin.lat_deg = std::clamp(lat_deg, -90.0, 90.0);
     summary_.origin.lon_deg = normalised_lon_deg(middle_lon_deg_);
@@ -181,7 +213,7 @@ void Draft::fill_tables() {
     const double h0_m = summary_.origin.h_m;
     for (int i = 0; i < posts; ++i) {
         const std::size_t n = static_cast<std::size_t>(i);
-        const double lat_deg = row_lat_deg(grid, first_row_ + i);
+        const double lat_deg = row_lat_deg(grid, post_beyond(level_.row, first_row_ + i));
         const SineCosine lat = sine_cosine_deg(lat_deg);
         const double normal_m = prime_vertical_radius_m(lat_deg);
         const double P = (normal_m + h0_m) * lat.cosine;
@@ -190,20 +222,24 @@ void Draft::fill_tables() {
         block_.rows[n] = {static_cast<float>(rows_[n].R), static_cast<float>(rows_[n].C),
                           static_cast<float>(rows_[n].S), static_cast<float>(rows_[n].P),
                           static_cast<float>(rows_[n].Z)};
-        const double turn_deg = grid.lon.at_deg(first_column_ + i) - middle_lon_deg_;
+        const double turn_deg =
+            grid.lon.at_deg(post_beyond(level_.column, first_column_ + i)) - middle_lon_deg_;
         const double half_sine = sine_cosine_deg(0.5 * turn_deg).sine;
         columns_[n] = {2.0 * half_sine * half_sine, sine_cosine_deg(turn_deg).sine};
         block_.columns[n] = {static_cast<float>(columns_[n].V), static_cast<float>(columns_[n].W)};
     }
     const double lat0_deg = summary_.origin.lat_deg;
     block_.h0_m = static_cast<float>(h0_m);
+    const double step = std::ldexp(1.0, level_.level());
     block_.row_spacing_m = static_cast<float>((meridian_radius_m(lat0_deg) + h0_m) *
-                                              radians_from_deg(grid.lat.spacing_deg()).rad);
-    block_.column_spacing_rad = static_cast<float>(radians_from_deg(grid.lon.spacing_deg()).rad);
+                                              radians_from_deg(step * grid.lat.spacing_deg()).rad);
+    block_.column_spacing_rad = static_cast<float>(radians_from_deg(step * grid.lon.spacing_deg()).rad);
     block_.exaggeration = static_cast<float>(shape_.exaggeration);
     for (int corner = 0; corner < 4; ++corner) {
-        const double lat_deg = grid.lat.at_deg(first_row_ + (corner / 2) * quads);
-        const double lon_deg = grid.lon.at_deg(first_column_ + (corner % 2) * quads);
+        const std::int64_t row = first_row_ + (corner / 2) * quads;
+        const std::int64_t column = first_column_ + (corner % 2) * quads;
+        const double lat_deg = grid.lat.at_deg(row << level_.level());
+        const double lon_deg = grid.lon.at_deg(column << level_.level());
         block_.N_m[corner] = static_cast<float>(field_.undulation.at_m(lat_deg, lon_deg));
     }
 }
@@ -223,9 +259,9 @@ void Draft::fill_borders() {
                 static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column))];
             border = {gpu::vec3(0.0F), gpu::vec3(0.0F)};
             if (!drawable(row, column)) continue;
-            const glm::dvec3 m =
-                post_ecef(field_, first_row_ + row, first_column_ + column, shape_.exaggeration).m;
-            split_high_low(m, border.high, border.low);
+            const PageIndex post = *region_post(row, column);
+            const Ecef ecef = post_ecef(field_, post.row, post.column, shape_.exaggeration);
+            split_high_low(ecef.m, border.high, border.low);
         }
     }
 }
@@ -352,8 +388,7 @@ void Draft::bound_page() {
 }  // namespace
 
 PageLayout page_layout(const PostGrid& grid) {
-    return {std::max(0, grid.rows() - 1 + quads - 1) / quads,
-            std::max(0, grid.columns() - 1 + quads - 1) / quads};
+    return level_grid(grid, 0).pages();
 }
 
 RegionShape region_shape(const HeightField& field, double exaggeration) {
@@ -387,9 +422,47 @@ Ecef post_ecef(const HeightField& field, int row, int column, double exaggeratio
                                drawn_h_m(field, post, exaggeration)});
 }
 
+DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int threads) {
+    const PostGrid& grid = field.grid;
+    const bool has_N = !field.undulation.N_m.empty();
+    DrawnHeights heights{grid.rows(), grid.columns(), {}};
+    heights.steps.resize(grid.post_count());
+    std::vector<UndulationField::Between> columns;
+    for (int column = 0; has_N && column < grid.columns(); ++column)
+        columns.push_back(field.undulation.column_between(grid.lon.at_deg(column)));
+    in_parallel(grid.rows(), threads, [&](int row) {
+        const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns());
+        const double lat_deg = row_lat_deg(grid, row);
+        const UndulationField::Between N_row =
+            has_N ? field.undulation.row_between(lat_deg) : UndulationField::Between{};
+        const bool at_pole = std::abs(lat_deg) == 90.0;
+        for (int column = 0; column < grid.columns(); ++column) {
+            const std::size_t i = static_cast<std::size_t>(column);
+            const float H_m = field.H_m[first + i];
+            if (is_void(H_m)) {
+                heights.steps[first + i] = void_height_steps;
+            } else if (at_pole || column == grid.columns() - 1) {
+                const PageIndex post = canonical_post(field, row, column);
+                heights.steps[first + i] = height_steps(drawn_h_m(field, post, exaggeration));
+            } else {
+                const double N_m = has_N ? field.undulation.at_m(N_row, columns[i]) : 0.0;
+                heights.steps[first + i] = height_steps(static_cast<double>(H_m) * exaggeration + N_m);
+            }
+        }
+    });
+    return heights;
+}
+
 PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
                        gpu::PageBlock& block) {
-    Draft draft(field, shape, index, block);
+    Draft draft(field, shape, nullptr, index, block);
+    return draft.build();
+}
+
+PageSummary build_page(const HeightField& field, const RegionShape& shape, const DrawnHeights& heights,
+                       PageIndex index, gpu::PageBlock& block) {
+    assert(heights.rows == field.grid.rows() && heights.columns == field.grid.columns());
+    Draft draft(field, shape, &heights, index, block);
     return draft.build();
 }
 

@@ -21,11 +21,7 @@ double turned_index(const GridAxis& lon, double lon_deg) {
     return inside - last <= turn - inside ? inside : inside - turn;
 }
 
-// A place between two neighbours of an axis: number of the first, and the share of the second.
-struct Between {
-    int first;
-    double share;
-};
+using Between = UndulationField::Between;
 Between between(double index, int count) {
     const double held = std::clamp(index, 0.0, static_cast<double>(count - 1));
     const int first = std::min(static_cast<int>(held), std::max(count - 2, 0));
@@ -61,10 +57,19 @@ bool PostGrid::goes_round() const {
     return std::abs(lon.count - 1 - 360.0 * lon.posts_per_deg) < 0.01;
 }
 
+Between UndulationField::row_between(double lat_deg) const {
+    return between(lat.index_at(lat_deg), lat.count);
+}
+
+Between UndulationField::column_between(double lon_deg) const {
+    return between(turned_index(lon, lon_deg), lon.count);
+}
+
 double UndulationField::at_m(double lat_deg, double lon_deg) const {
-    if (N_m.empty()) return 0.0;
-    const Between row = between(lat.index_at(lat_deg), lat.count);
-    const Between column = between(turned_index(lon, lon_deg), lon.count);
+    return N_m.empty() ? 0.0 : at_m(row_between(lat_deg), column_between(lon_deg));
+}
+
+double UndulationField::at_m(const Between& row, const Between& column) const {
     const std::size_t stride = static_cast<std::size_t>(lon.count);
     const std::size_t north =
         static_cast<std::size_t>(row.first) * stride + static_cast<std::size_t>(column.first);

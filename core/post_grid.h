@@ -66,6 +66,16 @@ struct UndulationField {
     GridAxis lon;  // step +1
     std::vector<float> N_m;
 
+    // A place between two nodes of an axis: number of the first, and the share of the second.
+    struct Between {
+        int first;
+        double share;
+    };
+    [[nodiscard]] Between row_between(double lat_deg) const;
+    [[nodiscard]] Between column_between(double lon_deg) const;
+    // N in metres at a row and a column, the same bits as at_m; for many places of one row. Not for an empty
+    // field.
+    [[nodiscard]] double at_m(const Between& row, const Between& column) const;
     // N in metres at a place; places beyond the nodes take the nearest value (in whichever whole turn of the
     // longitude is nearest). Error: 8 um of rounding.
     [[nodiscard]] double at_m(double lat_deg, double lon_deg) const;
