@@ -137,7 +137,9 @@ std::uint64_t TiffPicture::write_directory(const std::vector<ExifField>& fields)
     for (const ExifField& field : fields)
         if (std::find(foreign.begin(), foreign.end(), field.tag) == foreign.end() && !set(field)) return 0;
     std::uint64_t place = 0;
-    return TIFFWriteCustomDirectory(tiff_, &place) == 1 ? place : 0;
+    const bool written = TIFFWriteCustomDirectory(tiff_, &place) == 1;
+    TIFFFreeDirectory(tiff_);  // what makes the next directory forgets this one's values without freeing them
+    return written ? place : 0;
 }
 
 void TiffPicture::describe_pixels() {

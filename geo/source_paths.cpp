@@ -90,8 +90,10 @@ class Search {
         std::ranges::sort(found_, [](const SourcePath& a, const SourcePath& b) {
             return std::tie(a.file, b.named) < std::tie(b.file, a.named);
         });
-        const auto again = std::ranges::unique(found_, {}, &SourcePath::file);
-        found_.erase(again.begin(), again.end());
+        // Not std::ranges::unique: what it returns is beyond clang 14, with which the fuzzers are built.
+        found_.erase(std::unique(found_.begin(), found_.end(),
+                                 [](const SourcePath& a, const SourcePath& b) { return a.file == b.file; }),
+                     found_.end());
         std::ranges::sort(found_, [](const SourcePath& a, const SourcePath& b) {
             return std::tie(a.name, a.shown) < std::tie(b.name, b.shown);
         });
