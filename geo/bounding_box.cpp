@@ -11,10 +11,11 @@
 namespace oro {
 namespace {
 
+// The text as it can stand in one line.
 std::string quoted(std::string_view text) {
     std::string result = "'";
-    result.append(text).push_back('\'');
-    return result;
+    for (const char c : text) result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+    return result + "'";
 }
 
 Error usage(const std::string& text, const std::string& what) {

@@ -23,7 +23,10 @@ void start_gdal() {
         GDALAllRegister();
         for (const char* name : {"WMS", "WMTS", "WCS", "HTTP", "PLMOSAIC", "PLSCENES", "EEDA", "EEDAI",
                                  "DAAS", "NGW", "OGCAPI", "STACTA", "STACIT", "PostGISRaster"}) {
-            if (const GDALDriverH driver = GDALGetDriverByName(name)) GDALDeregisterDriver(driver);
+            if (const GDALDriverH driver = GDALGetDriverByName(name)) {
+                GDALDeregisterDriver(driver);
+                GDALDestroyDriver(driver);
+            }
         }
     });
 }

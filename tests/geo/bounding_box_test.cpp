@@ -55,6 +55,11 @@ TEST(BoundingBox, BadTextIsOneUsageErrorThatNamesIt) {
     }
 }
 
+TEST(BoundingBox, ControlCharactersStayOutOfTheMessage) {
+    EXPECT_EQ(parse_bounding_box("8,46\n9,47").error().line().find('\n'), std::string::npos);
+    EXPECT_EQ(parse_tile_range("N46\nE008").error().line().find('\n'), std::string::npos);
+}
+
 TEST(BoundingBox, ReversedBoxGetsTheOrderToldAgain) {
     EXPECT_NE(parse_bounding_box("8,47,9,46").error().line().find("west,south,east,north"),
               std::string::npos);
