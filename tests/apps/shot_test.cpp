@@ -152,6 +152,33 @@ TEST_F(Shot, OverwritesOnlyWhenTold) {
     EXPECT_EQ(bytes_of(folder / "p.png").substr(1, 3), "PNG");
 }
 
+// A tile at 1,000 m with a lake of void posts: a hole to look through, or filled by a method that has a name;
+// never a pit, never 0 m.
+TEST_F(Shot, VoidsAreHolesOrFilledAndCounted) {
+    std::string tile;
+    for (int row = 0; row < 1201; ++row) {
+        for (int column = 0; column < 1201; ++column)
+            tile += std::abs(row - 600) <= 5 && std::abs(column - 600) <= 5 ? std::string("\x80\0", 2)
+                                                                            : "\x03\xe8";
+    }
+    oro::test::write_bytes(folder / "N46E008.hgt", tile);
+    const Words down{"--at", "46.5,8.5", "--altitude", "3000", "--pitch", "-90", "--size", "64x64"};
+    const json holes = shoot(folder / "holes.png", down, folder / "N46E008.hgt");
+    EXPECT_EQ(holes["region"]["voids"], 121);
+    EXPECT_EQ(holes["region"]["filled"], 0);
+    EXPECT_EQ(holes["region"]["void_method"], "holes");
+    EXPECT_EQ(holes["region"]["H_m"]["lowest"], 1000.0);
+    EXPECT_TRUE(holes["destination"].is_null()) << "the centre ray meets ground where none is";
+
+    Words filling = down;
+    filling.push_back("--fill-voids");
+    const json filled = shoot(folder / "filled.png", filling, folder / "N46E008.hgt");
+    EXPECT_EQ(filled["region"]["filled"], 121);
+    EXPECT_NE(filled["region"]["void_method"].get<std::string>().find("GDALFillNodata"), std::string::npos);
+    EXPECT_EQ(filled["region"]["H_m"], json({{"lowest", 1000.0}, {"highest", 1000.0}}));
+    EXPECT_FALSE(filled["destination"].is_null());
+}
+
 TEST_F(Shot, NamesWithBlanksAndUmlauts) {
     const fs::path data = folder / "Höhen daten.tif";
     fs::copy_file(bundled(), data);
