@@ -109,7 +109,7 @@ bool TiffPicture::open() {
 }
 
 // libtiff takes rationals as doubles and finds fractions for them; every value of ours is one with a
-// denominator that 32 bits hold, and comes back within 1e-9 of itself.
+// denominator that 32 bits hold, and comes back within a part in 1e9.
 bool TiffPicture::set(const ExifField& field) {
     const std::uint32_t tag = field.tag;
     if (const auto* text = std::get_if<std::string>(&field.value))
