@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/high_low.h"
-#include "core/parallel.h"
 
 namespace oro {
 namespace {
@@ -22,39 +21,6 @@ constexpr int posts = static_cast<int>(gpu::page_posts);
 constexpr int stride = static_cast<int>(gpu::height_stride);
 constexpr int meshlet_quads = static_cast<int>(gpu::meshlet_quads);
 constexpr int meshlets_per_side = static_cast<int>(gpu::meshlets_per_side);
-
-// Latitude of a row; a row whose spacing was rounded on its way here still ends exactly on the pole.
-double row_lat_deg(const PostGrid& grid, std::int64_t row) {
-    const double lat_deg = grid.lat.at_deg(row);
-    return std::abs(std::abs(lat_deg) - 90.0) < 1.0e-9 ? std::copysign(90.0, lat_deg) : lat_deg;
-}
-
-// The post that stands for all that are the same point: column 0 for the last one of a region that goes round
-// the Earth, and at a pole the first that is not void.
-PageIndex canonical_post(const HeightField& field, int row, int column) {
-    const PostGrid& grid = field.grid;
-    if (is_void(field.H_at_post_m(row, column))) return {row, column};
-    if (std::abs(row_lat_deg(grid, row)) == 90.0) {
-        int first = 0;
-        while (is_void(field.H_at_post_m(row, first))) ++first;
-        return {row, first};
-    }
-    const bool twin = column == grid.columns() - 1 && grid.goes_round();
-    return {row, twin && !is_void(field.H_at_post_m(row, 0)) ? 0 : column};
-}
-
-// The nearest step, halves upwards.
-std::int32_t height_steps(double h_m) {
-    return static_cast<std::int32_t>(std::floor(h_m * (1.0 / height_step_m) + 0.5));
-}
-
-// Drawn height of a canonical post.
-double drawn_h_m(const HeightField& field, PageIndex post, double exaggeration) {
-    const double h_m =
-        static_cast<double>(field.H_at_post_m(post.row, post.column)) * exaggeration +
-        field.undulation.at_m(row_lat_deg(field.grid, post.row), field.grid.lon.at_deg(post.column));
-    return height_steps(h_m) * height_step_m;
-}
 
 // The terms of gpu::RowTerms and gpu::ColumnTerms before they are rounded.
 struct Row {
@@ -107,9 +73,7 @@ class Draft {
     double height_m(PageIndex post) const;
     glm::dvec3 scaled(const glm::dvec3& position_m) const;
 
-    static std::size_t at(int row, int column) {
-        return static_cast<std::size_t>(row) * posts + static_cast<std::size_t>(column);
-    }
+    static std::size_t at(int row, int column) { return static_cast<std::size_t>(row * posts + column); }
     bool drawable(int row, int column) const {
         return block_.dh[static_cast<std::size_t>(row + 1) * stride + static_cast<std::size_t>(column + 1)] >
                gpu::void_dh_limit_m;
@@ -162,7 +126,7 @@ double Draft::height_m(PageIndex post) const {
         return steps == void_height_steps ? std::numeric_limits<double>::quiet_NaN() : steps * height_step_m;
     }
     if (is_void(field_.H_at_post_m(post.row, post.column))) return std::numeric_limits<double>::quiet_NaN();
-    return drawn_h_m(field_, canonical_post(field_, post.row, post.column), shape_.exaggeration);
+    return drawn_h_m(field_, post.row, post.column, shape_.exaggeration);
 }
 
 void Draft::measure_heights() {
@@ -334,7 +298,11 @@ Sphere sphere_around(std::span<const glm::dvec3> points) {
 
 void Draft::bound_meshlet(int number) {
     gpu::MeshletBounds& bounds = block_.meshlets[number];
-    bounds = {gpu::vec3(0.0F), -1.0F, gpu::vec3(0.0F), 0.0F};
+    bounds = {gpu::vec3(0.0F), -1.0F, gpu::vec3(0.0F), 0.0F, 0.0F, -1.0F, 0U};
+    const int rows = level_.row.quads_of_node(first_row_ / meshlet_quads + number / meshlets_per_side);
+    const int columns =
+        level_.column.quads_of_node(first_column_ / meshlet_quads + number % meshlets_per_side);
+    bounds.quads = static_cast<gpu::uint>(rows) | static_cast<gpu::uint>(columns) << 4U;
     // A post may belong to a neighbour's triangle alone: keeping it costs a little and loses nothing.
     const int triangles = mark_triangles(number);
     if (triangles == 0) return;
@@ -357,6 +325,7 @@ void Draft::bound_meshlet(int number) {
     const HorizonCone cone = horizon_cone_scaled(std::span(points_scaled).first(count));
     bounds.centre = sphere.centre;
     bounds.radius = sphere.radius;
+    bounds.lod_radius = sphere.radius;
     bounds.horizon_angle_rad =
         std::nextafter(static_cast<float>(cone.angle_rad), std::numeric_limits<float>::infinity());
     directions_[static_cast<std::size_t>(number)] = cone.direction;
@@ -403,8 +372,7 @@ RegionShape region_shape(const HeightField& field, double exaggeration) {
             const float H_m = field.H_at_post_m(row, column);
             // Most posts cannot be the lowest whatever their undulation.
             if (is_void(H_m) || static_cast<double>(H_m) * exaggeration + lowest_N_m >= lowest_h_m) continue;
-            lowest_h_m =
-                std::min(lowest_h_m, drawn_h_m(field, canonical_post(field, row, column), exaggeration));
+            lowest_h_m = std::min(lowest_h_m, drawn_h_m(field, row, column, exaggeration));
         }
         const double lat_deg = grid.lat.at_deg(row);
         const double south_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
@@ -413,44 +381,6 @@ RegionShape region_shape(const HeightField& field, double exaggeration) {
         diagonal_m = std::max(diagonal_m, std::hypot(south_m, east_m));
     }
     return {occluder_below(lowest_h_m, diagonal_m), exaggeration};
-}
-
-Ecef post_ecef(const HeightField& field, int row, int column, double exaggeration) {
-    const PageIndex post = canonical_post(field, row, column);
-    assert(!is_void(field.H_at_post_m(post.row, post.column)));
-    return ecef_from_geodetic({row_lat_deg(field.grid, post.row), field.grid.lon.at_deg(post.column),
-                               drawn_h_m(field, post, exaggeration)});
-}
-
-DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int threads) {
-    const PostGrid& grid = field.grid;
-    const bool has_N = !field.undulation.N_m.empty();
-    DrawnHeights heights{grid.rows(), grid.columns(), {}};
-    heights.steps.resize(grid.post_count());
-    std::vector<UndulationField::Between> columns;
-    for (int column = 0; has_N && column < grid.columns(); ++column)
-        columns.push_back(field.undulation.column_between(grid.lon.at_deg(column)));
-    in_parallel(grid.rows(), threads, [&](int row) {
-        const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns());
-        const double lat_deg = row_lat_deg(grid, row);
-        const UndulationField::Between N_row =
-            has_N ? field.undulation.row_between(lat_deg) : UndulationField::Between{};
-        const bool at_pole = std::abs(lat_deg) == 90.0;
-        for (int column = 0; column < grid.columns(); ++column) {
-            const std::size_t i = static_cast<std::size_t>(column);
-            const float H_m = field.H_m[first + i];
-            if (is_void(H_m)) {
-                heights.steps[first + i] = void_height_steps;
-            } else if (at_pole || column == grid.columns() - 1) {
-                const PageIndex post = canonical_post(field, row, column);
-                heights.steps[first + i] = height_steps(drawn_h_m(field, post, exaggeration));
-            } else {
-                const double N_m = has_N ? field.undulation.at_m(N_row, columns[i]) : 0.0;
-                heights.steps[first + i] = height_steps(static_cast<double>(H_m) * exaggeration + N_m);
-            }
-        }
-    });
-    return heights;
 }
 
 PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,

@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <memory>
-#include <vector>
 
 #include "core/culling.h"
+#include "core/drawn_heights.h"
 #include "core/ellipsoid.h"
 #include "core/level_grid.h"
 #include "core/post_grid.h"
@@ -49,33 +48,11 @@ struct PageSummary {
     double highest_h_m{};
     std::uint32_t triangles{};  // 0: nothing to draw
     std::uint32_t meshlets{};   // those with a triangle
+    // Of the nodes, as the pyramid (core/pyramid.h) knows them; 0 where there is none.
+    float largest_error_m{};   // unfit_error_m where one is unfit
+    float smallest_error_m{};  // of those with a triangle
+    double lod_radius_m{};     // around centre_m: holds the nodes' lod spheres
 };
-
-// Drawn heights above the ellipsoid, exaggeration and undulation included, in steps of 2^-11 m: a height less
-// the whole metres of a page's origin is then exact in a float (up to 8,192 m), so that every page and level
-// holds the same height for a post. Costs at most 0.25 mm, and is what every function here calls the height.
-inline constexpr double height_step_m = 1.0 / 2048.0;
-inline constexpr std::int32_t void_height_steps = std::numeric_limits<std::int32_t>::min();
-
-// Those of a whole region, row by row. Posts that are one point (a meridian's two columns, a pole) have one
-// height.
-struct DrawnHeights {
-    int rows{};
-    int columns{};
-    std::vector<std::int32_t> steps;  // void_height_steps where there is none
-
-    [[nodiscard]] const std::int32_t* row(int number) const {
-        return steps.data() + static_cast<std::size_t>(number) * static_cast<std::size_t>(columns);
-    }
-    [[nodiscard]] std::int32_t at(int row_number, int column) const { return row(row_number)[column]; }
-};
-// 4 bytes a post; the work is shared between `threads` (at least 1), with one result for any number.
-DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int threads);
-
-// Position of a post that is not void on the exaggerated surface, canonical: the same bits for the same post
-// from whatever page it is asked. Row and column may be one meridian's two numbers where a region goes round
-// the Earth.
-Ecef post_ecef(const HeightField& field, int row, int column, double exaggeration);
 
 // Fills `block` for a page of any level and gives its summary. Posts of the block are placed within 1 mm of
 // their true position for pages up to 4 km wide, 2 mm up to 12 km, and in proportion beyond (evaluated in

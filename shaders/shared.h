@@ -61,11 +61,16 @@ struct BorderPost {
 // What a meshlet's posts lie in: a sphere in the page frame, and a cone around a direction in scaled space (unit sphere
 // = occluding ellipsoid): when the eye's direction is farther from `horizon_direction` than the eye's own horizon angle plus
 // horizon_angle_rad, no post of the meshlet can be seen. The direction is kept as its offset from the page's.
+// As a node of the pyramid (core/pyramid.h): how far its triangles are from the full resolution, and a sphere around `centre` that
+// holds all they stand for; both at least those of the nodes below it and of those around these.
 struct MeshletBounds {
     vec3 centre;
     float radius;  // negative: the meshlet has no triangle
     vec3 horizon_offset;
     float horizon_angle_rad;
+    float error_m;     // unfit_error_m (levels.glsl): cannot stand for anything
+    float lod_radius;
+    uint quads;        // rows | columns << 4 of quads within the region: 8 each, or fewer where it ends
 };
 // One page as the GPU holds it.
 struct PageBlock {

@@ -69,6 +69,9 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(MeshletBounds, radius);
     ORO_MEMBER(MeshletBounds, horizon_offset);
     ORO_MEMBER(MeshletBounds, horizon_angle_rad);
+    ORO_MEMBER(MeshletBounds, error_m);
+    ORO_MEMBER(MeshletBounds, lod_radius);
+    ORO_MEMBER(MeshletBounds, quads);
     ORO_MEMBER(PageBlock, rows);
     ORO_MEMBER(PageBlock, columns);
     ORO_MEMBER(PageBlock, borders);

@@ -1,0 +1,15 @@
+// The GPU's own choice of levels (shaders/levels.glsl) compiled for the CPU, in float.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "shaders/shared.h"
+
+namespace oro::gpu {
+using std::min;
+using std::sqrt;
+#define ORO_FUNCTION inline
+#include "shaders/levels.glsl"
+#undef ORO_FUNCTION
+}  // namespace oro::gpu

@@ -1,0 +1,218 @@
+#include "core/pyramid.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+
+#include "core/levels_gpu.h"
+#include "core/node_errors.h"
+#include "core/parallel.h"
+
+namespace oro {
+namespace {
+
+constexpr int side = static_cast<int>(gpu::meshlets_per_side);
+constexpr int pages_at_a_time = 32;
+// From a level to the next, errors and radii grow by this much beyond what they must hold: more than rounding
+// in float takes from a page's place, a sphere's distance and the formulas of shaders/levels.glsl.
+constexpr double error_growth = 1.0 + 1.0e-5;
+constexpr double radius_growth = 1.0 + 1.0e-4;
+
+float rounded_up(double value) {
+    const float nearest = static_cast<float>(value);
+    return static_cast<double>(nearest) < value
+               ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
+               : nearest;
+}
+
+std::size_t node_number(const LevelGrid& grid, int row, int column) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.column.nodes()) +
+           static_cast<std::size_t>(column);
+}
+
+glm::dvec3 ecef_of(const PageSummary& page, const glm::dvec3& in_page_m) {
+    return page.origin_ecef.m + page.ecef_from_page * in_page_m;
+}
+
+// Builds one level's pages upon those of the level before.
+class LevelBuilder {
+  public:
+    LevelBuilder(const HeightField& field, const RegionShape& shape, const DrawnHeights& heights,
+                 const LevelPyramid& pyramid, int level, std::vector<PerEdge> stitched_below_m)
+        : field_(field),
+          shape_(shape),
+          heights_(heights),
+          goes_round_(pyramid.goes_round),
+          level_(level),
+          grid_(level_grid(field.grid, level)),
+          below_(level > 0 ? &pyramid.levels[static_cast<std::size_t>(level - 1)] : nullptr),
+          errors_(field.grid, heights, level),
+          stitched_m_(node_number(grid_, grid_.row.nodes(), 0)),
+          stitched_below_m_(std::move(stitched_below_m)) {}
+
+    // Page `number` of the level, row by row. Safe to call from several threads, once for each page.
+    void build(int number, PyramidPage& page, gpu::PageBlock& block);
+    // Of all nodes of the level, row by row, once all pages are built.
+    std::vector<PerEdge> take_stitched_errors() { return std::move(stitched_m_); }
+
+  private:
+    void finish_node(int node_row, int node_column, const PageSummary& page, gpu::MeshletBounds& bounds);
+    void sum_up(PyramidPage& page) const;
+    void hold_pages_below(PyramidPage& page) const;
+    template <class Visit>
+    void visit_nodes_below(int node_row, int node_column, const Visit& visit) const;
+
+    const HeightField& field_;
+    const RegionShape& shape_;
+    const DrawnHeights& heights_;
+    bool goes_round_;
+    int level_;
+    LevelGrid grid_;
+    const PyramidLevel* below_;
+    NodeErrors errors_;
+    std::vector<PerEdge> stitched_m_;
+    std::vector<PerEdge> stitched_below_m_;
+};
+
+constexpr std::size_t north_edge = 0, east_edge = 1, south_edge = 2, west_edge = 3, no_edge = 4;
+
+// The up to four nodes below a node and those that share an edge with them from outside; of these, the edge
+// that faces the node.
+template <class Visit>
+void LevelBuilder::visit_nodes_below(int node_row, int node_column, const Visit& visit) const {
+    if (below_ == nullptr) return;
+    const int rows = below_->grid.row.nodes();
+    const int columns = below_->grid.column.nodes();
+    const int north = 2 * node_row, south = std::min(north + 2, rows);  // the ends are beyond
+    const int west = 2 * node_column, east = std::min(west + 2, columns);
+    for (int row = north; row < south; ++row) {
+        for (int column = west; column < east; ++column) visit(row, column, no_edge);
+        if (west > 0 || goes_round_) visit(row, (west + columns - 1) % columns, east_edge);
+        if (east < columns || goes_round_) visit(row, east % columns, west_edge);
+    }
+    for (int column = west; column < east; ++column) {
+        if (north > 0) visit(north - 1, column, south_edge);
+        if (south < rows) visit(south, column, north_edge);
+    }
+}
+
+// Error and lod sphere of a node. What is drawn around it one level finer is stitched to it, and good enough
+// by its word alone: its error is at least that of their stitched triangles.
+void LevelBuilder::finish_node(int node_row, int node_column, const PageSummary& page,
+                               gpu::MeshletBounds& bounds) {
+    const NodeError error = errors_.error(node_row, node_column);
+    stitched_m_[node_number(grid_, node_row, node_column)] = error.stitched_m;
+    double error_m = std::min<double>(error.own_m, gpu::unfit_error_m);
+    const bool fits = error_m < gpu::unfit_error_m;
+    if (bounds.radius < 0.0F) {
+        // Nothing is drawn for it; it is unfit when there is something that should be.
+        bounds.error_m = fits ? 0.0F : gpu::unfit_error_m;
+        return;
+    }
+    const glm::dvec3 centre = ecef_of(page, bounds.centre);
+    double radius_m = bounds.radius;
+    visit_nodes_below(node_row, node_column, [&](int row, int column, std::size_t edge) {
+        const gpu::MeshletBounds& other = below_->node(row, column);
+        error_m = std::max(error_m, error_growth * static_cast<double>(other.error_m));
+        if (edge != no_edge)
+            error_m = std::max(error_m, stitched_below_m_[node_number(below_->grid, row, column)][edge]);
+        if (other.radius < 0.0F) return;
+        const glm::dvec3 other_centre = ecef_of(below_->page_of_node(row, column).summary, other.centre);
+        radius_m =
+            std::max(radius_m, glm::distance(centre, other_centre) + static_cast<double>(other.lod_radius));
+    });
+    bounds.error_m = std::min(rounded_up(error_m), gpu::unfit_error_m);
+    bounds.lod_radius = rounded_up(level_ == 0 ? radius_m : radius_growth * radius_m);
+}
+
+void LevelBuilder::sum_up(PyramidPage& page) const {
+    PageSummary& summary = page.summary;
+    double radius_m = 0.0;
+    double largest_m = 0.0;
+    float smallest_m = gpu::unfit_error_m;
+    for (const gpu::MeshletBounds& node : page.nodes) {
+        largest_m = std::max(largest_m, static_cast<double>(node.error_m));
+        if (node.radius < 0.0F) continue;
+        smallest_m = std::min(smallest_m, node.error_m);
+        radius_m = std::max(radius_m, glm::distance(summary.centre_m, glm::dvec3(node.centre)) +
+                                          static_cast<double>(node.lod_radius));
+    }
+    summary.largest_error_m = std::min(rounded_up(error_growth * largest_m), gpu::unfit_error_m);
+    summary.smallest_error_m = summary.meshlets == 0 ? 0.0F : smallest_m;
+    summary.lod_radius_m = radius_growth * radius_m;
+}
+
+void LevelBuilder::hold_pages_below(PyramidPage& page) const {
+    const PageSummary& summary = page.summary;
+    const bool drawn = summary.triangles > 0;
+    page.reach_m = drawn ? summary.radius_m : -1.0;
+    page.horizon = drawn ? summary.horizon
+                         : HorizonCone{glm::normalize(shape_.occluder.scaled(summary.origin_ecef)), 0.0};
+    if (below_ == nullptr) return;
+    const PageLayout& layout = below_->layout;
+    const glm::dvec3 centre = ecef_of(summary, summary.centre_m);
+    for (int i = 0; i < 4; ++i) {
+        const int row = 2 * summary.index.row + i / 2;
+        const int column = 2 * summary.index.column + i % 2;
+        if (row >= layout.rows || column >= layout.columns) continue;
+        const PyramidPage& other = below_->page(row, column);
+        if (other.reach_m < 0.0) continue;
+        const glm::dvec3 other_centre = ecef_of(other.summary, other.summary.centre_m);
+        page.reach_m = std::max(page.reach_m, glm::distance(centre, other_centre) + other.reach_m);
+        const double between_rad =
+            std::atan2(glm::length(glm::cross(page.horizon.direction, other.horizon.direction)),
+                       glm::dot(page.horizon.direction, other.horizon.direction));
+        page.horizon.angle_rad = std::max(page.horizon.angle_rad, between_rad + other.horizon.angle_rad);
+    }
+}
+
+void LevelBuilder::build(int number, PyramidPage& page, gpu::PageBlock& block) {
+    const PageIndex index{number / grid_.pages().columns, number % grid_.pages().columns, level_};
+    page.summary = build_page(field_, shape_, heights_, index, block);
+    for (int i = 0; i < side * side; ++i) {
+        const int node_row = index.row * side + i / side;
+        const int node_column = index.column * side + i % side;
+        if (node_row < grid_.row.nodes() && node_column < grid_.column.nodes())
+            finish_node(node_row, node_column, page.summary, block.meshlets[i]);
+    }
+    std::copy(std::begin(block.meshlets), std::end(block.meshlets), page.nodes.begin());
+    sum_up(page);
+    hold_pages_below(page);
+}
+
+}  // namespace
+
+LevelPyramid build_pyramid(const HeightField& field, const RegionShape& shape, int threads,
+                           const PageSink& sink) {
+    assert(threads >= 1);
+    LevelPyramid pyramid{shape, field.grid.goes_round(), {}};
+    const DrawnHeights heights = drawn_heights(field, shape.exaggeration, threads);
+    std::vector<gpu::PageBlock> blocks(pages_at_a_time);
+    const int levels = level_count(field.grid);
+    pyramid.levels.reserve(static_cast<std::size_t>(levels));
+    std::vector<PerEdge> stitched_m;
+    for (int k = 0; k < levels; ++k) {
+        LevelBuilder builder(field, shape, heights, pyramid, k, std::move(stitched_m));
+        PyramidLevel& level = pyramid.levels.emplace_back();
+        level.grid = level_grid(field.grid, k);
+        level.layout = level.grid.pages();
+        const int count = level.layout.rows * level.layout.columns;
+        level.pages.resize(static_cast<std::size_t>(count));
+        for (int first = 0; first < count; first += pages_at_a_time) {
+            const int some = std::min(pages_at_a_time, count - first);
+            in_parallel(some, threads, [&](int i) {
+                builder.build(first + i, level.pages[static_cast<std::size_t>(first + i)],
+                              blocks[static_cast<std::size_t>(i)]);
+            });
+            for (int i = 0; sink && i < some; ++i)
+                sink(level.pages[static_cast<std::size_t>(first + i)], blocks[static_cast<std::size_t>(i)]);
+        }
+        stitched_m = builder.take_stitched_errors();
+    }
+    return pyramid;
+}
+
+}  // namespace oro
