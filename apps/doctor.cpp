@@ -34,6 +34,7 @@ ordered_json device_json(const DeviceReport& d) {
               {"max_output_vertices", d.mesh.max_output_vertices},
               {"max_output_primitives", d.mesh.max_output_primitives},
               {"max_task_groups_total", d.mesh.max_task_groups_total}}},
+            {"pipelines", {{"mesh", d.mesh_shader}, {"compute", d.compute_raster}}},
             {"subgroup_size", d.subgroup_size},
             {"max_picture_side_px", d.max_picture_side_px},
             {"memory_bytes", d.memory_bytes}};
@@ -67,11 +68,19 @@ void print_device(std::size_t number, const DeviceReport& d) {
             joined(d.lacks).c_str());
         return;
     }
-    std::printf(
-        "             mesh shaders: task groups of %u (at most %u), mesh groups of %u (at most %u), %u "
-        "vertices, %u triangles\n",
-        d.mesh.preferred_task_invocations, d.mesh.max_task_invocations, d.mesh.preferred_mesh_invocations,
-        d.mesh.max_mesh_invocations, d.mesh.max_output_vertices, d.mesh.max_output_primitives);
+    if (d.mesh_shader) {
+        std::printf(
+            "             mesh path: task groups of %u (at most %u), mesh groups of %u (at most %u), %u "
+            "vertices, "
+            "%u triangles\n",
+            d.mesh.preferred_task_invocations, d.mesh.max_task_invocations, d.mesh.preferred_mesh_invocations,
+            d.mesh.max_mesh_invocations, d.mesh.max_output_vertices, d.mesh.max_output_primitives);
+    } else {
+        std::printf(
+            "             mesh path: not here (VK_EXT_mesh_shader is missing); the compute path draws\n");
+    }
+    std::printf("             compute path: %s\n",
+                d.compute_raster ? "here" : "not here (64-bit atomics are missing)");
     std::printf("             subgroups of %u, pictures up to %u px a tile, %llu MiB\n", d.subgroup_size,
                 d.max_picture_side_px, static_cast<unsigned long long>(d.memory_bytes >> 20U));
     if (d.type == "software") std::printf("             draws on the processor: right, but slow\n");

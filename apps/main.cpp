@@ -1,10 +1,17 @@
 // The program's door: reads the command line, runs one command, turns an error into one line and an exit
 // code.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <iostream>
+#include <system_error>
 
 #include "apps/commands.h"
+#include "apps/interruption.h"
 
 namespace {
 
@@ -51,10 +58,37 @@ void add_doctor(CLI::App& app, oro::DoctorOptions& options) {
     command.add_flag("--json", options.json, "Print one JSON object on standard output");
 }
 
+int told(const oro::Error& error) {
+    std::fprintf(stderr, "orograph: %s\n", error.line().c_str());
+    return static_cast<int>(error.kind);
+}
+
+// What a command printed has arrived, or the command has failed: `orograph info > file` on a full disk.
 int exit_code(const oro::Result<void>& result) {
-    if (result.ok()) return 0;
-    std::fprintf(stderr, "orograph: %s\n", result.error().line().c_str());
-    return static_cast<int>(result.error().kind);
+    if (!result.ok()) return told(result.error());
+    std::cout.flush();
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return 0;
+    return told({oro::ErrorKind::failed, "standard output",
+                 "cannot be written: " + std::generic_category().message(errno != 0 ? errno : EIO)});
+}
+
+// Where standard streams are closed, the next file opened would be taken for one, and messages written into
+// it. Closed for writing is what standard output then stays.
+void fill_standard_streams() {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (fcntl(descriptor, F_GETFD) < 0 &&
+            open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY) < 0)
+            return;
+    }
+}
+
+// The parser's words, or which command there is none of.
+oro::Error usage_error(const CLI::App& app, int argc, char** argv, const CLI::ParseError& error) {
+    const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty())
+        return {oro::ErrorKind::usage, argv[1], "is no command; these are shot, view, info and doctor"};
+    return {oro::ErrorKind::usage, "", std::string(error.what()) + " (orograph --help tells more)"};
 }
 
 }  // namespace
@@ -62,6 +96,8 @@ int exit_code(const oro::Result<void>& result) {
 int main(int argc, char** argv) {
     // A file that outgrows the shell's limit is a write that fails, and told as such.
     std::signal(SIGXFSZ, SIG_IGN);
+    fill_standard_streams();
+    oro::clean_up_when_interrupted();
     CLI::App app{about, "orograph"};
     app.footer(exit_codes);
     app.require_subcommand(1);
@@ -77,9 +113,9 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return app.exit(e);
-        std::fprintf(stderr, "orograph: %s (orograph --help tells more)\n", e.what());
-        return static_cast<int>(oro::ErrorKind::usage);
+        if (e.get_exit_code() != 0) return told(usage_error(app, argc, argv, e));
+        app.exit(e);
+        return exit_code({});
     }
     if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
     if (app.got_subcommand("view")) return exit_code(oro::run_view(view));

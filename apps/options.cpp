@@ -52,6 +52,11 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
                        "Samples per pixel, 1 to 64, for smooth edges (default 1)");
     command.add_option("--style", options.style,
                        "Style: a name in data/styles or a .json file (default: default)");
+    command
+        .add_option(
+            "--pipeline", options.pipeline,
+            "How triangles are drawn: mesh shaders, compute, or auto (default: mesh where the device has it)")
+        ->check(CLI::IsMember({"auto", "mesh", "compute"}));
     command.add_option("--time", options.time,
                        "The picture's time, e.g. 2026-11-21T09:00:00Z (default: now)");
 }

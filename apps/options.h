@@ -37,6 +37,7 @@ struct ViewOptions {
     std::optional<int> samples;
     std::optional<std::string> style;
     std::optional<std::string> time;
+    std::optional<std::string> pipeline;
 };
 
 struct ShotOptions {

@@ -55,8 +55,10 @@ Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, c
                                     const gpu::FrameStyle& style, const RenderProgress& progress) {
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,
             create_picture(files.picture, geotags_of(view, region), overwrite));
+    ORO_TRY(WholeFile view_file, WholeFile::create(files.view, overwrite));
     PictureOptions options;
     options.samples = view.samples;
+    ORO_TRY(options.path, raster_path_for(view.pipeline, gpu.report()));
     ORO_TRY(PictureReport report,
             render_picture(
                 gpu, scene, view.camera, style, options,
@@ -65,7 +67,6 @@ Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, c
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
     // The view is on the disk before the picture gets its name, and gets its own name after: when the disk is
     // full, neither changes.
-    ORO_TRY(WholeFile view_file, WholeFile::create(files.view, overwrite));
     const std::string text = view_to_json(view, true) + "\n";
     ORO_CHECK(view_file.write(text.data(), text.size()));
     ORO_CHECK(view_file.settle());

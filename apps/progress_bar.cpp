@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/result.h"
+
 namespace oro {
 using std::chrono::steady_clock;
 
@@ -39,7 +41,7 @@ void ProgressBar::clear() {
 }
 
 void say(bool quiet, const std::string& line) {
-    if (!quiet) std::fprintf(stderr, "orograph: %s\n", line.c_str());
+    if (!quiet) std::fprintf(stderr, "orograph: %s\n", one_line(line).c_str());
 }
 
 }  // namespace oro

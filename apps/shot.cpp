@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "apps/commands.h"
+#include "apps/interruption.h"
 #include "apps/json_text.h"
 #include "apps/picture_file.h"
 #include "apps/progress_bar.h"
@@ -16,6 +17,7 @@
 #include "apps/style.h"
 #include "apps/view.h"
 #include "core/ground.h"
+#include "geo/whole_file.h"
 
 namespace oro {
 namespace {
@@ -122,7 +124,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                       {"type", gpu.report().type},
                       {"driver", gpu.report().driver},
                       {"api", gpu.report().api}};
-    json["pipeline"] = "mesh";
+    json["pipeline"] = name_of(shot.picture.path);
     return json;
 }
 
@@ -163,18 +165,38 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
     }
 }
 
-}  // namespace
-
-namespace {
-
-Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, bool announced) {
+// Before anything takes time: that both files can be written where they shall be.
+Result<void> check_out(const ShotOptions& options, const PictureFiles& files) {
     for (const std::string& file : {files.picture, files.view}) {
         if (!options.overwrite && access(file.c_str(), F_OK) == 0)
             return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
+        if (const auto trial = WholeFile::create(file, options.overwrite); !trial.ok()) return trial.error();
     }
+    return {};
+}
+
+// --overwrite is for pictures: the terrain and the style that a picture is made from are never replaced by
+// it.
+Result<void> spare_inputs(const PictureFiles& files, const ShotResult& shot) {
+    std::vector<std::string> inputs{shot.view.style};
+    for (const SourceReport& source : shot.region.sources) inputs.push_back(source.path);
+    for (const std::string& file : {files.picture, files.view}) {
+        for (const std::string& input : inputs) {
+            std::error_code not_there;
+            if (fs::equivalent(file, input, not_there))
+                return Error{ErrorKind::usage, "--out",
+                             "would replace " + input + ", which the picture is made from"};
+        }
+    }
+    return {};
+}
+
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, bool announced) {
+    ORO_CHECK(check_out(options, files));
     ProgressBar bar(options.quiet);
     ShotResult shot;
     ORO_CHECK(open_view(options, bar, shot));
+    ORO_CHECK(spare_inputs(files, shot));
     ORO_TRY(const Style style, load_style(shot.view.style, shot.view.sun));
     bar.clear();
     say_notes(options, shot);
@@ -183,7 +205,8 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, bo
     const auto start = Clock::now();
     ORO_TRY(const Scene scene, create_scene(*gpu, shot.region.field, shot.view.exaggeration,
                                             [&](double share) { bar.show(share, "placing posts"); }));
-    if (scene.pages.empty()) return Error{ErrorKind::no_data, "region", "every post is void"};
+    if (scene.pages.empty())
+        return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
     shot.pages = scene.pages.size();
     shot.triangles_at_full_resolution = scene.triangles;
     shot.times.pages_s = seconds_since(start);
@@ -203,24 +226,11 @@ bool same_bytes(const std::string& a, const std::string& b) {
            std::equal(std::istreambuf_iterator<char>(one), {}, std::istreambuf_iterator<char>(other), {});
 }
 
-// A folder of its own that goes when its owner goes.
-struct ScratchFolder {
-    std::string path = (fs::temp_directory_path() / "orograph-XXXXXX").string();
-    bool made = mkdtemp(path.data()) != nullptr;
-    ScratchFolder() = default;
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder() {
-        std::error_code ignored;
-        if (made) fs::remove_all(path, ignored);
-    }
-};
-
 Result<void> check_shot(const ShotOptions& options, const PictureFiles& files) {
     const ScratchFolder scratch;
-    if (!scratch.made) return Error{ErrorKind::failed, scratch.path, "cannot be made"};
+    if (!scratch.made()) return Error{ErrorKind::failed, scratch.path(), "cannot be made"};
     const PictureFiles again =
-        picture_files((fs::path(scratch.path) / fs::path(files.picture).filename()).string());
+        picture_files((fs::path(scratch.path()) / fs::path(files.picture).filename()).string());
     ORO_CHECK(take_shot(options, again, false));
     if (!same_bytes(again.picture, files.picture))
         return Error{

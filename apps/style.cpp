@@ -2,18 +2,13 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/data_folder.h"
+#include "apps/json_fields.h"
 
 namespace oro {
 namespace {
-
-// A fault in a style file, on its way to the Error that load_style returns.
-struct StyleFault {
-    std::string what;
-};
 
 float linear_from_srgb(int value) {
     // Source: IEC 61966-2-1:1999, 5.2.
@@ -22,49 +17,55 @@ float linear_from_srgb(int value) {
                                                  : std::pow((encoded + 0.055) / 1.055, 2.4));
 }
 
-gpu::vec3 colour_of(const nlohmann::json& json) {
-    const std::string text = json.get<std::string>();
+gpu::vec3 colour_of(const nlohmann::json& json, const char* name) {
+    const std::string text = json_string(json, name);
     if (text.size() != 7 || text[0] != '#' ||
         text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
-        throw StyleFault{"'" + text + "' is not a colour like #a0b1c2"};
+        throw JsonFault{"'" + text + "' is not a colour like #a0b1c2"};
     const long value = std::strtol(text.c_str() + 1, nullptr, 16);
     return {linear_from_srgb(static_cast<int>(value >> 16 & 255)),
             linear_from_srgb(static_cast<int>(value >> 8 & 255)),
             linear_from_srgb(static_cast<int>(value & 255))};
 }
 
+constexpr double largest = 1e9;  // metres, or whatever else a style measures
+
+float number(const nlohmann::json& json, const char* name, double low, double high) {
+    return static_cast<float>(json_number(json, name, low, high));
+}
+
 float positive(const nlohmann::json& json, const char* name) {
-    const float value = json.at(name).get<float>();
-    if (!(value > 0.0F) || !std::isfinite(value)) throw StyleFault{std::string(name) + " must be above 0"};
+    const float value = number(json, name, 0.0, largest);
+    if (!(value > 0.0F)) throw JsonFault{"'" + std::string(name) + "' must be above 0"};
     return value;
 }
 
 Style read_style(const nlohmann::json& json, const std::optional<SunDirection>& wanted_sun) {
     gpu::FrameStyle style{};
-    const auto& tints = json.at("tints");
-    if (tints.empty() || tints.size() > gpu::tint_stops_max)
-        throw StyleFault{"tints must have 1 to " + std::to_string(gpu::tint_stops_max) + " entries"};
+    const auto& tints = json_field(json, "tints");
+    if (!tints.is_array() || tints.empty() || tints.size() > gpu::tint_stops_max)
+        throw JsonFault{"'tints' must be a list of 1 to " + std::to_string(gpu::tint_stops_max)};
     for (const auto& stop : tints) {
-        const float H_m = stop.at("H_m").get<float>();
+        const float H_m = number(stop, "H_m", -largest, largest);
         if (style.tint_count > 0 && !(H_m > style.tints[style.tint_count - 1].H_m))
-            throw StyleFault{"tints must ascend in H_m"};
-        style.tints[style.tint_count++] = {H_m, colour_of(stop.at("colour"))};
+            throw JsonFault{"tints must ascend in H_m"};
+        style.tints[style.tint_count++] = {H_m, colour_of(stop, "colour")};
     }
-    SunDirection sun{json.at("sun").at("azimuth_deg"), json.at("sun").at("elevation_deg")};
+    const auto& own_sun = json_field(json, "sun");
+    SunDirection sun{json_number(own_sun, "azimuth_deg", -1e9, 1e9),
+                     json_number(own_sun, "elevation_deg", -90, 90)};
     if (wanted_sun) sun = *wanted_sun;
     const double azimuth = radians_from_deg(sun.azimuth_deg).rad,
                  elevation = radians_from_deg(sun.elevation_deg).rad;
     style.sun_enu = gpu::vec3(std::sin(azimuth) * std::cos(elevation),
                               std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
-    style.ambient = json.at("ambient").get<float>();
-    if (!(style.ambient >= 0.0F && style.ambient <= 1.0F))
-        throw StyleFault{"ambient must be between 0 and 1"};
+    style.ambient = number(json, "ambient", 0.0, 1.0);
     style.relief = positive(json, "relief");
-    style.haze_colour = colour_of(json.at("haze").at("colour"));
-    style.haze_distance_m = positive(json.at("haze"), "distance_m");
-    style.zenith_colour = colour_of(json.at("sky").at("zenith"));
-    style.sky_scale_height_m = positive(json.at("sky"), "scale_height_m");
-    style.no_data_colour = colour_of(json.at("no_data"));
+    style.haze_colour = colour_of(json_field(json, "haze"), "colour");
+    style.haze_distance_m = positive(json_field(json, "haze"), "distance_m");
+    style.zenith_colour = colour_of(json_field(json, "sky"), "zenith");
+    style.sky_scale_height_m = positive(json_field(json, "sky"), "scale_height_m");
+    style.no_data_colour = colour_of(json, "no_data");
     return {style, sun};
 }
 
@@ -73,16 +74,15 @@ Style read_style(const nlohmann::json& json, const std::optional<SunDirection>& 
 Result<Style> load_style(const std::string& name, const std::optional<SunDirection>& sun) {
     const bool is_path = name.ends_with(".json") || name.find('/') != std::string::npos;
     const std::string path = is_path ? name : (data_folder() / "styles" / (name + ".json")).string();
-    std::ifstream file(path);
-    if (!file)
-        return Error{is_path ? ErrorKind::failed : ErrorKind::usage, "--style " + name,
-                     "no style at " + path};
+    const auto text = read_text_file(path);
+    if (!text.ok())
+        return Error{is_path ? ErrorKind::failed : ErrorKind::usage, "--style " + name, text.error().line()};
     try {
-        return read_style(nlohmann::json::parse(file), sun);
+        return read_style(parsed_json(*text), sun);
+    } catch (const JsonFault& fault) {
+        return Error{ErrorKind::failed, path, fault.what};
     } catch (const nlohmann::json::exception& e) {
         return Error{ErrorKind::failed, path, e.what()};
-    } catch (const StyleFault& fault) {
-        return Error{ErrorKind::failed, path, fault.what};
     }
 }
 

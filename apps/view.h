@@ -25,6 +25,7 @@ struct View {
     int samples{1};
     std::optional<SunDirection> sun;  // nothing: the style's
     std::string style{"default"};
+    std::string pipeline{"auto"};  // or "mesh", "compute"
     std::int64_t time_utc_s{};
 };
 

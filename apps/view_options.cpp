@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "apps/json_text.h"
 #include "apps/view.h"
 
 namespace oro {
@@ -53,7 +54,11 @@ Result<std::int64_t> parse_time(const std::string& text) {
     const char* const end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &parts);
     if (!end || *end != '\0')
         return usage("--time", "'" + text + "' is not a UTC time like 2026-11-21T09:00:00Z");
-    return static_cast<std::int64_t>(timegm(&parts));
+    // timegm carries what is too much: the 30th of February would be the 2nd of March.
+    const auto time_utc_s = static_cast<std::int64_t>(timegm(&parts));
+    if (time_text(time_utc_s) != text)
+        return usage("--time", "'" + text + "' is no time of the calendar written like 2026-11-21T09:00:00Z");
+    return time_utc_s;
 }
 
 // The clock, or SOURCE_DATE_EPOCH for builds that must repeat.
@@ -89,6 +94,7 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
         view.samples = static_cast<int>(samples);
     }
     if (options.style) view.style = *options.style;
+    if (options.pipeline) view.pipeline = *options.pipeline;
     if (options.time) {
         ORO_TRY(view.time_utc_s, parse_time(*options.time));
     }

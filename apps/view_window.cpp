@@ -220,6 +220,7 @@ Result<void> run_view(const WindowOptions& options) {
             Window::create(*gpu, view.camera.width_px, view.camera.height_px, "Orograph"));
     FrameRendererOptions renderer_options;
     renderer_options.extent = window->extent();
+    ORO_TRY(renderer_options.path, raster_path_for(view.pipeline, gpu->report()));
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
     Viewer viewer{options, std::move(view), std::move(region), style.frame, *gpu,

@@ -9,7 +9,9 @@
 #include <climits>
 #include <csignal>
 #include <cstdlib>
+#include <mutex>
 #include <random>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -28,6 +30,16 @@ std::string folder_of(const std::string& path) {
     const std::size_t slash = path.rfind('/');
     if (slash == std::string::npos) return ".";
     return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+// The temporary names in use. They stay to the very end of the program: a signal may come then, too.
+struct Unfinished {
+    std::mutex mutex;
+    std::set<std::string> paths;
+};
+Unfinished& unfinished() {
+    static auto* const all = new Unfinished;
+    return *all;
 }
 
 // A write past the file size limit (ulimit -f) must come back as EFBIG; the signal's default is to end the
@@ -49,14 +61,23 @@ int open_temporary(const std::string& folder, std::string& temporary_path) {
     static constexpr char letters[] = "abcdefghijklmnopqrstuvwxyz0123456789";
     std::random_device random;
     std::uniform_int_distribution<std::size_t> letter(0, sizeof(letters) - 2);
+    const std::scoped_lock lock(unfinished().mutex);
     for (int attempt = 0; attempt < 100; ++attempt) {
         std::string path = (folder == "/" ? "" : folder) + "/.orograph-";
         for (int i = 0; i < 10; ++i) path += letters[letter(random)];
         const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0) temporary_path = std::move(path);
+        if (descriptor >= 0) {
+            unfinished().paths.insert(path);
+            temporary_path = std::move(path);
+        }
         if (descriptor >= 0 || errno != EEXIST) return descriptor;
     }
     return -1;
+}
+
+void forget_temporary(const std::string& path) {
+    const std::scoped_lock lock(unfinished().mutex);
+    unfinished().paths.erase(path);
 }
 
 // Gives `from` the name `to` unless something has that name. Where a file system knows neither way to do this
@@ -144,7 +165,9 @@ WholeFile::~WholeFile() {
 
 void WholeFile::abandon() noexcept {
     if (stream_) std::fclose(std::exchange(stream_, nullptr));
-    if (!temporary_path_.empty()) unlink(temporary_path_.c_str());
+    if (temporary_path_.empty()) return;
+    unlink(temporary_path_.c_str());
+    forget_temporary(temporary_path_);
     temporary_path_.clear();
 }
 
@@ -181,6 +204,7 @@ Result<void> WholeFile::commit() {
         abandon();
         return fault(path_, "cannot be written: " + reason(why));
     }
+    forget_temporary(temporary_path_);
     temporary_path_.clear();
     // The name is on disk once the folder is; some file systems cannot sync a folder, and that is no failure.
     const int folder = open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -189,6 +213,11 @@ Result<void> WholeFile::commit() {
         close(folder);
     }
     return {};
+}
+
+void remove_unfinished_files() {
+    unfinished().mutex.lock();  // for good: see the header
+    for (const std::string& path : unfinished().paths) unlink(path.c_str());
 }
 
 Result<void> write_whole_file(const std::string& path, const std::string& text, bool overwrite) {

@@ -40,6 +40,11 @@ class WholeFile {
     bool overwrite_{false};
 };
 
+// For a program that a signal ends: removes the temporary files of all unfinished WholeFiles, and lets no new
+// one appear (a thread that wants one waits). The program must end after it. From any thread; not from a signal
+// handler.
+void remove_unfinished_files();
+
 // Writes a whole text file in one go.
 Result<void> write_whole_file(const std::string& path, const std::string& text, bool overwrite);
 

@@ -87,8 +87,11 @@ void describe_lacks(VkPhysicalDevice physical, const GpuOptions& options, Device
     if (!vulkan13.synchronization2) report.lacks.emplace_back("synchronization2");
     if (!vulkan13.dynamicRendering) report.lacks.emplace_back("dynamicRendering");
     if (!vulkan13.maintenance4) report.lacks.emplace_back("maintenance4");
-    if (!report.mesh_shader || !mesh.meshShader || !mesh.taskShader)
-        report.lacks.emplace_back("VK_EXT_mesh_shader");
+    report.mesh_shader = report.mesh_shader && mesh.meshShader && mesh.taskShader;
+    report.compute_raster =
+        !options.without_compute_raster && features.features.shaderInt64 && vulkan12.shaderBufferInt64Atomics;
+    if (!report.mesh_shader && !report.compute_raster)
+        report.lacks.emplace_back("VK_EXT_mesh_shader and 64-bit atomics (one of them is needed)");
     if (!graphics_queue_family(physical)) report.lacks.emplace_back("a queue for graphics and compute");
     if (options.presents && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
         report.lacks.emplace_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
@@ -130,6 +133,22 @@ DeviceReport describe_device(VkPhysicalDevice physical, const GpuOptions& option
     describe_properties(physical, report);
     describe_lacks(physical, options, report);
     return report;
+}
+
+Result<RasterPath> raster_path_for(const std::string& request, const DeviceReport& device) {
+    const bool wants_mesh = request == "mesh" || (request == "auto" && device.mesh_shader);
+    if (wants_mesh ? device.mesh_shader : device.compute_raster)
+        return wants_mesh ? RasterPath::mesh : RasterPath::compute;
+    return Error{
+        ErrorKind::no_device, "--pipeline " + request,
+        device.name +
+            (wants_mesh
+                 ? " has no VK_EXT_mesh_shader; --pipeline compute draws without it, or get a current driver"
+                 : " has no 64-bit atomics in buffers; --pipeline mesh draws without them")};
+}
+
+std::string name_of(RasterPath path) {
+    return path == RasterPath::mesh ? "mesh" : "compute";
 }
 
 }  // namespace oro

@@ -48,7 +48,7 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     assert(options.extent.height > 0 && options.extent.height <= gpu.report().max_picture_side_px);
     FrameRenderer renderer(gpu);
     renderer.options_ = options;
-    ORO_TRY(renderer.pipelines_, create_pipelines(gpu, options.record_positions));
+    ORO_TRY(renderer.pipelines_, create_pipelines(gpu, options.path, options.record_positions));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -59,6 +59,10 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     ORO_TRY(renderer.counts_read_,
             create_buffer(gpu, sizeof(gpu::FrameCounts), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                           BufferPlace::readback, "counts read back"));
+    if (options.path == RasterPath::compute) {
+        ORO_TRY(ComputeRaster compute, ComputeRaster::create(gpu, options.extent));
+        renderer.compute_.emplace(std::move(compute));
+    }
     ORO_CHECK(renderer.reserve_pages(256));
     ORO_CHECK(renderer.create_images());
     ORO_CHECK(renderer.create_set());
@@ -67,20 +71,23 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
 
 Result<void> FrameRenderer::resize(VkExtent2D extent) {
     options_.extent = extent;
+    if (compute_) ORO_CHECK(compute_->resize(extent));
     ORO_CHECK(create_images());
     return create_set();
 }
 
 Result<void> FrameRenderer::create_images() {
     const VkExtent2D extent = options_.extent;
+    // The compute path keeps ids and depths in a buffer of its own.
+    const VkExtent2D raster_extent = compute_ ? VkExtent2D{1, 1} : extent;
     const VkExtent2D sum_extent = options_.several_samples ? extent : VkExtent2D{1, 1};
     constexpr VkImageUsageFlags read_back = VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    ORO_TRY(ids_, create_image(*gpu_, id_format, extent,
+    ORO_TRY(ids_, create_image(*gpu_, id_format, raster_extent,
                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | read_back,
                                VK_IMAGE_ASPECT_COLOR_BIT, "triangle ids"));
-    ORO_TRY(depth_,
-            create_image(*gpu_, depth_format, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read_back,
-                         VK_IMAGE_ASPECT_DEPTH_BIT, "depth"));
+    ORO_TRY(depth_, create_image(*gpu_, depth_format, raster_extent,
+                                 VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read_back,
+                                 VK_IMAGE_ASPECT_DEPTH_BIT, "depth"));
     ORO_TRY(sum_, create_image(*gpu_, sum_format, sum_extent, VK_IMAGE_USAGE_STORAGE_BIT,
                                VK_IMAGE_ASPECT_COLOR_BIT, "sum of samples"));
     ORO_TRY(picture_, create_image(*gpu_, picture_format_vk, extent, VK_IMAGE_USAGE_STORAGE_BIT | read_back,
@@ -124,6 +131,7 @@ Result<void> FrameRenderer::create_set() {
 }
 
 Result<void> FrameRenderer::reserve_pages(std::size_t count) {
+    if (compute_) ORO_CHECK(compute_->reserve_pages(count));
     if (count <= page_capacity_) return {};
     const std::size_t capacity = std::max(count, 2 * page_capacity_);
     const VkDeviceSize size = pages_offset + capacity * sizeof(gpu::FramePage);
@@ -148,6 +156,7 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const PageStore& pages, cons
     constants.pages = address_words(frame_data_.address + pages_offset);
     constants.counts = address_words(counts_.address);
     constants.style = style;
+    if (compute_) compute_->address(constants);
     if (options_.record_positions) {
         const VkDeviceSize size = std::max<std::size_t>(plan.pages.size(), 1) * gpu::page_posts *
                                   gpu::page_posts * sizeof(gpu::vec3);
@@ -202,13 +211,10 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.terrain.get());
-    const gpu::uvec2 address = address_words(frame_data_.address);
+    PushBlock push = push_block();
     for (std::uint32_t first = 0; first < plan.pages.size(); first += pages_per_draw) {
-        const PushBlock push{{address.x, address.y}, first};
-        vkCmdPushConstants(
-            commands, pipelines_.layout.get(),
-            VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
-            sizeof(push), &push);
+        push.first_page = first;
+        vkCmdPushConstants(commands, pipelines_.layout.get(), pipelines_.push_stages, 0, sizeof(push), &push);
         const std::uint32_t count =
             std::min(pages_per_draw, static_cast<std::uint32_t>(plan.pages.size()) - first);
         gpu_->draw_mesh_tasks()(commands, gpu::meshlets_per_page / pipelines_.meshlets_per_task, count, 1);
@@ -217,7 +223,8 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
 }
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) const {
-    image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, as_colour, shader_read);
+    image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, compute_ ? unused : as_colour,
+                  shader_read);
     const bool first = plan.constants.sample_index == 0;
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
@@ -225,20 +232,25 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.shade.get());
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1, &set_, 0,
                             nullptr);
-    const gpu::uvec2 address = address_words(frame_data_.address);
-    const PushBlock push{{address.x, address.y}, 0};
-    vkCmdPushConstants(
-        commands, pipelines_.layout.get(),
-        VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
-        sizeof(push), &push);
+    const PushBlock push = push_block();
+    vkCmdPushConstants(commands, pipelines_.layout.get(), pipelines_.push_stages, 0, sizeof(push), &push);
     vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
+}
+
+PushBlock FrameRenderer::push_block() const {
+    const gpu::uvec2 address = address_words(frame_data_.address);
+    return {{address.x, address.y}, 0};
 }
 
 void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) const {
     vkCmdResetQueryPool(commands, timestamps_.get(), 0, 3);
     record_upload(commands, plan);
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 0);
-    record_raster(commands, plan);
+    if (compute_) {
+        compute_->record(commands, pipelines_, plan, push_block());
+    } else {
+        record_raster(commands, plan);
+    }
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 1);
     record_shade(commands, plan);
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 2);
@@ -306,13 +318,41 @@ Result<std::vector<std::uint8_t>> FrameRenderer::read_picture(std::uint32_t widt
     return as_vector<std::uint8_t>(bytes);
 }
 
+// Word 0 of a pixel of the compute path's buffer is the id, word 1 the depth.
+Result<std::vector<std::uint32_t>> FrameRenderer::read_visibility_words(std::uint32_t width,
+                                                                        std::uint32_t height,
+                                                                        std::size_t word) {
+    const VkDeviceSize size = VkDeviceSize{8} * width * height;
+    ORO_TRY(const Buffer buffer, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                               BufferPlace::readback, "visibility read back"));
+    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+        const VkBufferCopy copy{0, 0, size};
+        vkCmdCopyBuffer(commands, compute_->visibility().handle.get(), buffer.handle.get(), 1, &copy);
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    }));
+    std::vector<std::uint32_t> words(std::size_t{width} * height);
+    for (std::size_t i = 0; i < words.size(); ++i)
+        std::memcpy(&words[i], buffer.mapped + 8 * i + 4 * word, sizeof(std::uint32_t));
+    return words;
+}
+
 Result<std::vector<std::uint32_t>> FrameRenderer::read_ids(std::uint32_t width, std::uint32_t height) {
+    if (compute_) return read_visibility_words(width, height, 0);
     ORO_TRY(const std::vector<std::byte> bytes,
             read_image(ids_, VK_IMAGE_ASPECT_COLOR_BIT, shader_read, width, height));
     return as_vector<std::uint32_t>(bytes);
 }
 
 Result<std::vector<float>> FrameRenderer::read_depths(std::uint32_t width, std::uint32_t height) {
+    if (compute_) {
+        ORO_TRY(const std::vector<std::uint32_t> bits, read_visibility_words(width, height, 1));
+        std::vector<float> depths(bits.size());
+        std::memcpy(depths.data(), bits.data(), bits.size() * sizeof(float));
+        return depths;
+    }
     ORO_TRY(const std::vector<std::byte> bytes,
             read_image(depth_, VK_IMAGE_ASPECT_DEPTH_BIT, as_depth, width, height));
     return as_vector<float>(bytes);

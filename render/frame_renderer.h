@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/frame_plan.h"
+#include "render/compute_raster.h"
 #include "render/page_store.h"
 #include "render/pipelines.h"
 #include "render/resources.h"
@@ -21,9 +23,10 @@ struct FrameReport {
 };
 
 struct FrameRendererOptions {
-    VkExtent2D extent{};          // largest tile, at most the device's limit
-    bool several_samples{false};  // will be asked for sample_count > 1
-    bool record_positions{false};
+    VkExtent2D extent{};           // largest tile, at most the device's limit
+    bool several_samples{false};   // will be asked for sample_count > 1
+    bool record_positions{false};  // mesh path only
+    RasterPath path{RasterPath::mesh};
 };
 
 class FrameRenderer {
@@ -58,6 +61,9 @@ class FrameRenderer {
     Result<void> upload(FramePlan& plan, const PageStore& pages, const gpu::FrameStyle& style,
                         std::uint32_t sample_index, std::uint32_t sample_count);
     void record(VkCommandBuffer commands, const FramePlan& plan) const;
+    [[nodiscard]] PushBlock push_block() const;
+    Result<std::vector<std::uint32_t>> read_visibility_words(std::uint32_t width, std::uint32_t height,
+                                                             std::size_t word);
     void record_upload(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_shade(VkCommandBuffer commands, const FramePlan& plan) const;
@@ -67,6 +73,7 @@ class FrameRenderer {
     const Gpu* gpu_;
     FrameRendererOptions options_;
     Pipelines pipelines_;
+    std::optional<ComputeRaster> compute_;
     Commands commands_;
     Image ids_, depth_, sum_, picture_;
     OwnedDescriptorPool pool_;

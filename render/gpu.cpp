@@ -98,8 +98,10 @@ GpuOptions gpu_options_from_environment() {
     if (const char* device = std::getenv("OROGRAPH_DEVICE")) options.device_name = device;
     if (const char* wanted = std::getenv("OROGRAPH_VALIDATION"))
         options.validation = std::strcmp(wanted, "1") == 0;
-    if (const char* without = std::getenv("OROGRAPH_WITHOUT"))
+    if (const char* without = std::getenv("OROGRAPH_WITHOUT")) {
         options.without_mesh_shader = std::strstr(without, "mesh_shader") != nullptr;
+        options.without_compute_raster = std::strstr(without, "compute") != nullptr;
+    }
     return options;
 }
 
@@ -167,13 +169,15 @@ Result<void> Gpu::create_device(const GpuOptions& options) {
     VkPhysicalDeviceVulkan13Features vulkan13{};
     vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     vulkan13.synchronization2 = vulkan13.dynamicRendering = vulkan13.maintenance4 = VK_TRUE;
-    vulkan13.pNext = &mesh;
+    if (report_.mesh_shader) vulkan13.pNext = &mesh;
     VkPhysicalDeviceVulkan12Features vulkan12{};
     vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
     vulkan12.bufferDeviceAddress = vulkan12.scalarBlockLayout = VK_TRUE;
+    vulkan12.shaderBufferInt64Atomics = report_.compute_raster ? VK_TRUE : VK_FALSE;
     vulkan12.pNext = &vulkan13;
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.features.shaderInt64 = report_.compute_raster ? VK_TRUE : VK_FALSE;
     features.pNext = &vulkan12;
 
     const float priority = 1.0F;
@@ -182,7 +186,8 @@ Result<void> Gpu::create_device(const GpuOptions& options) {
     queue.queueFamilyIndex = queue_family_;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    std::vector<const char*> extensions{VK_EXT_MESH_SHADER_EXTENSION_NAME};
+    std::vector<const char*> extensions;
+    if (report_.mesh_shader) extensions.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
     if (options.presents) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;

@@ -25,10 +25,11 @@ struct MeshShaderLimits {
 // One device as the driver describes it.
 struct DeviceReport {
     std::string name;
-    std::string type;    // "discrete GPU", "software", ...
-    std::string driver;  // name and version as the driver gives them
-    std::string api;     // "1.3.274"
-    bool mesh_shader{};
+    std::string type;       // "discrete GPU", "software", ...
+    std::string driver;     // name and version as the driver gives them
+    std::string api;        // "1.3.274"
+    bool mesh_shader{};     // VK_EXT_mesh_shader with task shaders: the mesh path runs
+    bool compute_raster{};  // 64-bit integers and atomics in buffers: the compute path runs
     MeshShaderLimits mesh;
     std::uint32_t subgroup_size{};
     std::uint32_t max_picture_side_px{};  // largest image and framebuffer side
@@ -41,10 +42,21 @@ struct GpuOptions {
     bool validation{false};   // the Khronos validation layer, with synchronization validation
     std::vector<const char*> instance_extensions;  // for a window's surface
     bool presents{false};                          // needs VK_KHR_swapchain
-    bool without_mesh_shader{false};  // treat every device as one without VK_EXT_mesh_shader (for tests)
+    bool without_mesh_shader{false};     // treat every device as one without VK_EXT_mesh_shader (for tests)
+    bool without_compute_raster{false};  // ... as one without 64-bit atomics
 };
-// Options as the environment sets them: OROGRAPH_DEVICE, OROGRAPH_VALIDATION=1, OROGRAPH_WITHOUT=mesh_shader.
+// Options as the environment sets them: OROGRAPH_DEVICE, OROGRAPH_VALIDATION=1,
+// OROGRAPH_WITHOUT=mesh_shader,compute.
 GpuOptions gpu_options_from_environment();
+
+// The two ways from meshlets to triangle ids.
+enum class RasterPath { mesh, compute };
+
+// The way that a request ("auto", "mesh", "compute") means on a device; auto takes mesh shaders where there
+// are any. Errors (no_device): the device lacks what the request names.
+Result<RasterPath> raster_path_for(const std::string& request, const DeviceReport& device);
+// "mesh" or "compute".
+std::string name_of(RasterPath path);
 
 // Instance, device, queue. Not copyable or movable: everything else points to it.
 class Gpu {

@@ -99,9 +99,11 @@ Result<PictureReport> render_picture(const Gpu& gpu, const Scene& scene, const C
     renderer_options.extent = {static_cast<std::uint32_t>(tile_width),
                                static_cast<std::uint32_t>(tile_height)};
     renderer_options.several_samples = options.samples > 1;
+    renderer_options.path = options.path;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
 
     PictureReport report;
+    report.path = options.path;
     std::vector<std::uint8_t> band(std::size_t{3} * static_cast<std::size_t>(camera.width_px) *
                                    static_cast<std::size_t>(tile_height));
     for (int y = 0; y < camera.height_px; y += tile_height) {

@@ -29,6 +29,7 @@ Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exag
 struct PictureOptions {
     int samples{1};          // per pixel, 1..64, each at a place of its own
     int largest_tile_px{0};  // 0: chosen from the device; tests make it small
+    RasterPath path{RasterPath::mesh};
 };
 
 // What it took to draw a picture: sums over its tiles and samples.
@@ -37,6 +38,7 @@ struct PictureReport {
     std::uint64_t pages_beyond_frustum{};
     std::uint64_t pages_beyond_horizon{};
     int tiles{};
+    RasterPath path{RasterPath::mesh};
 };
 
 // Takes the next row of the picture, width * 3 bytes of sRGB.

@@ -7,6 +7,10 @@
 #include <span>
 
 #include "shaders/shared.h"
+#include "spirv/cull_comp.h"
+#include "spirv/raster_clip_comp.h"
+#include "spirv/raster_comp.h"
+#include "spirv/raster_large_comp.h"
 #include "spirv/shade_comp.h"
 #include "spirv/terrain_frag.h"
 #include "spirv/terrain_mesh.h"
@@ -46,8 +50,7 @@ Result<void> create_layouts(const Gpu& gpu, Pipelines& pipelines) {
     gpu.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_handle, "shading images");
 
     VkPushConstantRange push{};
-    push.stageFlags =
-        VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT | VK_SHADER_STAGE_COMPUTE_BIT;
+    push.stageFlags = pipelines.push_stages;
     push.size = sizeof(PushBlock);
     VkPipelineLayoutCreateInfo layout{};
     layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -144,11 +147,12 @@ Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& p
 }
 
 Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
-                                              std::span<const std::uint32_t> words, const char* name) {
+                                              std::span<const std::uint32_t> words, const char* name,
+                                              const VkSpecializationInfo* constants = nullptr) {
     ORO_TRY(const OwnedShader shader, create_shader(gpu, words, name));
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, nullptr);
+    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, constants);
     info.layout = pipelines.layout.get();
     VkPipeline handle{};
     ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
@@ -156,12 +160,8 @@ Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& p
     return OwnedPipeline(gpu.device(), handle);
 }
 
-}  // namespace
-
-Result<Pipelines> create_pipelines(const Gpu& gpu, bool record_positions) {
+Result<void> create_mesh_path(const Gpu& gpu, bool record_positions, Pipelines& pipelines) {
     const MeshShaderLimits& limits = gpu.report().mesh;
-    Pipelines pipelines;
-    ORO_CHECK(create_layouts(gpu, pipelines));
     // A power of two that divides the meshlets of a page.
     pipelines.meshlets_per_task = std::bit_floor(std::clamp(
         std::min(limits.preferred_task_invocations, limits.max_task_invocations), 1U, meshlets_per_task_max));
@@ -171,7 +171,33 @@ Result<Pipelines> create_pipelines(const Gpu& gpu, bool record_positions) {
     ORO_TRY(pipelines.terrain,
             create_terrain_pipeline(gpu, pipelines, {pipelines.meshlets_per_task, recording},
                                     {mesh_size, recording}));
-    ORO_TRY(pipelines.shade, create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade"));
+    return {};
+}
+
+Result<void> create_compute_path(const Gpu& gpu, Pipelines& pipelines) {
+    ORO_TRY(pipelines.cull, create_compute_pipeline(gpu, pipelines, cull_comp_spirv, "cull"));
+    ORO_TRY(pipelines.raster, create_compute_pipeline(gpu, pipelines, raster_comp_spirv, "raster"));
+    ORO_TRY(pipelines.raster_clip,
+            create_compute_pipeline(gpu, pipelines, raster_clip_comp_spirv, "raster clip"));
+    ORO_TRY(pipelines.raster_large,
+            create_compute_pipeline(gpu, pipelines, raster_large_comp_spirv, "raster large"));
+    return {};
+}
+
+}  // namespace
+
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions) {
+    const bool by_mesh = path == RasterPath::mesh;
+    Pipelines pipelines;
+    pipelines.push_stages = VK_SHADER_STAGE_COMPUTE_BIT;
+    if (by_mesh) pipelines.push_stages |= VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT;
+    ORO_CHECK(create_layouts(gpu, pipelines));
+    ORO_CHECK(by_mesh ? create_mesh_path(gpu, record_positions, pipelines)
+                      : create_compute_path(gpu, pipelines));
+    const VkBool32 from_compute = by_mesh ? VK_FALSE : VK_TRUE;
+    const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
+    const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};
+    ORO_TRY(pipelines.shade, create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade", &constants));
     return pipelines;
 }
 

@@ -17,15 +17,17 @@ struct PushBlock {
 };
 
 struct Pipelines {
-    OwnedSetLayout image_set;    // bindings 0 ids, 1 sum, 2 picture: storage images of the shading pass
-    OwnedPipelineLayout layout;  // image_set and PushBlock for all stages
-    OwnedPipeline terrain;       // task, mesh, fragment
-    OwnedPipeline shade;         // compute, 8 x 8
+    OwnedSetLayout image_set;          // bindings 0 ids, 1 sum, 2 picture: storage images of the shading pass
+    OwnedPipelineLayout layout;        // image_set and PushBlock for all stages
+    VkShaderStageFlags push_stages{};  // that PushBlock goes to
+    OwnedPipeline terrain;             // mesh path: task, mesh, fragment
     std::uint32_t meshlets_per_task{};
+    OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
+    OwnedPipeline shade;                                    // compute, 8 x 8
 };
 
 // Sizes of workgroups follow the device's preferred limits. record_positions: the mesh shader also writes
 // each placed post to FrameConstants.recorded (for tests).
-Result<Pipelines> create_pipelines(const Gpu& gpu, bool record_positions);
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions);
 
 }  // namespace oro

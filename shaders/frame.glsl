@@ -10,6 +10,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Pa
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FramePages { FramePage at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Counts { FrameCounts at; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Recorded { vec3 at[]; };
+// The compute rasteriser's visibility buffer as words: x the triangle id, y the bits of the depth.
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer VisibilityWords { uvec2 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Frame { FrameConstants at; };
 
 layout(push_constant, scalar) uniform Push {

@@ -8,6 +8,7 @@
 #include "light.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 layout(binding = 1, rgba32f) uniform image2D sum;  // of the samples so far, linear light
 layout(binding = 2, rgba8) uniform writeonly image2D picture;  // sRGB-encoded
@@ -23,7 +24,8 @@ void main() {
     if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return;
     vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
-    uint id = imageLoad(ids, pixel).x;
+    uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
+                           : imageLoad(ids, pixel).x;
     vec3 colour = id == 0u ? background(normalize(ray)) : lit_ground(surface_at(id - 1u, ray));
     if (FRAME.sample_count > 1u) {
         vec3 total = colour + (FRAME.sample_index == 0u ? vec3(0.0) : imageLoad(sum, pixel).rgb);

@@ -106,6 +106,33 @@ struct FrameCounts {
     uint triangles_drawn;
 };
 
+// What the compute rasteriser passes from one of its steps to the next. Group counts are those of an indirect dispatch.
+struct RasterLists {
+    uint meshlets;           // meshlets to draw
+    uint meshlet_groups[3];
+    uint clips;              // triangles that cross the near plane or leave the range of integer coordinates
+    uint clip_groups[3];
+    uint large;              // triangles that many workgroups share
+    uint tasks;              // squares of pixels of those
+    uint task_groups[3];
+};
+// A triangle on the pixel grid, 1/256 px, with reversed depths; positive area.
+struct LargeTriangle {
+    int ax, ay, bx, by, cx, cy;
+    float az, bz, cz;
+    uint id;
+};
+struct LargeTask {
+    uint triangle;
+    uint square;  // x in the low 16 bits, y in the high ones, in units of large_square_px
+};
+ORO_CONST uint no_triangle = 0xffffffffu;  // a task whose triangle found no room and was drawn at once
+ORO_CONST uint large_square_px = 64u;
+ORO_CONST uint clips_max = 1048576u;
+ORO_CONST uint large_max = 262144u;
+ORO_CONST uint tasks_max = 1048576u;
+ORO_CONST uint groups_per_row = 32768u;  // of an indirect dispatch; below every device's limit
+
 struct TintStop {
     float H_m;
     vec3 colour;  // linear light
@@ -145,6 +172,12 @@ struct FrameConstants {
     uvec2 pages;             // device address of FramePage[page_count]
     uvec2 counts;            // device address of FrameCounts
     uvec2 recorded;          // device address of recorded positions, or 0 (tests only)
+    uvec2 visibility;        // compute rasteriser: device address of depth << 32 | id for each pixel, row by row
+    uvec2 lists;             // RasterLists
+    uvec2 meshlet_list;      // frame page * 256 + meshlet
+    uvec2 clip_list;         // triangle ids
+    uvec2 large_list;        // LargeTriangle[large_max]
+    uvec2 task_list;         // LargeTask[tasks_max]
     FrameStyle style;
 };
 

@@ -13,7 +13,7 @@
 namespace oro {
 namespace {
 
-class Frame : public test::GpuTest {
+class Frame : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
   protected:
     static constexpr int side_px = 96;
 
@@ -25,6 +25,7 @@ class Frame : public test::GpuTest {
         scene_.emplace(std::move(scene).value());
         FrameRendererOptions options;
         options.extent = {side_px, side_px};
+        options.path = GetParam();
         auto renderer = FrameRenderer::create(*gpu_, options);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
         renderer_.emplace(std::move(renderer).value());
@@ -79,7 +80,7 @@ class Frame : public test::GpuTest {
 // Along a ray that grazes the ground the crossing is uncertain by the rasteriser's own grain (1/256 px), so
 // the difference is measured across the ray: the distance error times the sine between ray and surface is not
 // known here, and 1 px of it is allowed for.
-TEST_F(Frame, DistancesAgreeWithRaysOnTheCpu) {
+TEST_P(Frame, DistancesAgreeWithRaysOnTheCpu) {
     constexpr unsigned seed = 41;
     std::mt19937 random(seed);
     int compared = 0, far_off = 0, missed = 0;
@@ -117,7 +118,7 @@ TEST_F(Frame, DistancesAgreeWithRaysOnTheCpu) {
     EXPECT_LE(missed, compared / 100);
 }
 
-TEST_F(Frame, LookingDownShowsNoGap) {
+TEST_P(Frame, LookingDownShowsNoGap) {
     constexpr unsigned seed = 42;
     std::mt19937 random(seed);
     std::printf("seed %u\n", seed);
@@ -130,7 +131,7 @@ TEST_F(Frame, LookingDownShowsNoGap) {
     }
 }
 
-TEST_F(Frame, CullingChangesNoPixel) {
+TEST_P(Frame, CullingChangesNoPixel) {
     constexpr unsigned seed = 43;
     std::mt19937 random(seed);
     std::printf("seed %u\n", seed);
@@ -153,7 +154,7 @@ TEST_F(Frame, CullingChangesNoPixel) {
     }
 }
 
-TEST_F(Frame, SameInputGivesSameBytes) {
+TEST_P(Frame, SameInputGivesSameBytes) {
     std::mt19937 random(44);
     const Camera camera = random_camera(random, 100.0, 1000.0, -40.0, -10.0);
     gpu::FrameStyle style{};
@@ -173,7 +174,7 @@ TEST_F(Frame, SameInputGivesSameBytes) {
     }
 }
 
-TEST_F(Frame, TilesJoinIntoTheSamePicture) {
+TEST_P(Frame, TilesJoinIntoTheSamePicture) {
     std::mt19937 random(45);
     Camera camera = random_camera(random, 300.0, 1000.0, -30.0, -10.0);
     camera.width_px = 150;
@@ -190,6 +191,7 @@ TEST_F(Frame, TilesJoinIntoTheSamePicture) {
         PictureOptions options;
         options.largest_tile_px = tile_px;
         options.samples = samples;
+        options.path = GetParam();
         const auto report = render_picture(*gpu_, *scene_, camera, style, options,
                                            [&](std::span<const std::uint8_t> rgb) -> Result<void> {
                                                rows.insert(rows.end(), rgb.begin(), rgb.end());
@@ -208,6 +210,71 @@ TEST_F(Frame, TilesJoinIntoTheSamePicture) {
         EXPECT_LE(different, whole.size() / 500) << samples << " samples";
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Paths, Frame, ::testing::Values(RasterPath::mesh, RasterPath::compute),
+                         [](const auto& path) {
+                             return path.param == RasterPath::mesh ? "mesh" : "compute";
+                         });
+
+// The two ways of drawing are each other's test: the same triangle in at least 99.9 % of pixels, and there
+// the same depth as far as the fixed-function rasteriser's interpolation goes (llvmpipe's plane equations
+// start at the picture's corner and lose some 10 bits on triangles seen edge-on; the compute path's start at
+// the triangle).
+class TwoPaths : public Frame {};
+
+TEST_P(TwoPaths, DrawTheSameTriangles) {
+    FrameRendererOptions options;
+    options.extent = {side_px, side_px};
+    options.path = RasterPath::mesh;
+    auto other = FrameRenderer::create(*gpu_, options);
+    ASSERT_TRUE(other.ok()) << other.error().line();
+    constexpr unsigned seed = 46;
+    std::mt19937 random(seed);
+    std::size_t pixels = 0, different = 0, not_at_an_edge = 0, far_depths = 0;
+    for (int i = 0; i < 50; ++i) {
+        const Camera camera = i % 2 ? random_camera(random, 0.02, 50.0, -90.0, 30.0)
+                                    : random_camera(random, 10.0, 100000.0, -90.0, 10.0);
+        const auto ids = drawn_ids(plan(camera));
+        const auto depths = drawn_depths();
+        ASSERT_TRUE(other->draw(scene_->store, plan(camera), {}).ok());
+        const auto other_ids = *other->read_ids(side_px, side_px);
+        const auto other_depths = *other->read_depths(side_px, side_px);
+        pixels += ids.size();
+        for (int at = 0; at < side_px * side_px; ++at) {
+            const auto k = static_cast<std::size_t>(at);
+            if (ids[k] == other_ids[k]) {
+                const double relative =
+                    std::abs(static_cast<double>(depths[k]) - static_cast<double>(other_depths[k])) /
+                    std::max(static_cast<double>(depths[k]), 1e-30);
+                far_depths += relative > 1e-3 ? 1U : 0U;
+                continue;
+            }
+            ++different;
+            // The other's triangle must be drawn within a pixel of here.
+            bool near = false;
+            for (int dy = -1; dy <= 1; ++dy) {
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const int x = std::clamp(at % side_px + dx, 0, side_px - 1),
+                              y = std::clamp(at / side_px + dy, 0, side_px - 1);
+                    near = near || ids[static_cast<std::size_t>(y * side_px + x)] == other_ids[k];
+                }
+            }
+            // Triangles smaller than a pixel may show in one picture and fall between the centres in the
+            // other.
+            not_at_an_edge += near ? 0U : 1U;
+        }
+    }
+    std::printf(
+        "seed %u: %zu of %zu pixels differ (%.4f %%), %zu of them show a triangle that the other path has "
+        "nowhere near; %zu depths differ by more than 1e-3\n",
+        seed, different, pixels, 100.0 * static_cast<double>(different) / static_cast<double>(pixels),
+        not_at_an_edge, far_depths);
+    EXPECT_LE(different, pixels / 1000);
+    EXPECT_LE(far_depths, pixels / 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Compute, TwoPaths, ::testing::Values(RasterPath::compute),
+                         [](const auto&) { return "mesh"; });
 
 }  // namespace
 }  // namespace oro

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "shaders/shared.h"
+#include "spirv/raster_comp.h"
+#include "spirv/raster_large_comp.h"
 #include "spirv/shade_comp.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_task.h"
@@ -40,9 +42,12 @@ std::map<std::string, std::uint32_t> member_offsets(std::span<const std::uint32_
 
 std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
     std::map<std::string, std::uint32_t> all;
-    for (const std::span<const std::uint32_t> words : {std::span<const std::uint32_t>(terrain_task_spirv),
-                                                       std::span<const std::uint32_t>(terrain_mesh_spirv),
-                                                       std::span<const std::uint32_t>(shade_comp_spirv)}) {
+    for (const std::span<const std::uint32_t> words :
+         {std::span<const std::uint32_t>(terrain_task_spirv),
+          std::span<const std::uint32_t>(terrain_mesh_spirv),
+          std::span<const std::uint32_t>(raster_comp_spirv),
+          std::span<const std::uint32_t>(raster_large_comp_spirv),
+          std::span<const std::uint32_t>(shade_comp_spirv)}) {
         all.merge(member_offsets(words));
     }
     return all;
@@ -93,6 +98,25 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(FrameCounts, meshlets_void);
     ORO_MEMBER(FrameCounts, meshlets_drawn);
     ORO_MEMBER(FrameCounts, triangles_drawn);
+    ORO_MEMBER(RasterLists, meshlets);
+    ORO_MEMBER(RasterLists, meshlet_groups);
+    ORO_MEMBER(RasterLists, clips);
+    ORO_MEMBER(RasterLists, clip_groups);
+    ORO_MEMBER(RasterLists, large);
+    ORO_MEMBER(RasterLists, tasks);
+    ORO_MEMBER(RasterLists, task_groups);
+    ORO_MEMBER(LargeTriangle, ax);
+    ORO_MEMBER(LargeTriangle, ay);
+    ORO_MEMBER(LargeTriangle, bx);
+    ORO_MEMBER(LargeTriangle, by);
+    ORO_MEMBER(LargeTriangle, cx);
+    ORO_MEMBER(LargeTriangle, cy);
+    ORO_MEMBER(LargeTriangle, az);
+    ORO_MEMBER(LargeTriangle, bz);
+    ORO_MEMBER(LargeTriangle, cz);
+    ORO_MEMBER(LargeTriangle, id);
+    ORO_MEMBER(LargeTask, triangle);
+    ORO_MEMBER(LargeTask, square);
     ORO_MEMBER(TintStop, H_m);
     ORO_MEMBER(TintStop, colour);
     ORO_MEMBER(FrameStyle, tints);
@@ -123,6 +147,12 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(FrameConstants, pages);
     ORO_MEMBER(FrameConstants, counts);
     ORO_MEMBER(FrameConstants, recorded);
+    ORO_MEMBER(FrameConstants, visibility);
+    ORO_MEMBER(FrameConstants, lists);
+    ORO_MEMBER(FrameConstants, meshlet_list);
+    ORO_MEMBER(FrameConstants, clip_list);
+    ORO_MEMBER(FrameConstants, large_list);
+    ORO_MEMBER(FrameConstants, task_list);
     ORO_MEMBER(FrameConstants, style);
 #undef ORO_MEMBER
 }

@@ -1,0 +1,126 @@
+#include "apps/json_fields.h"
+
+#include <sys/stat.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+namespace oro {
+namespace {
+
+using nlohmann::json;
+
+std::string quoted(const char* name) {
+    return "'" + std::string(name) + "'";
+}
+
+std::string text_of(double number) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", number);
+    return text.data();
+}
+
+JsonFault out_of_range(const char* name, const std::string& value, const std::string& low,
+                       const std::string& high) {
+    return {quoted(name) + " is " + value + ", not between " + low + " and " + high};
+}
+
+std::string string_of(const json& value, const char* name) {
+    if (!value.is_string()) throw JsonFault{quoted(name) + " must be text, and is " + value.type_name()};
+    auto text = value.get<std::string>();
+    if (text.find('\0') != std::string::npos) throw JsonFault{quoted(name) + " holds a zero byte"};
+    return text;
+}
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+}  // namespace
+
+const json& json_field(const json& object, const char* name) {
+    if (!object.is_object()) throw JsonFault{"an object with " + quoted(name) + " was expected"};
+    const auto found = object.find(name);
+    if (found == object.end()) throw JsonFault{quoted(name) + " is missing"};
+    return *found;
+}
+
+double json_number(const json& object, const char* name, double low, double high) {
+    const json& value = json_field(object, name);
+    if (!value.is_number()) throw JsonFault{quoted(name) + " must be a number, and is " + value.type_name()};
+    const auto number = value.get<double>();
+    if (!(number >= low && number <= high))
+        throw out_of_range(name, text_of(number), text_of(low), text_of(high));
+    return number;
+}
+
+std::int64_t json_whole(const json& object, const char* name, std::int64_t low, std::int64_t high) {
+    const json& value = json_field(object, name);
+    if (!value.is_number_integer())
+        throw JsonFault{quoted(name) + " must be a whole number, and is " +
+                        (value.is_number() ? text_of(value.get<double>()) : value.type_name())};
+    const bool too_large =
+        value.is_number_unsigned() && value.get<std::uint64_t>() > std::uint64_t{INT64_MAX};
+    if (too_large || value.get<std::int64_t>() < low || value.get<std::int64_t>() > high)
+        throw out_of_range(name, value.dump(), std::to_string(low), std::to_string(high));
+    return value.get<std::int64_t>();
+}
+
+bool json_flag(const json& object, const char* name) {
+    const json& value = json_field(object, name);
+    if (!value.is_boolean())
+        throw JsonFault{quoted(name) + " must be true or false, and is " + value.type_name()};
+    return value.get<bool>();
+}
+
+std::string json_string(const json& object, const char* name) {
+    return string_of(json_field(object, name), name);
+}
+
+std::vector<std::string> json_strings(const json& object, const char* name) {
+    const json& value = json_field(object, name);
+    if (!value.is_array()) throw JsonFault{quoted(name) + " must be a list, and is " + value.type_name()};
+    std::vector<std::string> texts;
+    for (const json& element : value) texts.push_back(string_of(element, name));
+    return texts;
+}
+
+const json& json_array(const json& object, const char* name, std::size_t count) {
+    const json& value = json_field(object, name);
+    if (!value.is_array() || value.size() != count)
+        throw JsonFault{quoted(name) + " must be a list of " + std::to_string(count)};
+    return value;
+}
+
+json parsed_json(const std::string& text) {
+    try {
+        return json::parse(text);
+    } catch (const json::exception& fault) {
+        // Less the library's own numbering: "[json.exception.parse_error.101] parse error at line 1, ...".
+        const std::string what = fault.what();
+        const std::size_t bracket = what.find("] ");
+        throw JsonFault{"is no JSON: " + (bracket == std::string::npos ? what : what.substr(bracket + 2))};
+    }
+}
+
+Result<std::string> read_text_file(const std::string& path) {
+    const auto fault = [&](int why) {
+        return Error{ErrorKind::failed, path, "cannot be read: " + std::generic_category().message(why)};
+    };
+    struct stat found {};
+    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+    if (!file || fstat(fileno(file.get()), &found) != 0) return fault(errno);
+    if (!S_ISREG(found.st_mode)) return Error{ErrorKind::failed, path, "is not a file"};
+    std::string text;
+    std::array<char, 65536> part{};
+    for (std::size_t got = 0; (got = std::fread(part.data(), 1, part.size(), file.get())) > 0;)
+        text.append(part.data(), got);
+    if (std::ferror(file.get())) return fault(errno);
+    return text;
+}
+
+}  // namespace oro

@@ -1,0 +1,167 @@
+// Exact coverage on a grid of 1/256 px with integer edge functions: triangles that share an edge share no pixel and leave none
+// out, in whatever order they come. Needs frame.glsl and lists.glsl.
+
+const int subpixels = 256;
+const float farthest_px = 16384.0;  // outside the picture; what reaches farther is clipped first
+
+struct ScreenTriangle {
+    ivec2 a, b, c;  // 1/256 px; positive area
+    vec3 depth;     // reversed, of a, b, c
+    uint id;
+};
+
+// A clip position on the pixel grid.
+vec2 pixels_of(vec4 clip) {
+    precise vec2 half_size = 0.5 * vec2(FRAME.width_px, FRAME.height_px);
+    precise vec2 position = clip.xy / clip.w * half_size + half_size;
+    return position;
+}
+ivec2 snapped(vec2 position_px) { return ivec2(roundEven(position_px * float(subpixels))); }
+
+// Inside when not negative: the near plane, then the four sides of a frame of `farthest_px` around the picture.
+const int clip_planes = 5;
+float side_of(int plane, vec4 p) {
+    vec2 reach = 1.0 + 2.0 * farthest_px / vec2(FRAME.width_px, FRAME.height_px);
+    if (plane == 0) return p.w - FRAME.near_m;
+    if (plane == 1) return reach.x * p.w - p.x;
+    if (plane == 2) return reach.x * p.w + p.x;
+    if (plane == 3) return reach.y * p.w - p.y;
+    return reach.y * p.w + p.y;
+}
+
+// True when a triangle can be drawn as it is: in front of the near plane and within the range of the grid.
+bool fits_grid(vec4 a, vec4 b, vec4 c) {
+    bool fits = true;
+    for (int plane = 0; plane < clip_planes; ++plane)
+        fits = fits && min(side_of(plane, a), min(side_of(plane, b), side_of(plane, c))) >= 0.0;
+    return fits;
+}
+
+// Twice the area, in squares of the grid; int64 because triangles may be 32,768 px long.
+int64_t doubled_area(ivec2 a, ivec2 b, ivec2 c) {
+    return int64_t(b.x - a.x) * int64_t(c.y - a.y) - int64_t(b.y - a.y) * int64_t(c.x - a.x);
+}
+
+// False for a triangle without area.
+bool screen_triangle(vec4 a, vec4 b, vec4 c, uint id, out ScreenTriangle t) {
+    t.a = snapped(pixels_of(a));
+    t.b = snapped(pixels_of(b));
+    t.c = snapped(pixels_of(c));
+    t.depth = vec3(a.z / a.w, b.z / b.w, c.z / c.w);
+    t.id = id;
+    int64_t area = doubled_area(t.a, t.b, t.c);
+    if (area < 0) {
+        ivec2 corner = t.b;
+        t.b = t.c;
+        t.c = corner;
+        t.depth = t.depth.xzy;
+    }
+    return area != 0;
+}
+
+// First and last pixel whose centre can be inside, within the picture; an empty box when there is none.
+ivec4 pixel_box(ScreenTriangle t) {
+    ivec2 low = min(t.a, min(t.b, t.c)), high = max(t.a, max(t.b, t.c));
+    ivec2 first = (low + ivec2(subpixels / 2 - 1)) >> 8;  // ceil((low - 128) / 256)
+    ivec2 last = (high - ivec2(subpixels / 2)) >> 8;      // floor((high - 128) / 256)
+    return ivec4(max(first, ivec2(0)), min(last, ivec2(FRAME.width_px, FRAME.height_px) - 1));
+}
+
+// A pixel on an edge belongs to the triangle to whose top or left the edge is (Vulkan 1.3, 28.11.1): edges that go right along a
+// row or upwards keep their zero, the others lose it.
+int edge_bias(ivec2 from, ivec2 to) {
+    ivec2 along = to - from;
+    return (along.y < 0 || (along.y == 0 && along.x > 0)) ? 0 : -1;
+}
+
+void keep_nearest(ivec2 pixel, float depth, uint id) {
+    Visibility visibility = Visibility(FRAME.visibility);
+    uint at = uint(pixel.y) * FRAME.width_px + uint(pixel.x);
+    uint64_t candidate = (uint64_t(floatBitsToUint(depth)) << 32) | uint64_t(id);
+    if (candidate > visibility.at[at]) atomicMax(visibility.at[at], candidate);
+}
+
+float depth_at(ScreenTriangle t, float share_b, float share_c) {
+    precise float depth = t.depth.x + (t.depth.y - t.depth.x) * share_b + (t.depth.z - t.depth.x) * share_c;
+    return depth;
+}
+
+// The pixels of `box` that are inside, every `stride`-th from `start` on. The triangle is at most large_square_px wide and high:
+// then 32 bits hold every product.
+void draw_near(ScreenTriangle t, ivec4 box, uint start, uint stride) {
+    ivec2 origin = box.xy * subpixels + ivec2(subpixels / 2);
+    ivec2 a = t.a - origin, b = t.b - origin, c = t.c - origin;
+    // Edge functions at the first pixel's centre, and their steps from pixel to pixel.
+    int ab = (b.x - a.x) * (0 - a.y) - (b.y - a.y) * (0 - a.x);
+    int bc = (c.x - b.x) * (0 - b.y) - (c.y - b.y) * (0 - b.x);
+    int ca = (a.x - c.x) * (0 - c.y) - (a.y - c.y) * (0 - c.x);
+    float area = float(ab + bc + ca);
+    ivec3 by_x = -subpixels * ivec3(b.y - a.y, c.y - b.y, a.y - c.y);
+    ivec3 by_y = subpixels * ivec3(b.x - a.x, c.x - b.x, a.x - c.x);
+    ivec3 bias = ivec3(edge_bias(t.a, t.b), edge_bias(t.b, t.c), edge_bias(t.c, t.a));
+    int width = box.z - box.x + 1;
+    uint count = uint(width * (box.w - box.y + 1));
+    for (uint i = start; i < count; i += stride) {
+        ivec2 step = ivec2(int(i) % width, int(i) / width);
+        ivec3 edges = ivec3(ab, bc, ca) + by_x * step.x + by_y * step.y;
+        ivec3 biased = edges + bias;
+        if ((biased.x | biased.y | biased.z) < 0) continue;
+        keep_nearest(box.xy + step, depth_at(t, float(edges.z) / area, float(edges.x) / area), t.id);
+    }
+}
+
+// The same in 64 bits, for any triangle on the grid.
+void draw_far(ScreenTriangle t, ivec4 box, uint start, uint stride) {
+    ivec2 origin = box.xy * subpixels + ivec2(subpixels / 2);
+    int64_t area = doubled_area(t.a, t.b, t.c);
+    int64_t ab = doubled_area(t.a, t.b, origin) + int64_t(edge_bias(t.a, t.b));
+    int64_t bc = doubled_area(t.b, t.c, origin) + int64_t(edge_bias(t.b, t.c));
+    int64_t ca = doubled_area(t.c, t.a, origin) + int64_t(edge_bias(t.c, t.a));
+    int width = box.z - box.x + 1;
+    uint count = uint(width * (box.w - box.y + 1));
+    for (uint i = start; i < count; i += stride) {
+        int64_t x = int64_t(int(i) % width) * subpixels, y = int64_t(int(i) / width) * subpixels;
+        int64_t at_ab = ab + int64_t(t.b.x - t.a.x) * y - int64_t(t.b.y - t.a.y) * x;
+        int64_t at_bc = bc + int64_t(t.c.x - t.b.x) * y - int64_t(t.c.y - t.b.y) * x;
+        int64_t at_ca = ca + int64_t(t.a.x - t.c.x) * y - int64_t(t.a.y - t.c.y) * x;
+        if ((at_ab | at_bc | at_ca) < 0) continue;
+        float share_b = float(at_ca - int64_t(edge_bias(t.c, t.a))) / float(area);
+        float share_c = float(at_ab - int64_t(edge_bias(t.a, t.b))) / float(area);
+        keep_nearest(box.xy + ivec2(int(i) % width, int(i) / width), depth_at(t, share_b, share_c), t.id);
+    }
+}
+
+// Hands a triangle on to as many workgroups as it has squares. False when the lists are full.
+bool list_large(ScreenTriangle t, ivec4 box) {
+    ivec4 squares = box / int(large_square_px);
+    uvec2 counts = uvec2(squares.zw - squares.xy + 1);
+    uint count = counts.x * counts.y;
+    uint triangle = atomicAdd(lists().at.large, 1u);
+    uint first = atomicAdd(lists().at.tasks, count);
+    bool fits = triangle < large_max && first + count <= tasks_max;
+    if (fits) {
+        // Member by member: glslang 12.0 crashes on storing a whole struct that holds `precise` values.
+        LargeTriangles triangles = LargeTriangles(FRAME.large_list);
+        triangles.at[triangle].ax = t.a.x;
+        triangles.at[triangle].ay = t.a.y;
+        triangles.at[triangle].bx = t.b.x;
+        triangles.at[triangle].by = t.b.y;
+        triangles.at[triangle].cx = t.c.x;
+        triangles.at[triangle].cy = t.c.y;
+        triangles.at[triangle].az = t.depth.x;
+        triangles.at[triangle].bz = t.depth.y;
+        triangles.at[triangle].cz = t.depth.z;
+        triangles.at[triangle].id = t.id;
+    }
+    LargeTasks list = LargeTasks(FRAME.task_list);
+    for (uint i = 0u; i < count && first + i < tasks_max; ++i) {
+        uvec2 square = uvec2(squares.xy) + uvec2(i % counts.x, i / counts.x);
+        list.at[first + i].triangle = fits ? triangle : no_triangle;
+        list.at[first + i].square = square.x | (square.y << 16);
+    }
+    if (!fits) return false;
+    uint last = first + count;
+    atomicMax(lists().at.task_groups[0], min(last, groups_per_row));
+    atomicMax(lists().at.task_groups[1], (last + groups_per_row - 1u) / groups_per_row);
+    return true;
+}

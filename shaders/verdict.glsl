@@ -1,0 +1,27 @@
+// Whether a meshlet is drawn, and if not, why. Both ways of drawing ask here. Needs frame.glsl and select.glsl.
+const uint is_kept = 0u;
+const uint is_void_meshlet = 1u;
+const uint is_beyond_frustum = 2u;
+const uint is_beyond_horizon = 3u;
+
+uint verdict_on(FramePage page, MeshletBounds bounds) {
+    if (bounds.radius < 0.0) return is_void_meshlet;
+    if ((page.cull & cull_by_frustum) != 0u) {
+        for (int i = 0; i < 5; ++i) {
+            if (sphere_beyond_plane(bounds.centre, bounds.radius, page.planes[i])) return is_beyond_frustum;
+        }
+    }
+    if ((page.cull & cull_by_horizon) != 0u) {
+        vec3 eye_offset = page.horizon_direction - bounds.horizon_offset;
+        if (beyond_horizon(eye_offset, FRAME.horizon_angle_rad, bounds.horizon_angle_rad)) return is_beyond_horizon;
+    }
+    return is_kept;
+}
+
+void count_verdict(uint verdict) {
+    Counts counts = Counts(FRAME.counts);
+    if (verdict == is_kept) atomicAdd(counts.at.meshlets_drawn, 1u);
+    else if (verdict == is_beyond_frustum) atomicAdd(counts.at.meshlets_beyond_frustum, 1u);
+    else if (verdict == is_beyond_horizon) atomicAdd(counts.at.meshlets_beyond_horizon, 1u);
+    else atomicAdd(counts.at.meshlets_void, 1u);
+}
