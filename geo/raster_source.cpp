@@ -49,6 +49,8 @@ Result<SpatialReference> crs_of(GDALDatasetH dataset) {
                          : "states no coordinate reference system, so where it lies is unknown; give it one "
                            "(gdal_edit.py -a_srs)");
     }
+    if (OSRIsEmpty(stated) || text_of(OSRGetName(stated)).empty())
+        return fault("its coordinate reference system is unknown to PROJ");
     if (OSRIsLocal(stated) || (!OSRIsGeographic(stated) && !OSRIsProjected(stated)))
         return fault("its coordinate reference system (" + text_of(OSRGetName(stated)) +
                      ") is tied to no place on the Earth");

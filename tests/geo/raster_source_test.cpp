@@ -228,6 +228,20 @@ TEST(Raster, WhatIsNoElevationIsRefusedWithTheReason) {
     expect("metres.tif", raster, "");
 }
 
+TEST(Raster, UnknownCrsIsAnErrorThatNamesTheFile) {
+    const fs::path folder = scratch_folder();
+    std::ofstream(folder / "dem.vrt")
+        << "<VRTDataset rasterXSize=\"5\" rasterYSize=\"5\"><SRS>EPSG:999999</SRS>"
+           "<GeoTransform>8,0.01,0,46,0,-0.01</GeoTransform>"
+           "<VRTRasterBand dataType=\"Int16\" band=\"1\"/></VRTDataset>";
+    const auto region = open_region(request_for({(folder / "dem.vrt").string()}));
+    ASSERT_FALSE(region.ok());
+    EXPECT_EQ(region.error().kind, ErrorKind::failed);
+    EXPECT_TRUE(
+        region.error().line().ends_with("dem.vrt: its coordinate reference system is unknown to PROJ"))
+        << region.error().line();
+}
+
 TEST(Raster, ImagesInAFolderArePassedOverAndNoted) {
     const fs::path folder = scratch_folder();
     Raster raster = hundredths(5, 5);

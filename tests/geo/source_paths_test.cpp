@@ -66,6 +66,22 @@ TEST(SourcePaths, ArchiveThatIsNone) {
     EXPECT_FALSE(open_region(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
 }
 
+TEST(SourcePaths, LibrariesStayOffStandardError) {
+    const fs::path folder = scratch_folder();
+    std::ofstream(folder / "dem.tif") << "II*\0 and then nonsense that only starts like a TIFF";
+    std::ofstream(folder / "tiles.zip") << "no archive";
+    std::ofstream(folder / "N46E008.hgt.gz") << "not packed, and long enough for a trailer";
+    std::ofstream(folder / "dem.vrt")
+        << "<VRTDataset rasterXSize=\"5\" rasterYSize=\"5\"><SRS>EPSG:999999</SRS></VRTDataset>";
+    std::ofstream(folder / "dem.asc") << "ncols 4\nnrows 4\nxllcorner 1\nyllcorner 2\ncellsize 1\n1 2 3\n";
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    for (const char* name : {"dem.tif", "tiles.zip", "N46E008.hgt.gz", "dem.vrt", "dem.asc", ""})
+        EXPECT_FALSE(open_region(request_for({(folder / name).string()})).ok()) << name;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
 TEST(SourcePaths, OrderIsByNameAndFilesCountOnce) {
     const fs::path folder = scratch_folder();
     fs::create_directories(folder / "b");
