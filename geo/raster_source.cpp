@@ -49,7 +49,7 @@ Result<SpatialReference> crs_of(GDALDatasetH dataset) {
                          : "states no coordinate reference system, so where it lies is unknown; give it one "
                            "(gdal_edit.py -a_srs)");
     }
-    if (OSRIsEmpty(stated) || text_of(OSRGetName(stated)).empty())
+    if (text_of(OSRGetName(stated)).empty())
         return fault("its coordinate reference system is unknown to PROJ");
     if (OSRIsLocal(stated) || (!OSRIsGeographic(stated) && !OSRIsProjected(stated)))
         return fault("its coordinate reference system (" + text_of(OSRGetName(stated)) +
