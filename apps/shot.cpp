@@ -153,9 +153,9 @@ Result<void> open_view(const ShotOptions& options, ProgressBar& bar, ShotResult&
 
 void say_notes(const ShotOptions& options, const ShotResult& shot) {
     for (const std::string& note : shot.region.notes) say(options.quiet, "note: " + note);
-    if (shot.region.voids > shot.region.filled)
-        say(options.quiet, "note: " + std::to_string(shot.region.voids - shot.region.filled) +
-                               " void posts are holes (--fill-voids fills them)");
+    if (shot.region.voids > 0)
+        say(options.quiet, "note: " + std::to_string(shot.region.voids) +
+                               " void posts are holes (--fill-voids fills what is near others)");
     const Geodetic& eye = shot.view.camera.eye;
     const auto ground = ground_h_m(shot.region.field, eye.lat_deg, eye.lon_deg, shot.view.exaggeration);
     if (ground && eye.h_m < *ground) {
