@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cassert>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <variant>
@@ -17,13 +18,29 @@ enum class ErrorKind {
     no_device = 4,  // no suitable GPU
 };
 
-// One line for a person: "where: what". `where` is a file with its place, an option with its value, or a call.
+// Text from outside (names of files, words of libraries) as a part of one line: control characters, which
+// could break the line or move a terminal's cursor, become '?', and what is longer than 1,000 bytes is cut.
+inline std::string one_line(std::string text) {
+    constexpr std::size_t longest = 1000;
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    }
+    if (text.size() <= longest) return text;
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;  // between characters
+    return text.substr(0, end) + "...";
+}
+
+// One line for a person: "where: what". `where` is a file with its place, an option with its value, or a
+// call.
 struct Error {
     ErrorKind kind{ErrorKind::failed};
     std::string where;
     std::string what;
 
-    [[nodiscard]] std::string line() const { return where.empty() ? what : where + ": " + what; }
+    [[nodiscard]] std::string line() const {
+        return where.empty() ? one_line(what) : one_line(where) + ": " + one_line(what);
+    }
 };
 
 // A T, or the Error that stood in its way. Asking for the one that is not there is a programmer's mistake.

@@ -84,6 +84,17 @@ Outcome run_orograph(std::vector<std::string> words, const Circumstances& circum
     return run_program(words, circumstances);
 }
 
+void expect_refusal(const Outcome& outcome, int exit_code, const std::vector<std::string>& says) {
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    ASSERT_EQ(outcome.err_lines().size(), 1U) << outcome.err;
+    const std::string line = outcome.err_lines().front();
+    EXPECT_EQ(line.rfind("orograph: ", 0), 0U) << line;
+    EXPECT_LT(line.size(), 400U) << line;
+    for (const std::string& word : says)
+        EXPECT_NE(line.find(word), std::string::npos) << line << "\nlacks: " << word;
+}
+
 std::string bytes_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     EXPECT_TRUE(stream.is_open()) << file;

@@ -28,6 +28,9 @@ Outcome run_program(const std::vector<std::string>& words, const Circumstances& 
 // Runs the program under test.
 Outcome run_orograph(std::vector<std::string> words, const Circumstances& circumstances = {});
 
+// Expects one line on standard error that holds all of `says`, nothing on standard output, and the exit code.
+void expect_refusal(const Outcome& outcome, int exit_code, const std::vector<std::string>& says);
+
 // The file's bytes; a failed expectation when it cannot be read.
 std::string bytes_of(const std::filesystem::path& file);
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);
