@@ -60,8 +60,13 @@ Result<std::uint64_t> unpacked_size(const SourcePath& path) {
     if (path.file.starts_with(gzip)) {
         const File file(VSIFOpenL(path.file.c_str() + gzip.size(), "rb"));
         std::array<unsigned char, 4> size{};
+        std::array<unsigned char, 2> magic{};
         if (!file || VSIFSeekL(file.get(), 0, SEEK_END) != 0 || VSIFTellL(file.get()) < 18)
             return Error{ErrorKind::failed, path.shown, "is no gzip file: it ends early"};
+        VSIFSeekL(file.get(), 0, SEEK_SET);
+        if (VSIFReadL(magic.data(), 1, 2, file.get()) != 2 || magic[0] != 0x1f || magic[1] != 0x8b)
+            return Error{ErrorKind::failed, path.shown, "is no gzip file"};
+        VSIFSeekL(file.get(), 0, SEEK_END);
         VSIFSeekL(file.get(), VSIFTellL(file.get()) - 4, SEEK_SET);
         if (VSIFReadL(size.data(), 1, 4, file.get()) != 4) return fault;
         return std::uint64_t{size[0]} | std::uint64_t{size[1]} << 8 | std::uint64_t{size[2]} << 16 |
@@ -81,6 +86,17 @@ Error wrong_size(const SourcePath& path, std::uint64_t bytes) {
                      " bytes; a .hgt tile has 2884802 (SRTM3, 1201 x 1201 posts) or 25934402 (SRTM1, 3601 x "
                      "3601 posts): it is "
                      "truncated or of another kind"};
+}
+
+// Reads a packed file to its end, where its checksum is compared: a changed byte often unpacks without
+// complaint into wrong heights.
+Result<void> check_packing(VSILFILE* file, const GdalMessages& messages, const std::string& shown) {
+    std::array<unsigned char, 65536> rest{};
+    while (VSIFReadL(rest.data(), 1, rest.size(), file) > 0) {
+    }
+    const std::string said = messages.last("");
+    if (said.empty()) return {};
+    return Error{ErrorKind::failed, shown, "its packing is damaged: " + said};
 }
 
 std::string srtm_attribution(const SourcePath& path) {
@@ -207,6 +223,7 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
             block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(value));
         }
     }
+    if (source.file.starts_with("/vsi")) ORO_CHECK(check_packing(file.get(), messages, source.report.path));
     return block;
 }
 

@@ -96,6 +96,11 @@ Result<void> place_on_degrees(Source& source) {
     if (source.north_deg > 90.0 + 1e-6 || source.south_deg < -90.0 - 1e-6)
         return reason(
             "its latitudes go beyond 90 degrees: the coordinates are not the degrees that its CRS says");
+    constexpr double half_and_whole_turn_deg = 540.0;  // a world from -180, or one that begins anywhere in it
+    const double last_lon = source.lon_axis.at_deg(source.lon_axis.count - 1);
+    if (std::max(std::abs(source.lon_axis.start_deg), std::abs(last_lon)) > half_and_whole_turn_deg)
+        return reason(
+            "its longitudes go beyond 540 degrees: the coordinates are not the degrees that its CRS says");
     source.lon_axis.start_deg -= std::floor((source.lon_axis.start_deg + 180.0) / 360.0) * 360.0;
     source.lon = {source.lon_axis.start_deg, source.lon_axis.at_deg(source.lon_axis.count - 1)};
     // Round the Earth when no post is missing between the last and the first; a second copy of the first is

@@ -231,7 +231,10 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
             ErrorKind::no_data, where,
             "no elevation data" + (found.first_skipped.empty() ? "" : " (" + found.first_skipped + ")")};
     const auto extent = region_extent(found.sources, request.box);
-    if (!extent) return Error{ErrorKind::no_data, where, "no elevation data in " + text_of(*request.box)};
+    if (!extent)
+        return Error{ErrorKind::no_data, where,
+                     request.box ? "no elevation data in " + text_of(*request.box)
+                                 : "its posts lie on a line or a point, and cover no area"};
     std::erase_if(found.sources, [&](const Source& source) { return !meets(source, extent->box); });
     Region region;
     region.notes = std::move(found.notes);

@@ -167,6 +167,42 @@ TEST(Hgt, DamagedPackingIsAnErrorAndNotZeros) {
     }
 }
 
+// Unlike noise, a single changed byte often unpacks into other heights without complaint: only the checksum
+// tells. Every place is tried, of which most unpack.
+TEST(Hgt, AChangedByteInAnArchiveIsAnError) {
+    const fs::path folder = scratch_folder();
+    const auto bytes = hgt_bytes(1201, [](int r, int c) { return (r * r + c * 17) % 3000; });
+    for (const char* name : {"N46E008.hgt.zip", "N46E008.hgt.gz"}) {
+        const fs::path file = folder / name;
+        const bool zip = file.extension() == ".zip";
+        write_bytes((zip ? "/vsizip/" : "/vsigzip/") + file.string() + (zip ? "/N46E008.hgt" : ""), bytes);
+        EXPECT_TRUE(open_region(request_for({file.string()})).ok()) << name;
+        const auto size = static_cast<std::streamoff>(fs::file_size(file));
+        for (int part = 2; part < 12; ++part) {
+            const fs::path changed = folder / "changed" / name;
+            fs::create_directories(changed.parent_path());
+            fs::copy_file(file, changed, fs::copy_options::overwrite_existing);
+            std::fstream stream(changed, std::ios::in | std::ios::out | std::ios::binary);
+            stream.seekg(size * part / 13);
+            const auto byte = static_cast<char>(stream.get() ^ 0x11);
+            stream.seekp(size * part / 13);
+            stream.put(byte);
+            stream.close();
+            const auto region = open_region(request_for({changed.string()}));
+            ASSERT_FALSE(region.ok()) << name << ", byte " << size * part / 13 << " of " << size;
+            EXPECT_NE(region.error().line().find(name), std::string::npos) << region.error().line();
+        }
+    }
+}
+
+TEST(Hgt, PlainTileCalledGzip) {
+    const fs::path file = scratch_folder() / "N46E008.hgt.gz";
+    write_hgt(file, 1201, ramp);
+    const auto region = open_region(request_for({file.string()}));
+    ASSERT_FALSE(region.ok());
+    EXPECT_NE(region.error().line().find("is no gzip file"), std::string::npos) << region.error().line();
+}
+
 TEST(Hgt, TruncatedArchivesAreErrors) {
     const fs::path folder = scratch_folder();
     const auto bytes = hgt_bytes(1201, ramp);

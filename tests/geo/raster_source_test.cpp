@@ -226,6 +226,10 @@ TEST(Raster, WhatIsNoElevationIsRefusedWithTheReason) {
     raster = hundredths(5, 5);
     raster.cell_corners = {420000.0, 100.0, 0.0, 5180000.0, 0.0, -100.0};  // metres, called degrees
     expect("metres.tif", raster, "");
+    raster.cell_corners = {420000.0, 100.0, 0.0, 47.0, 0.0, -0.01};
+    expect("metres_east.tif", raster, "longitudes");
+    raster.cell_corners = {8.0, 0.01, 0.0, 47.0, 0.0, 0.0};
+    expect("line.tif", raster, "cover no area");
 }
 
 TEST(Raster, UnknownCrsIsAnErrorThatNamesTheFile) {
