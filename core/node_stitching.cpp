@@ -60,9 +60,12 @@ double NodeErrors::crossing_error(const Post& from, const Post& to) const {
     const double h0 = heights_.at(from.row, from.column);
     const double h1 = heights_.at(to.row, to.column);
     Extremes extremes;
+    bool beside_void = false;
     // The place at share t of the edge lies on the full-resolution edge from a post to its neighbour (dr,
     // dc).
     const auto compare = [&](double t, int row, int column, double share, int dr, int dc) {
+        beside_void = beside_void || heights_.at(row, column) == void_height_steps ||
+                      heights_.at(row + dr, column + dc) == void_height_steps;
         const double h =
             (1.0 - share) * heights_.at(row, column) + share * heights_.at(row + dr, column + dc);
         extremes.add(h - (h0 + t * (h1 - h0)));
@@ -90,7 +93,8 @@ double NodeErrors::crossing_error(const Post& from, const Post& to) const {
         const int west = north + from.column - from.row + i;
         if (row > north) compare(t, north, west, row - north, 1, 1);
     }
-    return extremes.magnitude();
+    // That surface is not there on either side of an edge that ends in a void post.
+    return beside_void ? unfit_m : extremes.magnitude();
 }
 
 // Largest difference over a triangle, in steps; infinite when a post in it is void.
