@@ -13,6 +13,17 @@
 namespace oro {
 namespace {
 
+gpu::FrameStyle plain_style() {
+    gpu::FrameStyle style{};
+    style.tint_count = 1;
+    style.tints[0].colour = gpu::vec3(0.5F);
+    style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
+    style.relief = 1.0F;
+    style.haze_distance_m = 1e5F;
+    style.sky_scale_height_m = 8000.0F;
+    return style;
+}
+
 class Frame : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
   protected:
     static constexpr int side_px = 96;
@@ -157,13 +168,7 @@ TEST_P(Frame, CullingChangesNoPixel) {
 TEST_P(Frame, SameInputGivesSameBytes) {
     std::mt19937 random(44);
     const Camera camera = random_camera(random, 100.0, 1000.0, -40.0, -10.0);
-    gpu::FrameStyle style{};
-    style.tint_count = 1;
-    style.tints[0].colour = gpu::vec3(0.5F);
-    style.sun_enu = gpu::vec3(0.0F, 0.0F, 1.0F);
-    style.relief = 1.0F;
-    style.haze_distance_m = 1e5F;
-    style.sky_scale_height_m = 8000.0F;
+    const gpu::FrameStyle style = plain_style();
     std::vector<std::uint8_t> first;
     for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(renderer_->draw(scene_->store, plan(camera), style).ok());
@@ -179,13 +184,7 @@ TEST_P(Frame, TilesJoinIntoTheSamePicture) {
     Camera camera = random_camera(random, 300.0, 1000.0, -30.0, -10.0);
     camera.width_px = 150;
     camera.height_px = 100;
-    gpu::FrameStyle style{};
-    style.tint_count = 1;
-    style.tints[0].colour = gpu::vec3(0.5F);
-    style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
-    style.relief = 1.0F;
-    style.haze_distance_m = 1e5F;
-    style.sky_scale_height_m = 8000.0F;
+    const gpu::FrameStyle style = plain_style();
     const auto picture = [&](int tile_px, int samples) {
         std::vector<std::uint8_t> rows;
         PictureOptions options;
