@@ -194,6 +194,19 @@ TEST(VerticalDatum, WithoutEgm96NothingIsHidden) {
     EXPECT_NE(strict.error().line().find("egm96_15"), std::string::npos) << strict.error().line();
 }
 
+TEST(VerticalDatum, WithoutProjsDatabaseThereIsANoteAndNoChatter) {
+    const fs::path folder = scratch_folder();
+    const RegionRequest request =
+        request_for({write_hgt(folder / "N46E008.hgt", 1201, [](int, int) { return 1000; })});
+    const ProjFolder only(folder.string());
+    testing::internal::CaptureStderr();
+    const auto region = opened(request);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    ASSERT_TRUE(region);
+    ASSERT_EQ(region->notes.size(), 1U);
+    EXPECT_NE(region->notes[0].find("proj-data"), std::string::npos) << region->notes[0];
+}
+
 TEST(VerticalDatum, DepthsAndForeignUnits) {
     const fs::path folder = scratch_folder();
     // NAVD88 in US survey feet: PROJ's grids for it are missing, the unit must hold all the same.
