@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <thread>
+
+#include "core/drawn_heights.h"
+#include "core/parallel.h"
 
 namespace oro {
 namespace {
@@ -72,15 +76,21 @@ Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exag
     ORO_TRY(PageStore store, PageStore::create(gpu));
     Scene scene{region_shape(field, exaggeration), {}, std::move(store), 0};
     const PageLayout layout = page_layout(field.grid);
-    // Built here and sent as a whole: memory that the GPU reads from is slow to read back.
-    const auto block = std::make_unique<gpu::PageBlock>();
+    const int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+    const DrawnHeights heights = drawn_heights(field, exaggeration, threads);
+    // Built here and sent as a whole, row by row: memory that the GPU reads from is slow to read back.
+    std::vector<gpu::PageBlock> blocks(static_cast<std::size_t>(layout.columns));
+    std::vector<PageSummary> pages(blocks.size());
     for (int row = 0; row < layout.rows; ++row) {
-        for (int column = 0; column < layout.columns; ++column) {
-            const PageSummary page = build_page(field, scene.shape, {row, column}, *block);
-            if (page.triangles == 0) continue;
-            ORO_CHECK(scene.store.add_page(*block));
-            scene.pages.push_back(page);
-            scene.triangles += page.triangles;
+        in_parallel(layout.columns, threads, [&](int column) {
+            const auto at = static_cast<std::size_t>(column);
+            pages[at] = build_page(field, scene.shape, heights, {row, column}, blocks[at]);
+        });
+        for (std::size_t at = 0; at < pages.size(); ++at) {
+            if (pages[at].triangles == 0) continue;
+            ORO_CHECK(scene.store.add_page(blocks[at]));
+            scene.pages.push_back(pages[at]);
+            scene.triangles += pages[at].triangles;
         }
         if (progress) progress(static_cast<double>(row + 1) / layout.rows);
     }
