@@ -29,6 +29,18 @@ NodeErrors::NodeErrors(const PostGrid& grid, const DrawnHeights& heights, int le
       whole_node_(stitched_triangles(node_quads, node_quads,
                                      gpu::edge_north | gpu::edge_east | gpu::edge_south | gpu::edge_west)) {
     assert(heights.rows == grid.rows() && heights.columns == grid.columns());
+    for (int i = 0; i < level_.row.nodes(); ++i) {
+        const double north_deg = grid.lat.at_deg(level_.row.region_post(i * node_quads));
+        const double south_deg =
+            grid.lat.at_deg(level_.row.region_post(std::min((i + 1) * node_quads, level_.row.quads)));
+        const double outer_deg = std::min(90.0, std::max(std::abs(north_deg), std::abs(south_deg)));
+        const double inner_deg =
+            north_deg >= 0.0 && south_deg <= 0.0 ? 0.0 : std::min(std::abs(north_deg), std::abs(south_deg));
+        const double cosine = sine_cosine_deg(inner_deg).cosine;
+        curvature_.push_back({1.0001 * (meridian_radius_m(outer_deg) + highest_m_),
+                              (prime_vertical_radius_m(outer_deg) + highest_m_) * cosine,
+                              sine_cosine_deg(outer_deg).sine, cosine});
+    }
 }
 
 std::uint32_t NodeErrors::edges(int node_row, int node_column) const {
@@ -137,7 +149,10 @@ NodeError NodeErrors::height_error(int node_row, int node_column) const {
     bool all_full = true;
     bool all_empty = true;
     double own_steps = 0.0;
-    for (int i = 0; i < rows; ++i) {
+    // Level 0 is the full resolution: all there is to ask is what voids leave of it.
+    const bool as_it_is = level_.level() == 0 && !post_range(node_row, node_column).any_void;
+    if (as_it_is) all_empty = false;
+    for (int i = 0; i < rows && !as_it_is; ++i) {
         for (int j = 0; j < columns; ++j) {
             const Quad quad = quad_error(node_row * node_quads + i, node_column * node_quads + j);
             covers[static_cast<std::size_t>(i * node_quads + j)] = quad.cover;
@@ -151,7 +166,7 @@ NodeError NodeErrors::height_error(int node_row, int node_column) const {
     if (all_empty) return error;
     error.own_m = own_steps * height_step_m;
     const std::uint32_t around = edges(node_row, node_column);
-    const bool simple = level_.level() == 0 && all_full && rows == node_quads && columns == node_quads;
+    const bool simple = as_it_is && rows == node_quads && columns == node_quads;
     const PerEdge steps =
         simple ? finest_stitched_error(node_row, node_column) : stitched_error(node_row, node_column, around);
     const std::uint32_t unfit = all_full ? 0U : unfit_edges(covers, rows, columns);
@@ -162,59 +177,52 @@ NodeError NodeErrors::height_error(int node_row, int node_column) const {
     return error;
 }
 
+// Range of the node's own posts.
+NodeErrors::PostRange NodeErrors::post_range(int node_row, int node_column) const {
+    PostRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), false};
+    for (int i = 0; i <= level_.row.quads_of_node(node_row); ++i) {
+        const std::int32_t* steps = heights_.row(level_.row.region_post(node_row * node_quads + i));
+        for (int j = 0; j <= level_.column.quads_of_node(node_column); ++j) {
+            const std::int32_t h = steps[level_.column.region_post(node_column * node_quads + j)];
+            range.any_void = range.any_void || h == void_height_steps;
+            if (h == void_height_steps) continue;
+            range.lowest = std::min<double>(range.lowest, h);
+            range.highest = std::max<double>(range.highest, h);
+        }
+    }
+    return range;
+}
+
 // How far a flat triangle lies from the curved one that is linear in (row, column, height): half the second
 // derivative of the position along the offsets to its corners, by Taylor's theorem. With e, t, n the
 // directions east, north and up, position'' = -(M+h) dlat^2 n + M' dlat^2 t - r dlon^2 (cos(lat) n - sin(lat)
 // t) - 2 (M+h) sin(lat) dlat dlon e + 2 dh (dlat t + cos(lat) dlon e), r = (N+h) cos(lat); and the mean
 // square of offsets within a range is at most a quarter of its square. M' is below 0.0102 M and at right
 // angles to the first term. A stitched triangle is up to two quads long along one axis.
-NodeErrors::Sag NodeErrors::sag(int node_row, int node_column, double finer_dh_m) const {
-    const int rows = level_.row.quads_of_node(node_row);
-    const int columns = level_.column.quads_of_node(node_column);
-    const double north_deg = grid_.lat.at_deg(level_.row.region_post(node_row * node_quads));
-    const double south_deg = grid_.lat.at_deg(level_.row.region_post(node_row * node_quads + rows));
-    const double outer_deg = std::min(90.0, std::max(std::abs(north_deg), std::abs(south_deg)));
-    const double inner_deg =
-        north_deg >= 0.0 && south_deg <= 0.0 ? 0.0 : std::min(std::abs(north_deg), std::abs(south_deg));
-    const double sine = sine_cosine_deg(outer_deg).sine;
-    const double cosine = sine_cosine_deg(inner_deg).cosine;
-    const double M_m = 1.0001 * (meridian_radius_m(outer_deg) + highest_m_);
-    const double r_m = (prime_vertical_radius_m(outer_deg) + highest_m_) * cosine;
-    double dh_m = 0.0;
-    for (int i = 0; i < rows * columns; ++i) {
-        std::int64_t lowest = std::numeric_limits<std::int64_t>::max();
-        std::int64_t highest = -lowest;
-        for (int corner = 0; corner < 4; ++corner) {
-            const std::int32_t steps =
-                heights_.at(level_.row.region_post(node_row * node_quads + i / columns + corner / 2),
-                            level_.column.region_post(node_column * node_quads + i % columns + corner % 2));
-            if (steps == void_height_steps) continue;
-            lowest = std::min<std::int64_t>(lowest, steps);
-            highest = std::max<std::int64_t>(highest, steps);
-        }
-        if (lowest <= highest) dh_m = std::max(dh_m, static_cast<double>(highest - lowest) * height_step_m);
-    }
+NodeErrors::Sag NodeErrors::sag(int node_row, double dh_m, double finest_dh_m) const {
+    const Curvature& at = curvature_[static_cast<std::size_t>(node_row)];
     const auto bound_m = [&](double dlat, double dlon, double dh) {
-        return 0.125 * (M_m * dlat * dlat + r_m * dlon * dlon + 2.0 * M_m * sine * dlat * dlon +
-                        2.0 * dh * (dlat + cosine * dlon));
+        return 0.125 * (at.M_m * dlat * dlat + at.r_m * dlon * dlon + 2.0 * at.M_m * at.sine * dlat * dlon +
+                        2.0 * dh * (dlat + at.cosine * dlon));
     };
     const double finest_lat = radians_from_deg(grid_.lat.spacing_deg()).rad;
     const double finest_lon = radians_from_deg(grid_.lon.spacing_deg()).rad;
     const double dlat = std::ldexp(finest_lat, level_.level());
     const double dlon = std::ldexp(finest_lon, level_.level());
     return {bound_m(dlat, dlon, dh_m),
-            std::max(bound_m(2.0 * dlat, dlon, 2.0 * dh_m), bound_m(dlat, 2.0 * dlon, 2.0 * dh_m)),
-            bound_m(finest_lat, finest_lon, dh_m + finer_dh_m),
-            placement_share * gpu::page_quads * (M_m * dlat + r_m * dlon)};
+            std::max(bound_m(2.0 * dlat, dlon, dh_m), bound_m(dlat, 2.0 * dlon, dh_m)),
+            bound_m(finest_lat, finest_lon, finest_dh_m),
+            placement_share * gpu::page_quads * (at.M_m * dlat + at.r_m * dlon)};
 }
 
 NodeError NodeErrors::error(int node_row, int node_column) const {
     NodeError error = height_error(node_row, node_column);
     if (error.empty) return error;
     const bool finest = level_.level() == 0;
-    // The heights of finer edges than the node's own differ by the error at either end more than those do.
-    const double dh_m = std::isinf(error.own_m) ? 0.0 : 2.0 * error.own_m;
-    const Sag sag_m = sag(node_row, node_column, dh_m);
+    // The full resolution's heights differ from the node's by the error, at either end of an edge.
+    const PostRange range = post_range(node_row, node_column);
+    const double dh_m = (range.highest - range.lowest) * height_step_m;
+    const Sag sag_m = sag(node_row, dh_m, std::isinf(error.own_m) ? dh_m : dh_m + 2.0 * error.own_m);
     // Where the region ends, the diagonals of narrow quads cross cells of the full resolution, as stitched
     // edges do.
     const bool narrow = node_row == level_.row.nodes() - 1 || node_column == level_.column.nodes() - 1;

@@ -59,6 +59,18 @@ class NodeErrors {
         Cover cover;
         double error_steps;
     };
+    struct PostRange {
+        double lowest;
+        double highest;
+        bool any_void;
+    };
+    // Largest in a row of nodes: of M + h, (N + h) cos(lat), |sin(lat)|, cos(lat).
+    struct Curvature {
+        double M_m;
+        double r_m;
+        double sine;
+        double cosine;
+    };
     struct Sag {
         double own_m;
         double stitched_m;
@@ -77,13 +89,15 @@ class NodeErrors {
                                                    int columns);
     [[nodiscard]] PerEdge stitched_error(int node_row, int node_column, std::uint32_t edges) const;
     [[nodiscard]] PerEdge finest_stitched_error(int node_row, int node_column) const;
-    [[nodiscard]] Sag sag(int node_row, int node_column, double finer_dh_m) const;
+    [[nodiscard]] PostRange post_range(int node_row, int node_column) const;
+    [[nodiscard]] Sag sag(int node_row, double dh_m, double finest_dh_m) const;
 
     const PostGrid& grid_;
     const DrawnHeights& heights_;
     LevelGrid level_;
     bool goes_round_;
     double highest_m_;
+    std::vector<Curvature> curvature_;  // by row of nodes
     std::vector<Stitched> whole_node_;  // of a node of 8 x 8 quads with neighbours on all sides
 };
 
