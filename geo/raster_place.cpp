@@ -50,8 +50,8 @@ bool is_wgs84_degrees(const Source& source, OGRSpatialReferenceH horizontal, con
     if (m[2] != 0.0 || m[4] != 0.0 || m[1] <= 0.0) return false;
     for (int i = 0; i <= 4; ++i) {
         for (int j = 0; j <= 4; ++j) {
-            const double column = (source.report.columns - 1) * i / 4.0;
-            const double row = (source.report.rows - 1) * j / 4.0;
+            const double column = (source.report.columns - 1) * (i / 4.0);
+            const double row = (source.report.rows - 1) * (j / 4.0);
             const auto spot = outwards.at(column, row);
             const double lat_deg = m[3] + m[5] * row;
             if (std::abs(lat_deg) > 90.0 - 1e-6) continue;

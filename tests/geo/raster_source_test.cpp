@@ -246,6 +246,18 @@ TEST(Raster, UnknownCrsIsAnErrorThatNamesTheFile) {
         << region.error().line();
 }
 
+// As many posts as GDAL can count: told by their number, with no overflow on the way (asan watches).
+TEST(Raster, TheLargestRasterIsTooLarge) {
+    const fs::path file = scratch_folder() / "huge.vrt";
+    std::ofstream(file) << R"(<VRTDataset rasterXSize="2147483647" rasterYSize="2147483647">
+<SRS>EPSG:4326</SRS><GeoTransform>0, 1e-9, 0, 40, 0, -1e-9</GeoTransform>
+<VRTRasterBand dataType="Float32" band="1"/></VRTDataset>)";
+    const auto region = open_region(request_for({file.string()}));
+    ASSERT_FALSE(region.ok());
+    EXPECT_NE(region.error().line().find("2147483647 x 2147483647"), std::string::npos)
+        << region.error().line();
+}
+
 TEST(Raster, ImagesInAFolderArePassedOverAndNoted) {
     const fs::path folder = scratch_folder();
     Raster raster = hundredths(5, 5);
