@@ -28,9 +28,11 @@ Post canonical_post(const HeightField& field, int row, int column) {
     return {row, twin && !is_void(field.H_at_post_m(row, 0)) ? 0 : column};
 }
 
-// The nearest step, halves upwards.
+// The nearest step, halves upwards; what an exaggeration lifts beyond 1,000 km stays there.
 std::int32_t height_steps(double h_m) {
-    return static_cast<std::int32_t>(std::floor(h_m * (1.0 / height_step_m) + 0.5));
+    constexpr double limit = std::numeric_limits<std::int32_t>::max();
+    return static_cast<std::int32_t>(
+        std::clamp(std::floor(h_m * (1.0 / height_step_m) + 0.5), -limit, limit));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace oro {
 
 // Drawn heights above the ellipsoid, exaggeration and undulation included, in steps of 2^-11 m: a height less
 // the whole metres of a page's origin is then exact in a float (up to 8,192 m), so that every page and level
-// holds the same height for a post. Costs at most 0.25 mm, and is what pages and all that is drawn call the
-// height.
+// holds the same height for a post. Within 1,048 km of the ellipsoid. Costs at most 0.25 mm, and is what
+// pages and all that is drawn call the height.
 inline constexpr double height_step_m = 1.0 / 2048.0;
 inline constexpr std::int32_t void_height_steps = std::numeric_limits<std::int32_t>::min();
 
