@@ -139,7 +139,7 @@ Result<void> open_view(const ShotOptions& options, ProgressBar& bar, ShotResult&
     if (!options.view_file.empty()) {
         ORO_TRY(shot.view, read_view(options.view_file));
         ORO_CHECK(change_view(shot.view, options.view));
-        if (!options.region.paths.empty()) shot.view.region.paths = options.region.paths;
+        ORO_CHECK(change_region(shot.view, options.region));
         ORO_CHECK(open());
     } else {
         ORO_TRY(RegionRequest request, region_request(options.region));
@@ -191,7 +191,8 @@ Result<void> spare_inputs(const PictureFiles& files, const ShotResult& shot) {
     return {};
 }
 
-Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, bool announced) {
+// `told` are the files that messages and --json name: those of a check are in a scratch folder and soon gone.
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, const PictureFiles& told) {
     ORO_CHECK(check_out(options, files));
     ProgressBar bar(options.quiet);
     ShotResult shot;
@@ -215,8 +216,8 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, bo
                                         style.frame, [&](double share) { bar.show(share, "drawing"); }));
     shot.times.draw_s = seconds_since(drawing);
     bar.clear();
-    say(options.quiet || !announced, "wrote " + files.picture + " and " + files.view);
-    if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, *gpu, style), true).c_str());
+    say(options.quiet || files.picture != told.picture, "wrote " + files.picture + " and " + files.view);
+    if (options.json) std::printf("%s\n", json_text(shot_json(shot, told, *gpu, style), true).c_str());
     return {};
 }
 
@@ -231,7 +232,7 @@ Result<void> check_shot(const ShotOptions& options, const PictureFiles& files) {
     if (!scratch.made()) return Error{ErrorKind::failed, scratch.path(), "cannot be made"};
     const PictureFiles again =
         picture_files((fs::path(scratch.path()) / fs::path(files.picture).filename()).string());
-    ORO_CHECK(take_shot(options, again, false));
+    ORO_CHECK(take_shot(options, again, files));
     if (!same_bytes(again.picture, files.picture))
         return Error{
             ErrorKind::failed, files.picture,
@@ -244,7 +245,7 @@ Result<void> check_shot(const ShotOptions& options, const PictureFiles& files) {
 
 Result<void> run_shot(const ShotOptions& options) {
     ORO_TRY(const PictureFiles files, shot_files(options));
-    return is_check(options, files) ? check_shot(options, files) : take_shot(options, files, true);
+    return is_check(options, files) ? check_shot(options, files) : take_shot(options, files, files);
 }
 
 }  // namespace oro

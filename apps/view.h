@@ -15,7 +15,7 @@ namespace oro {
 
 struct SunDirection {
     double azimuth_deg;    // clockwise from true north
-    double elevation_deg;  // above the horizon, (0, 90]
+    double elevation_deg;  // above the horizon, [-90, 90]; below 0 the ground has ambient light alone
 };
 
 struct View {
@@ -42,8 +42,10 @@ Result<void> place_eye(View& view, const ViewOptions& options, const Region& reg
 // Changes a view read from a file as far as options other than the eye's are given; those of the eye are
 // usage errors.
 Result<void> change_view(View& view, const ViewOptions& options);
+// The same for its region: other paths to the same data may be given, all else is a usage error.
+Result<void> change_region(View& view, const RegionOptions& options);
 
-// A view as JSON text: compact, every double with all its digits.
+// A view as JSON text, every double with all its digits; on one line unless `pretty`.
 std::string view_to_json(const View& view, bool pretty);
 // Errors name what is missing or wrong, and `where` it was read from.
 Result<View> view_from_json(const std::string& text, const std::string& where);

@@ -60,6 +60,10 @@ View read_fields(const nlohmann::json& json) {
         view.sun = SunDirection{json_number(sun, "azimuth_deg", -1e9, 1e9),
                                 json_number(sun, "elevation_deg", -90, 90)};
     view.style = json_string(json, "style");
+    // Views of before there was a choice have none.
+    if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
+    if (view.pipeline != "auto" && view.pipeline != "mesh" && view.pipeline != "compute")
+        throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of auto, mesh, compute"};
     view.time_utc_s = json_whole(json, "time_utc_s", first_second, last_second);
     return view;
 }

@@ -158,4 +158,14 @@ Result<void> change_view(View& view, const ViewOptions& options) {
     return apply_look(view, options);
 }
 
+Result<void> change_region(View& view, const RegionOptions& options) {
+    if (!options.bbox.empty() || !options.tile.empty() || !options.height_unit.empty() ||
+        options.strict_datum || options.fill_voids)
+        return usage("--view",
+                     "brings its own region: --bbox, --tile, --height-unit, --strict-datum and --fill-voids "
+                     "cannot be added");
+    if (!options.paths.empty()) view.region.paths = options.paths;
+    return {};
+}
+
 }  // namespace oro

@@ -125,7 +125,8 @@ void take_picture(Viewer& viewer) {
 
 // One turn of the loop: input, then a frame where something has changed. False when the user leaves.
 Result<bool> turn(Viewer& viewer, bool& changed) {
-    const WindowInput input = viewer.window.poll(changed ? 0.0 : 0.05);
+    const bool can_draw = viewer.window.extent().width > 0;  // not so while minimised
+    const WindowInput input = viewer.window.poll(changed && can_draw ? 0.0 : 0.05);
     if (input.closed) return false;
     const std::string title_before = title_of(viewer);
     if (viewer.asking_place) {
@@ -136,6 +137,12 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
     } else if (input.go_to) {
         viewer.asking_place = true;
         viewer.place_text.clear();
+        // While a slow frame is drawn, people type on: what follows the G belongs to the place.
+        WindowInput after = input;
+        const std::size_t g = input.typed.find_first_of("gG");
+        after.typed = g == std::string::npos ? "" : input.typed.substr(g + 1);
+        ask_place(viewer, after);
+        changed = changed || !viewer.asking_place;
     } else {
         const FlightStep step = step_of(input, viewer.view.camera);
         if (moves(step)) {
@@ -186,7 +193,7 @@ Result<void> open_view(const WindowOptions& options, ProgressBar& bar, View& vie
     if (!options.view_file.empty()) {
         ORO_TRY(view, read_view(options.view_file));
         ORO_CHECK(change_view(view, options.view));
-        if (!options.region.paths.empty()) view.region.paths = options.region.paths;
+        ORO_CHECK(change_region(view, options.region));
         ORO_TRY(region, open_region(view.region, progress));
     } else {
         ORO_TRY(RegionRequest request, region_request(options.region));

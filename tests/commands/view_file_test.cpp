@@ -1,0 +1,71 @@
+// Views as files: what is written is what is read back, field by field.
+#include <gtest/gtest.h>
+
+#include "apps/view.h"
+
+namespace {
+
+oro::View unusual_view() {
+    oro::View view;
+    view.region.paths = {"a.hgt", "b c.zip"};
+    view.region.box = oro::BoundingBox{179.5, -17.25, -179.0, -16.0};
+    view.region.height_unit = "us-ft";
+    view.region.fill_voids = true;
+    view.region.strict_datum = true;
+    view.camera.eye = {-16.123456789012345, 179.87654321098765, 1234.5678901234567};
+    view.camera.attitude = {123.4567890123456, -12.3, 4.5};
+    view.camera.vertical_fov_deg = 33.3;
+    view.camera.width_px = 641;
+    view.camera.height_px = 359;
+    view.exaggeration = 1.7;
+    view.samples = 5;
+    view.sun = oro::SunDirection{270.0, -3.5};
+    view.style = "other";
+    view.pipeline = "compute";
+    view.time_utc_s = 1234567890;
+    return view;
+}
+
+TEST(ViewFile, EveryFieldComesBack) {
+    const oro::View view = unusual_view();
+    for (const bool pretty : {false, true}) {
+        const std::string text = oro::view_to_json(view, pretty);
+        const auto read = oro::view_from_json(text, "test");
+        ASSERT_TRUE(read.ok()) << read.error().line();
+        EXPECT_EQ(oro::view_to_json(*read, pretty), text);
+        EXPECT_EQ(read->pipeline, "compute");
+        EXPECT_EQ(read->camera.eye.lat_deg, view.camera.eye.lat_deg);
+    }
+}
+
+TEST(ViewFile, ViewsWithoutAPipelineAreAutomatic) {
+    std::string text = oro::view_to_json(unusual_view(), false);
+    const std::string field = R"("pipeline":"compute",)";
+    ASSERT_NE(text.find(field), std::string::npos);
+    text.erase(text.find(field), field.size());
+    const auto read = oro::view_from_json(text, "test");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(read->pipeline, "auto");
+}
+
+TEST(ViewFile, UnknownPipelinesAreRefused) {
+    oro::View view = unusual_view();
+    view.pipeline = "vertex";
+    const auto read = oro::view_from_json(oro::view_to_json(view, false), "test");
+    ASSERT_FALSE(read.ok());
+    EXPECT_NE(read.error().line().find("'pipeline' is 'vertex'"), std::string::npos) << read.error().line();
+}
+
+TEST(ViewFile, ARegionCannotBeChangedButItsPathsCan) {
+    oro::View view = unusual_view();
+    oro::RegionOptions options;
+    options.paths = {"elsewhere.hgt"};
+    EXPECT_TRUE(oro::change_region(view, options).ok());
+    EXPECT_EQ(view.region.paths, options.paths);
+    options.tile = "N46E008";
+    const auto changed = oro::change_region(view, options);
+    ASSERT_FALSE(changed.ok());
+    EXPECT_EQ(changed.error().kind, oro::ErrorKind::usage);
+}
+
+}  // namespace
