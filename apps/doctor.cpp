@@ -12,6 +12,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
+bool has_data_folder() {
+    std::error_code unreadable;
+    return std::filesystem::is_directory(data_folder(), unreadable);
+}
+
 std::string joined(const std::vector<std::string>& words) {
     std::string all;
     for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
@@ -53,8 +58,7 @@ ordered_json doctor_json(const std::vector<DeviceReport>& devices, const std::st
     for (const GeoidGridReport& g : libraries.geoids)
         json["geoids"].push_back(
             {{"name", g.name}, {"file", g.file}, {"found", g.found}, {"meaning", g.meaning}});
-    json["data_folder"] = {{"path", data_folder().string()},
-                           {"found", std::filesystem::is_directory(data_folder())}};
+    json["data_folder"] = {{"path", data_folder().string()}, {"found", has_data_folder()}};
     return json;
 }
 
@@ -96,9 +100,8 @@ void print_doctor(const std::vector<DeviceReport>& devices, const std::string& n
     for (const GeoidGridReport& g : libraries.geoids)
         std::printf("geoid        %s: %s %s; %s\n", g.name.c_str(), g.file.c_str(),
                     g.found ? "found" : "not found", g.meaning.c_str());
-    const bool has_data = std::filesystem::is_directory(data_folder());
     std::printf("data         %s%s\n", data_folder().c_str(),
-                has_data ? "" : " (not there: styles must be given by path)");
+                has_data_folder() ? "" : " (not there: styles must be given by path)");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <new>
 #include <system_error>
 
 #include "apps/commands.h"
@@ -117,8 +118,14 @@ int main(int argc, char** argv) {
         app.exit(e);
         return exit_code({});
     }
-    if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
-    if (app.got_subcommand("view")) return exit_code(oro::run_view(view));
-    if (app.got_subcommand("info")) return exit_code(oro::run_info(info));
-    return exit_code(oro::run_doctor(doctor));
+    // What was begun is undone on the way here: no half file stays.
+    try {
+        if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
+        if (app.got_subcommand("view")) return exit_code(oro::run_view(view));
+        if (app.got_subcommand("info")) return exit_code(oro::run_info(info));
+        return exit_code(oro::run_doctor(doctor));
+    } catch (const std::bad_alloc&) {
+        return told({oro::ErrorKind::failed, "memory",
+                     "there is not enough of it for this; a smaller --size or region needs less"});
+    }
 }

@@ -26,9 +26,10 @@ void ProgressBar::show(double share, const std::string& what) {
     shown_ = true;
     constexpr int width = 30;
     const int filled = static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * width));
-    std::fprintf(
-        stderr, "\r\033[K[%s%s] %3.0f %% %.60s", std::string(static_cast<std::size_t>(filled), '#').c_str(),
-        std::string(static_cast<std::size_t>(width - filled), '.').c_str(), 100.0 * share, what.c_str());
+    std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %% %.60s",
+                 std::string(static_cast<std::size_t>(filled), '#').c_str(),
+                 std::string(static_cast<std::size_t>(width - filled), '.').c_str(), 100.0 * share,
+                 one_line(what).c_str());
     std::fflush(stderr);
 }
 
