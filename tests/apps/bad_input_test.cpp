@@ -262,8 +262,12 @@ TEST_F(BadInput, NoDisplayForAWindow) {
 
 TEST_F(BadInput, NoMeshShader) {
     Circumstances without;
-    without.environment = {"OROGRAPH_WITHOUT=mesh_shader"};
+    without.environment = {"OROGRAPH_WITHOUT=mesh_shader,compute"};
     expect_refusal(shoot(bundled(), {}, without), no_device, {"VK_EXT_mesh_shader", "scripts/set-up"});
+    // With the compute path left, only who insists on mesh shaders is refused.
+    without.environment = {"OROGRAPH_WITHOUT=mesh_shader"};
+    expect_refusal(shoot(bundled(), {"--pipeline", "mesh"}, without), no_device,
+                   {"VK_EXT_mesh_shader", "--pipeline compute"});
 }
 
 }  // namespace
