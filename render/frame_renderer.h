@@ -18,7 +18,7 @@ namespace oro {
 struct FrameReport {
     gpu::FrameCounts counts{};
     std::uint64_t pages_drawn{};
-    double raster_s{};  // GPU timestamps: task, mesh and fragment stages
+    double raster_s{};  // GPU timestamps: from pages to triangle ids, by either path
     double shade_s{};   // the shading pass
 };
 

@@ -32,7 +32,8 @@ struct PictureOptions {
     RasterPath path{RasterPath::mesh};
 };
 
-// What it took to draw a picture: sums over its tiles and samples.
+// What it took to draw a picture: times are sums over its tiles and samples, counts those of the first sample
+// of each tile.
 struct PictureReport {
     FrameReport frame;
     std::uint64_t pages_beyond_frustum{};
