@@ -92,6 +92,13 @@ Result<void> stand_at(View& view, const ViewOptions& options, const Region& regi
     ORO_TRY(const Place place, parse_place(*options.at));
     Geodetic& eye = view.camera.eye;
     eye = {place.lat_deg, place.lon_deg, 0.0};
+    if (place.height_m) {
+        if (options.altitude_m || options.above_m)
+            return Error{ErrorKind::usage, "--at " + *options.at,
+                         "gives a height of its own: leave out --above and --altitude"};
+        eye.h_m = *place.height_m;  // of WGS84, as geo: places are: above the ellipsoid
+        return {};
+    }
     if (options.altitude_m) {
         eye.h_m = *options.altitude_m + region.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
         return {};

@@ -245,6 +245,10 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
     region.field.undulation = geoid.undulation(posts);
     region.geoid = geoid.name();
     add_note(region.notes, geoid.note());
+    if (request.box && request.box->west_deg > request.box->east_deg &&
+        posts.east_deg - posts.west_deg > 180.0)
+        add_note(region.notes, "west is greater than east in " + text_of(*request.box) +
+                                   ": that crosses the antimeridian, and most of the way round the Earth");
     JoinedSurface surface(grid);
     ORO_CHECK(lay_sources(found.sources, geoid, posts, request.strict_datum,
                           {grid, region.field.undulation, surface}, region.notes, progress));

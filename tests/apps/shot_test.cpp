@@ -216,6 +216,14 @@ TEST_F(Shot, HelpAndVersion) {
     }
 }
 
+// Found: the height of --at geo:LAT,LON,HEIGHT was read and not used. It is above the ellipsoid.
+TEST_F(Shot, TakesTheHeightOfAGeoPlace) {
+    const json said = shoot(folder / "geo.png", {"--at", "geo:36.6,-84.2,2000", "--size", "64x36"},
+                            oro::test::bundled_data() / "jacksboro.tif");
+    EXPECT_NEAR(said["eye"]["h_m"].get<double>(), 2000.0, 1e-9);
+    EXPECT_NEAR(said["eye"]["H_m"].get<double>() + said["eye"]["N_m"].get<double>(), 2000.0, 1e-9);
+}
+
 // The view named in the project's first issue: Eiger, Moench and Jungfrau from Grindelwald-First.
 TEST_F(Shot, GrindelwaldFirst) {
     const auto alps = oro::test::real_data("alps");
