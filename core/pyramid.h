@@ -60,7 +60,7 @@ struct LevelPyramid {
 using PageSink = std::function<void(const PyramidPage& page, const gpu::PageBlock& block)>;
 
 // Builds all levels of a region with up to `threads` threads (at least 1); the result does not depend on
-// their number. Keeps 12 KB a page, and 4 bytes a post while it works; a post costs about 60 ns of processor
+// their number. Keeps 12 KB a page, and 4 bytes a post while it works; a post costs about 110 ns of processor
 // time.
 LevelPyramid build_pyramid(const HeightField& field, const RegionShape& shape, int threads,
                            const PageSink& sink = {});
