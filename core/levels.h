@@ -15,10 +15,10 @@ namespace oro {
 // What level choice needs to know of a picture. One for all tiles of a picture: levels do not depend on the
 // tile.
 struct LevelView {
-    float
-        pixels_per_tangent{};  // half the picture's height in pixels / the tangent of half its field of view
-    float corner_tangent{};    // of the angle between the axis and the picture's farthest corner, and a pixel
-                               // more
+    // Half the picture's height in pixels / the tangent of half its field of view.
+    float pixels_per_tangent{};
+    // Of the angle between the axis and the picture's farthest corner, and a pixel more.
+    float corner_tangent{};
     float tau_px{};
 };
 LevelView level_view(const Camera& camera, double tau_px);

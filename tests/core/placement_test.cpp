@@ -60,7 +60,8 @@ double worst_error_m(double lat_deg, double page_m, std::mt19937_64& random, int
         // The rim's own form, high + low: only the height's step of 2^-11 m is left.
         if (row != 0 && row != posts - 1 && column != 0 && column != posts - 1) continue;
         const gpu::BorderPost& rim = block->borders[gpu::border_index_cpu(row, column)];
-        EXPECT_LT(glm::length(glm::dvec3(rim.high) + glm::dvec3(rim.low) - truth), 0.5 * height_step_m + 1e-6);
+        EXPECT_LT(glm::length(glm::dvec3(rim.high) + glm::dvec3(rim.low) - truth),
+                  0.5 * height_step_m + 1e-6);
     }
     return worst_m;
 }
