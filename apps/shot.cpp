@@ -75,7 +75,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                        const Style& style) {
     const Geotags tags = geotags_of(shot.view, shot.region);
     const glm::dvec3 ecef = shot.view.camera.eye_ecef().m;
-    const gpu::FrameCounts& counts = shot.picture.frame.counts;
+    const PictureReport& counts = shot.picture;
     ordered_json json;
     json["picture"] = files.picture;
     json["view"] = files.view;
@@ -111,15 +111,15 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                         {"culled_by_horizon", counts.meshlets_beyond_horizon},
                         {"void", counts.meshlets_void}};
     json["pages"] = {{"all", shot.pages},
-                     {"drawn", shot.picture.frame.pages_drawn},
+                     {"drawn", counts.pages_drawn},
                      {"culled_by_frustum", shot.picture.pages_beyond_frustum},
                      {"culled_by_horizon", shot.picture.pages_beyond_horizon}};
     json["tiles"] = shot.picture.tiles;
     json["times_s"] = {{"read", shot.times.read_s},
                        {"pages", shot.times.pages_s},
                        {"draw_and_write", shot.times.draw_s},
-                       {"gpu_raster", shot.picture.frame.raster_s},
-                       {"gpu_shade", shot.picture.frame.shade_s}};
+                       {"gpu_raster", counts.raster_s},
+                       {"gpu_shade", counts.shade_s}};
     json["device"] = {{"name", gpu.report().name},
                       {"type", gpu.report().type},
                       {"driver", gpu.report().driver},

@@ -92,7 +92,8 @@ void describe_lacks(VkPhysicalDevice physical, const GpuOptions& options, Device
         !options.without_compute_raster && features.features.shaderInt64 && vulkan12.shaderBufferInt64Atomics;
     if (!report.mesh_shader && !report.compute_raster)
         report.lacks.emplace_back("VK_EXT_mesh_shader and 64-bit atomics (one of them is needed)");
-    if (!graphics_queue_family(physical)) report.lacks.emplace_back("a queue for graphics and compute");
+    if (!graphics_queue_family(physical))
+        report.lacks.emplace_back("a queue for graphics and compute with timestamps");
     if (options.presents && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
         report.lacks.emplace_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 }
@@ -106,7 +107,7 @@ std::optional<std::uint32_t> graphics_queue_family(VkPhysicalDevice physical) {
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
     constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     for (std::uint32_t i = 0; i < count; ++i) {
-        if ((families[i].queueFlags & wanted) == wanted) return i;
+        if ((families[i].queueFlags & wanted) == wanted && families[i].timestampValidBits > 0) return i;
     }
     return std::nullopt;
 }

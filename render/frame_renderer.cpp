@@ -147,6 +147,12 @@ Result<void> FrameRenderer::reserve_pages(std::size_t count) {
 
 Result<void> FrameRenderer::upload(FramePlan& plan, const PageStore& pages, const gpu::FrameStyle& style,
                                    std::uint32_t sample_index, std::uint32_t sample_count) {
+    constexpr std::size_t pages_max = UINT32_MAX / (gpu::meshlets_per_page * gpu::meshlet_triangles);
+    if (plan.pages.size() > pages_max)
+        return Error{ErrorKind::failed, "picture",
+                     std::to_string(plan.pages.size()) +
+                         " pages of 128 x 128 posts are in view, and triangle ids reach for " +
+                         std::to_string(pages_max) + "; narrow the region"};
     ORO_CHECK(reserve_pages(plan.pages.size()));
     for (std::size_t i = 0; i < plan.pages.size(); ++i)
         plan.pages[i].block = address_words(pages.address(plan.page_numbers[i]));
@@ -273,6 +279,10 @@ Result<FrameReport> FrameRenderer::draw(const PageStore& pages, FramePlan plan, 
     FrameReport report;
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
     report.pages_drawn = plan.pages.size();
+    if (report.counts.triangles_not_clipped > 0)
+        return Error{ErrorKind::failed, "picture",
+                     std::to_string(report.counts.triangles_not_clipped) +
+                         " triangles more than the compute path can clip in a frame; --pipeline mesh can"};
     std::array<std::uint64_t, 3> ticks{};
     ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, 3, sizeof(ticks), ticks.data(),
                                  sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));

@@ -13,15 +13,14 @@ namespace {
 
 constexpr int preferred_tile_px = 4096;
 
-void add(FrameReport& sum, const FrameReport& part) {
-    sum.counts.meshlets_beyond_frustum += part.counts.meshlets_beyond_frustum;
-    sum.counts.meshlets_beyond_horizon += part.counts.meshlets_beyond_horizon;
-    sum.counts.meshlets_void += part.counts.meshlets_void;
-    sum.counts.meshlets_drawn += part.counts.meshlets_drawn;
-    sum.counts.triangles_drawn += part.counts.triangles_drawn;
+// What a tile draws: counted once, not for each sample.
+void add_counts(PictureReport& sum, const FrameReport& part) {
+    sum.meshlets_beyond_frustum += part.counts.meshlets_beyond_frustum;
+    sum.meshlets_beyond_horizon += part.counts.meshlets_beyond_horizon;
+    sum.meshlets_void += part.counts.meshlets_void;
+    sum.meshlets_drawn += part.counts.meshlets_drawn;
+    sum.triangles_drawn += part.counts.triangles_drawn;
     sum.pages_drawn += part.pages_drawn;
-    sum.raster_s += part.raster_s;
-    sum.shade_s += part.shade_s;
 }
 
 // Draws one tile, all its samples; its pixels stay in the renderer. Counts are those of the first sample.
@@ -34,14 +33,12 @@ Result<void> draw_tile(const Scene& scene, const Camera& camera, const gpu::Fram
             report.pages_beyond_frustum += plan.pages_beyond_frustum;
             report.pages_beyond_horizon += plan.pages_beyond_horizon;
         }
-        ORO_TRY(FrameReport drawn,
+        ORO_TRY(const FrameReport drawn,
                 renderer.draw(scene.store, std::move(plan), style, static_cast<std::uint32_t>(i),
                               static_cast<std::uint32_t>(samples)));
-        if (i > 0) {
-            drawn.counts = {};
-            drawn.pages_drawn = 0;
-        }
-        add(report.frame, drawn);
+        if (i == 0) add_counts(report, drawn);
+        report.raster_s += drawn.raster_s;
+        report.shade_s += drawn.shade_s;
     }
     ++report.tiles;
     return {};

@@ -35,7 +35,14 @@ struct PictureOptions {
 // What it took to draw a picture: times are sums over its tiles and samples, counts those of the first sample
 // of each tile.
 struct PictureReport {
-    FrameReport frame;
+    std::uint64_t meshlets_drawn{};
+    std::uint64_t meshlets_beyond_frustum{};
+    std::uint64_t meshlets_beyond_horizon{};
+    std::uint64_t meshlets_void{};
+    std::uint64_t triangles_drawn{};
+    std::uint64_t pages_drawn{};
+    double raster_s{};  // GPU timestamps, all samples
+    double shade_s{};
     std::uint64_t pages_beyond_frustum{};
     std::uint64_t pages_beyond_horizon{};
     int tiles{};

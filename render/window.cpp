@@ -89,12 +89,13 @@ Result<std::unique_ptr<Window>> Window::create(const Gpu& gpu, int width_px, int
     window->window_ = glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr);
     if (!window->window_) return Error{ErrorKind::failed, "window", "cannot be opened: " + glfw_reason()};
     glfwSetWindowUserPointer(window->window_, &window->input_);
+    glfwSetInputMode(window->window_, GLFW_STICKY_KEYS,
+                     GLFW_TRUE);  // a key tapped during a slow frame counts
     glfwSetKeyCallback(window->window_, on_key);
     glfwSetCharCallback(window->window_, on_character);
     ORO_CHECK(window->create_surface());
     ORO_TRY(window->commands_, Commands::create(gpu, "present"));
     ORO_TRY(window->acquired_, create_semaphore(gpu, "image acquired"));
-    ORO_TRY(window->drawn_, create_semaphore(gpu, "image drawn"));
     ORO_CHECK(window->create_swapchain());
     window->last_poll_s_ = glfwGetTime();
     return window;
@@ -146,6 +147,10 @@ Result<void> Window::create_swapchain() {
     ORO_VK(vkGetSwapchainImagesKHR(gpu_->device(), swapchain_, &count, nullptr));
     images_.resize(count);
     ORO_VK(vkGetSwapchainImagesKHR(gpu_->device(), swapchain_, &count, images_.data()));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        ORO_TRY(OwnedSemaphore drawn, create_semaphore(*gpu_, "image drawn"));
+        drawn_.push_back(std::move(drawn));
+    }
     return {};
 }
 
@@ -156,6 +161,7 @@ void Window::destroy_swapchain() {
     }
     swapchain_ = VK_NULL_HANDLE;
     images_.clear();
+    drawn_.clear();
 }
 
 Window::~Window() {
@@ -205,7 +211,7 @@ Result<void> Window::submit_and_present(VkCommandBuffer commands, std::uint32_t 
     wait.semaphore = acquired_.get();
     wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     VkSemaphoreSubmitInfo signal = wait;
-    signal.semaphore = drawn_.get();
+    signal.semaphore = drawn_[index].get();
     VkCommandBufferSubmitInfo submitted{};
     submitted.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
     submitted.commandBuffer = commands;
@@ -217,7 +223,7 @@ Result<void> Window::submit_and_present(VkCommandBuffer commands, std::uint32_t 
     submit.pSignalSemaphoreInfos = &signal;
     VkFence fence = commands_.fence();
     ORO_VK(vkQueueSubmit2(gpu_->queue(), 1, &submit, fence));
-    VkSemaphore drawn = drawn_.get();
+    VkSemaphore drawn = drawn_[index].get();
     VkPresentInfoKHR present{};
     present.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
     present.waitSemaphoreCount = present.swapchainCount = 1;

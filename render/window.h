@@ -78,7 +78,8 @@ class Window {
     VkExtent2D swapchain_extent_{};
     std::vector<VkImage> images_;
     Commands commands_;
-    OwnedSemaphore acquired_, drawn_;
+    OwnedSemaphore acquired_;
+    std::vector<OwnedSemaphore> drawn_;  // one for each image: presenting may still wait for the last one
     WindowInput input_;
     glm::dvec2 cursor_{0.0};
     bool dragging_{false};

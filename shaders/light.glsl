@@ -29,7 +29,7 @@ vec3 lit_ground(SurfacePoint point) {
     // The sky's share falls with the slope: a wall sees half of it.
     float diffuse = 0.5 + 0.5 * normal.z;
     float light = FRAME.style.ambient * diffuse + (1.0 - FRAME.style.ambient) * direct;
-    return in_haze(tint(FRAME.style, point.H_m) * light, point.H_m, length(point.view));
+    return in_haze(tint(FRAME.style, point.H_m) * light, point.h_m, length(point.view));
 }
 
 vec3 sky(float sine_above_horizon) {

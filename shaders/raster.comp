@@ -34,7 +34,10 @@ bool fits_near(ScreenTriangle t) {
 
 void list_clip(uint id) {
     uint at = atomicAdd(lists().at.clips, 1u);
-    if (at >= clips_max) return;
+    if (at >= clips_max) {
+        atomicAdd(Counts(FRAME.counts).at.triangles_not_clipped, 1u);
+        return;
+    }
     Words(FRAME.clip_list).at[at] = id;
     uint groups = at / 64u + 1u;
     atomicMax(lists().at.clip_groups[0], min(groups, groups_per_row));

@@ -1,5 +1,5 @@
 // What the CPU and the GPU both know: sizes, and the structs that lie in GPU memory. The only place where either is
-// defined; compiled as C++ and as GLSL (scalar block layout, so the two agree; tests/shared_layout_test.cpp proves it).
+// defined; compiled as C++ and as GLSL (scalar block layout, so the two agree; tests/render/shared_layout_test.cpp proves it).
 #ifndef OROGRAPH_SHADERS_SHARED_H
 #define OROGRAPH_SHADERS_SHARED_H
 
@@ -104,6 +104,7 @@ struct FrameCounts {
     uint meshlets_void;
     uint meshlets_drawn;
     uint triangles_drawn;
+    uint triangles_not_clipped;  // compute path: no room in the list; the frame has holes
 };
 
 // What the compute rasteriser passes from one of its steps to the next. Group counts are those of an indirect dispatch.

@@ -4,6 +4,7 @@ struct SurfacePoint {
     vec3 view;      // metres
     vec2 post;      // (row, column) within the page, fractional
     float H_m;      // orthometric, not exaggerated
+    float h_m;      // above the ellipsoid, as drawn
     vec3 normal;    // east, north, up at the place
 };
 
@@ -71,6 +72,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     point.view = share_a * at[0] + share_b * at[1] + share_c * at[2];
     point.post = share_a * vec2(posts[0]) + share_b * vec2(posts[1]) + share_c * vec2(posts[2]);
     float h_m = block.at[0].h0_m + share_a * dh[0] + share_b * dh[1] + share_c * dh[2];
+    point.h_m = h_m;
     point.H_m = (h_m - undulation_at(block, point.post)) / block.at[0].exaggeration;
     point.normal = normal_at(block, point.post);
     return point;

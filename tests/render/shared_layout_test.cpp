@@ -98,6 +98,7 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(FrameCounts, meshlets_void);
     ORO_MEMBER(FrameCounts, meshlets_drawn);
     ORO_MEMBER(FrameCounts, triangles_drawn);
+    ORO_MEMBER(FrameCounts, triangles_not_clipped);
     ORO_MEMBER(RasterLists, meshlets);
     ORO_MEMBER(RasterLists, meshlet_groups);
     ORO_MEMBER(RasterLists, clips);
