@@ -223,6 +223,9 @@ Result<void> run_view(const WindowOptions& options) {
     if (scene.pages.empty()) return Error{ErrorKind::no_data, "region", "every post is void"};
     bar.clear();
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
+    if (region.voids > 0)
+        say(options.quiet, "note: " + std::to_string(region.voids) +
+                               " void posts are holes (--fill-voids fills what is near others)");
     ORO_TRY(const std::unique_ptr<Window> window,
             Window::create(*gpu, view.camera.width_px, view.camera.height_px, "Orograph"));
     FrameRendererOptions renderer_options;

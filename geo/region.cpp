@@ -245,6 +245,11 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
     region.field.undulation = geoid.undulation(posts);
     region.geoid = geoid.name();
     add_note(region.notes, geoid.note());
+    if (!request.height_unit.empty() && request.height_unit != "m" &&
+        std::ranges::any_of(found.sources,
+                            [](const Source& source) { return source.report.format.ends_with(".hgt"); }))
+        add_note(region.notes,
+                 "the height unit " + request.height_unit + " is not for .hgt files: they hold metres");
     if (request.box && request.box->west_deg > request.box->east_deg &&
         posts.east_deg - posts.west_deg > 180.0)
         add_note(region.notes, "west is greater than east in " + text_of(*request.box) +

@@ -53,6 +53,7 @@ TEST_P(GoldenPicture, IsDrawnAsItWas) {
     // a machine's.
     oro::test::Circumstances in_data;
     in_data.folder = oro::test::bundled_data();
+    in_data.environment = {"OROGRAPH_VALIDATION=1"};
     const auto outcome = oro::test::run_orograph(words, in_data);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     if (write) {
@@ -80,9 +81,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Golden{"overview", {}}, Golden{"overview_samples", {"--samples", "8", "--exaggeration", "2"}},
         Golden{"valley", {"--at", "36.47,-84.27", "--above", "300", "--heading", "50", "--pitch", "-8"}},
-        Golden{"edge",
-               {"--at", "36.6,-84.38", "--above", "1500", "--heading", "250", "--pitch", "-15", "--roll",
-                "10"}},
+        Golden{
+            "edge",
+            {"--at", "36.6,-84.38", "--above", "1500", "--heading", "250", "--pitch", "-15", "--roll", "10"}},
         Golden{"from_space", {"--at", "36.5,-84.2", "--altitude", "2000000", "--pitch", "-89", "--fov", "4"}},
         Golden{"nadir", {"--at", "36.5,-84.2", "--altitude", "30000", "--pitch", "-90", "--sun", "90,20"}}),
     [](const auto& golden) { return std::string(golden.param.name); });

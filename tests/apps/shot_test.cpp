@@ -224,6 +224,33 @@ TEST_F(Shot, TakesTheHeightOfAGeoPlace) {
     EXPECT_NEAR(said["eye"]["H_m"].get<double>() + said["eye"]["N_m"].get<double>(), 2000.0, 1e-9);
 }
 
+// Over the antimeridian and over both poles, with Vulkan's validation layer watching.
+TEST_F(Shot, AntimeridianAndPoles) {
+    const auto geotiff = oro::test::real_data("geotiff");
+    if (!geotiff) GTEST_SKIP() << "needs geotiff";
+    const std::vector<Words> shots{
+        {(*geotiff / "fiji_antimeridian_etopo1_170_190.tif").string(), "--bbox", "175,-20,-175,-15"},
+        {(*geotiff / "antarctica_etopo1_EPSG3031_20km.tif").string(), "--bbox", "-180,-90,180,-65"},
+        {(*geotiff / "vavilov_EPSG3413_f32.tif").string()}};
+    for (const Words& shot : shots) {
+        for (const char* pipeline : {"mesh", "compute"}) {
+            Words words{"shot"};
+            words.insert(words.end(), shot.begin(), shot.end());
+            for (const std::string& word :
+                 Words{"--out", folder / "far.png", "--overwrite", "--json", "-q", "--size", "320x180",
+                       "--samples", "2", "--pipeline", pipeline})
+                words.push_back(word);
+            oro::test::Circumstances validated;
+            validated.environment = {"OROGRAPH_VALIDATION=1"};
+            const Outcome outcome = run_orograph(words, validated);
+            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+            const json said = one_object(outcome.out);
+            EXPECT_GT(said["triangles"]["drawn"].get<double>(),
+                      0.2 * said["triangles"]["at_full_resolution"].get<double>());
+        }
+    }
+}
+
 // The view named in the project's first issue: Eiger, Moench and Jungfrau from Grindelwald-First.
 TEST_F(Shot, GrindelwaldFirst) {
     const auto alps = oro::test::real_data("alps");
