@@ -24,6 +24,11 @@ void print_source(const SourceReport& s) {
     if (s.implausible > 0)
         std::printf(" (%llu of them implausible heights)", static_cast<unsigned long long>(s.implausible));
     std::printf("\n  placement   %s\n", s.placement.c_str());
+    std::printf(
+        "  seams       %llu of its posts are also those of a source that wins, %llu disagree by up to %.4g "
+        "m\n",
+        static_cast<unsigned long long>(s.seams.shared_posts),
+        static_cast<unsigned long long>(s.seams.disagreeing_posts), s.seams.largest_difference_m);
     std::printf("  attribution %s\n", s.attribution.empty() ? "not stated" : s.attribution.c_str());
 }
 

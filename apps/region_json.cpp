@@ -11,6 +11,12 @@ ordered_json box_json(const BoundingBox& box) {
     return {box.west_deg, box.south_deg, box.east_deg, box.north_deg};
 }
 
+ordered_json seams_json(const SeamReport& seams) {
+    return {{"shared_posts", seams.shared_posts},
+            {"disagreeing_posts", seams.disagreeing_posts},
+            {"largest_difference_m", seams.largest_difference_m}};
+}
+
 }  // namespace
 
 ordered_json sources_json(const std::vector<SourceReport>& sources) {
@@ -31,6 +37,7 @@ ordered_json sources_json(const std::vector<SourceReport>& sources) {
              {"voids", s.voids},
              {"implausible", s.implausible},
              {"placement", s.placement},
+             {"seams", seams_json(s.seams)},
              {"attribution", s.attribution}});
     }
     return all;
@@ -47,11 +54,8 @@ ordered_json region_json(const Region& region) {
             {"voids", region.voids},
             {"filled", region.filled},
             {"void_method", region.void_method},
-            {"seams",
-             {{"shared_posts", region.seams.shared_posts},
-              {"disagreeing_posts", region.seams.disagreeing_posts},
-              {"largest_difference_m", region.seams.largest_difference_m},
-              {"rule", "the finer spacing wins; among equals the first in the byte order of file names"}}},
+            {"seams", seams_json(region.seams)},
+            {"seam_rule", "the finer spacing wins; among equals the first in the byte order of file names"},
             {"missing_cells", region.missing_cells},
             {"notes", region.notes}};
 }

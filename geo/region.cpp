@@ -150,7 +150,8 @@ Result<std::uint64_t> lay_source(Source& source, int turn, GeoidOfRegion::Shift&
             shift.apply(to.undulation, lat_deg, lon_deg, heights);
             shift.apply(to.undulation, lat_deg, lon_deg, beyond);
             const bool own_posts = placed.fit() == Fit::same_posts;
-            const std::uint64_t filled = to.surface.lay(row, rect.first_column, heights, inside, own_posts);
+            const std::uint64_t filled =
+                to.surface.lay(row, rect.first_column, heights, inside, own_posts, report.seams);
             lent += own_posts ? 0 : filled;
             if (placed.fit() == Fit::elsewhere) to.surface.lay_later(row, rect.first_column, beyond);
             for (const float height : heights) {

@@ -38,6 +38,14 @@ struct RegionRequest {
     std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
 };
 
+// Where sources of one spacing meet or overlap. Rule: the finer spacing wins; among equals the first in the
+// byte order of file names.
+struct SeamReport {
+    std::uint64_t shared_posts{};
+    std::uint64_t disagreeing_posts{};
+    double largest_difference_m{};
+};
+
 // What a source says of itself and what was found in it.
 struct SourceReport {
     std::string path;            // as found, e.g. tiles.zip/N46E008.hgt
@@ -58,14 +66,7 @@ struct SourceReport {
     std::uint64_t voids{};
     std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
     std::string placement;        // "posts copied", "cubic resampling from EPSG:2056", ...
-};
-
-// Where sources of one spacing meet or overlap. Rule: the finer spacing wins; among equals the first in the
-// byte order of file names.
-struct SeamReport {
-    std::uint64_t shared_posts{};
-    std::uint64_t disagreeing_posts{};
-    double largest_difference_m{};
+    SeamReport seams;  // with the sources that win over it: its posts that one of them has, too
 };
 
 struct Region {

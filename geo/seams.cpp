@@ -48,7 +48,8 @@ JoinedSurface::JoinedSurface(const PostGrid& grid)
     : grid_(grid), heights_(grid.post_count(), void_height_m), marks_(grid.post_count(), 0) {}
 
 std::uint64_t JoinedSurface::lay(int row, int first_column, std::span<const float> heights,
-                                 std::span<const unsigned char> inside, bool own_posts) {
+                                 std::span<const unsigned char> inside, bool own_posts,
+                                 SeamReport& of_source) {
     const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
                               static_cast<std::size_t>(first_column);
     std::uint64_t lent = 0;
@@ -70,6 +71,9 @@ std::uint64_t JoinedSurface::lay(int row, int first_column, std::span<const floa
         marks |= shared_mark;
         const double difference =
             std::abs(static_cast<double>(heights[c]) - static_cast<double>(heights_[post]));
+        ++of_source.shared_posts;
+        of_source.disagreeing_posts += difference > 0.0;
+        of_source.largest_difference_m = std::max(of_source.largest_difference_m, difference);
         if (difference > 0.0 && !(marks & disagreeing_mark)) {
             ++seams_.disagreeing_posts;
             marks |= disagreeing_mark;

@@ -25,9 +25,10 @@ class JoinedSurface {
     // Lays a stretch of a row: posts that have no height yet take these. `own_posts` says that the source has
     // a post of its own at each (not one interpolated or resampled): where two such meet, the seam is
     // counted. `inside` marks the posts that the source covers, with a height or without.
+    // `of_source` counts the source's own posts that an earlier one has, too.
     // Gives how many of the posts an earlier source covered but had no height for.
     std::uint64_t lay(int row, int first_column, std::span<const float> heights,
-                      std::span<const unsigned char> inside, bool own_posts);
+                      std::span<const unsigned char> inside, bool own_posts, SeamReport& of_source);
     // Keeps heights that count only where no source has one of its own.
     void lay_later(int row, int first_column, std::span<const float> heights);
     // Lays what was kept, makes the first and last column of a region round the Earth one meridian, and gives

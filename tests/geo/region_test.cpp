@@ -24,6 +24,16 @@ TEST(Region, NeighboursShareTheirPostsOnceAndDisagreementsAreCounted) {
     EXPECT_EQ(region->seams.shared_posts, 1201U);
     EXPECT_EQ(region->seams.disagreeing_posts, 1029U);  // rows 0..1200 less the 172 multiples of 7
     EXPECT_EQ(region->seams.largest_difference_m, 6.0);
+    // The one that wins has no seam of its own to report; the other has all of it.
+    ASSERT_EQ(region->sources.size(), 2U);
+    std::uint64_t shared = 0, disagreeing = 0;
+    for (const SourceReport& source : region->sources) {
+        EXPECT_TRUE(source.seams.shared_posts == 0 || source.seams.shared_posts == 1201U) << source.path;
+        shared += source.seams.shared_posts;
+        disagreeing += source.seams.disagreeing_posts;
+    }
+    EXPECT_EQ(shared, 1201U);
+    EXPECT_EQ(disagreeing, 1029U);
     // Among equals the first name wins: N10E020.
     for (int r = 0; r < 1201; r += 100) EXPECT_EQ(region->field.H_at_post_m(r, 1200), 100.0F);
     EXPECT_EQ(region->field.H_at_post_m(600, 1201), 200.0F);
