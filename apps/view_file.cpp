@@ -7,6 +7,7 @@
 #include "apps/json_fields.h"
 #include "apps/json_text.h"
 #include "apps/view.h"
+#include "geo/letter_case.h"
 #include "geo/picture.h"
 #include "geo/raster_source.h"
 
@@ -126,9 +127,7 @@ Result<View> view_from_json(const std::string& text, const std::string& where) {
 
 Result<View> read_view(const std::string& path) {
     const std::size_t dot = path.find_last_of('.');
-    std::string ending = dot == std::string::npos ? "" : path.substr(dot);
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = dot == std::string::npos ? "" : lower_case(path.substr(dot));
     ORO_TRY(const std::string text, ending == ".json" ? read_text_file(path) : read_view_json(path));
     return view_from_json(text, path);
 }

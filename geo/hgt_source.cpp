@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/ellipsoid.h"
+#include "geo/letter_case.h"
 #include "geo/raster_library.h"
 
 namespace oro {
@@ -24,12 +25,6 @@ using File = std::unique_ptr<VSILFILE, CloseFile>;
 
 char lower(char c) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
-
-std::string lower_case(std::string_view text) {
-    std::string result;
-    for (const char c : text) result += lower(c);
-    return result;
 }
 
 // Digits only, all of them.

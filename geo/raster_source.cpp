@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "geo/letter_case.h"
 #include "geo/raster_library.h"
 #include "geo/raster_place.h"
 #include "geo/vertical_datum.h"
@@ -18,11 +19,6 @@ namespace {
 
 std::string text_of(const char* text) {
     return text ? text : "";
-}
-
-std::string lower_case(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
 }
 
 // A reason why these bands are no elevation, or "".

@@ -13,18 +13,13 @@
 #include <system_error>
 #include <tuple>
 
+#include "geo/letter_case.h"
 #include "geo/raster_library.h"
 
 namespace oro {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return lower;
-}
 
 std::string_view last_part(std::string_view path) {
     const std::size_t slash = path.rfind('/');

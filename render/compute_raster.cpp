@@ -10,10 +10,6 @@ constexpr VkBufferUsageFlags listed =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 constexpr std::uint32_t pages_per_dispatch = 65535;
 
-gpu::uvec2 words(VkDeviceAddress address) {
-    return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32U)};
-}
-
 void wait_for_lists(VkCommandBuffer commands) {
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
@@ -58,12 +54,12 @@ Result<void> ComputeRaster::reserve_pages(std::size_t count) {
 }
 
 void ComputeRaster::address(gpu::FrameConstants& constants) const {
-    constants.visibility = words(visibility_.address);
-    constants.lists = words(lists_.address);
-    constants.meshlet_list = words(meshlets_.address);
-    constants.clip_list = words(clips_.address);
-    constants.large_list = words(large_.address);
-    constants.task_list = words(tasks_.address);
+    constants.visibility = address_words(visibility_.address);
+    constants.lists = address_words(lists_.address);
+    constants.meshlet_list = address_words(meshlets_.address);
+    constants.clip_list = address_words(clips_.address);
+    constants.large_list = address_words(large_.address);
+    constants.task_list = address_words(tasks_.address);
 }
 
 void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan) const {

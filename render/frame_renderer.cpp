@@ -13,10 +13,6 @@ static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
 constexpr std::uint32_t pages_per_draw =
     65535;  // the least that any device allows along an axis of a dispatch
 
-gpu::uvec2 address_words(VkDeviceAddress address) {
-    return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32U)};
-}
-
 constexpr ImageUse unused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
 constexpr ImageUse as_colour{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                              VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,

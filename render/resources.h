@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/gpu.h"
+#include "shaders/shared.h"
 
 namespace oro {
 
@@ -18,6 +19,10 @@ struct Buffer {
     VkDeviceAddress address{};  // 0 unless made with SHADER_DEVICE_ADDRESS usage
     std::byte* mapped{nullptr};
 };
+// A device address as shaders take it, low word first.
+inline gpu::uvec2 address_words(VkDeviceAddress address) {
+    return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32U)};
+}
 enum class BufferPlace { device, upload, readback };
 // Errors: the device is out of memory (the message says how much was asked for what).
 Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage, BufferPlace place,
