@@ -128,29 +128,6 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     return json;
 }
 
-// The view that the options ask for, and the region it looks at.
-Result<void> open_view(const ShotOptions& options, ProgressBar& bar, ShotResult& shot) {
-    const auto start = Clock::now();
-    const auto progress = [&](double share, const std::string& what) { bar.show(share, "reading " + what); };
-    const auto open = [&]() -> Result<void> {
-        ORO_TRY(shot.region, open_region(shot.view.region, progress));
-        return {};
-    };
-    if (!options.view_file.empty()) {
-        ORO_TRY(shot.view, read_view(options.view_file));
-        ORO_CHECK(change_view(shot.view, options.view));
-        ORO_CHECK(change_region(shot.view, options.region));
-        ORO_CHECK(open());
-    } else {
-        ORO_TRY(RegionRequest request, region_request(options.region));
-        ORO_TRY(shot.view, view_without_eye(options.view, std::move(request)));
-        ORO_CHECK(open());
-        ORO_CHECK(place_eye(shot.view, options.view, shot.region));
-    }
-    shot.times.read_s = seconds_since(start);
-    return {};
-}
-
 void say_notes(const ShotOptions& options, const ShotResult& shot) {
     for (const std::string& note : shot.region.notes) say(options.quiet, "note: " + note);
     if (shot.region.voids > 0)
@@ -196,7 +173,12 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     ORO_CHECK(check_out(options, files));
     ProgressBar bar(options.quiet);
     ShotResult shot;
-    ORO_CHECK(open_view(options, bar, shot));
+    const auto reading = Clock::now();
+    ORO_CHECK(open_view(
+        options.view_file, options.view, options.region,
+        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
+        shot.region));
+    shot.times.read_s = seconds_since(reading);
     ORO_CHECK(spare_inputs(files, shot));
     ORO_TRY(const Style style, load_style(shot.view.style, shot.view.sun));
     bar.clear();

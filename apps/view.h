@@ -52,4 +52,11 @@ Result<View> view_from_json(const std::string& text, const std::string& where);
 // From a .json file, or from a picture that carries its view.
 Result<View> read_view(const std::string& path);
 
+// The view that a command's options ask for, and the region it looks at: from `view_file` where one is named,
+// changed as far as the options may, else from the options alone. Errors: all of the above and those of
+// open_region.
+Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
+                       const RegionOptions& region_options, const Progress& progress, View& view,
+                       Region& region);
+
 }  // namespace oro

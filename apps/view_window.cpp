@@ -188,23 +188,6 @@ Result<void> run_loop(Viewer& viewer) {
     }
 }
 
-Result<void> open_view(const WindowOptions& options, ProgressBar& bar, View& view, Region& region) {
-    const auto progress = [&](double share, const std::string& what) { bar.show(share, "reading " + what); };
-    if (!options.view_file.empty()) {
-        ORO_TRY(view, read_view(options.view_file));
-        ORO_CHECK(change_view(view, options.view));
-        ORO_CHECK(change_region(view, options.region));
-        ORO_TRY(region, open_region(view.region, progress));
-    } else {
-        ORO_TRY(RegionRequest request, region_request(options.region));
-        ORO_TRY(view, view_without_eye(options.view, std::move(request)));
-        ORO_TRY(region, open_region(view.region, progress));
-        ORO_CHECK(place_eye(view, options.view, region));
-    }
-    view.camera = above_ground(view.camera, region.field, view.exaggeration);
-    return {};
-}
-
 }  // namespace
 
 Result<void> run_view(const WindowOptions& options) {
@@ -212,7 +195,10 @@ Result<void> run_view(const WindowOptions& options) {
     ProgressBar bar(options.quiet);
     View view;
     Region region;
-    ORO_CHECK(open_view(options, bar, view, region));
+    ORO_CHECK(open_view(
+        options.view_file, options.view, options.region,
+        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    view.camera = above_ground(view.camera, region.field, view.exaggeration);
     ORO_TRY(const Style style, load_style(view.style, view.sun));
     GpuOptions gpu_options = gpu_options_from_environment();
     gpu_options.instance_extensions = extensions;

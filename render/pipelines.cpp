@@ -19,8 +19,6 @@
 namespace oro {
 namespace {
 
-constexpr std::uint32_t meshlets_per_task_max = 128;  // as in shaders/payload.glsl
-
 Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t> words, const char* name) {
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -163,8 +161,9 @@ Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& p
 Result<void> create_mesh_path(const Gpu& gpu, bool record_positions, Pipelines& pipelines) {
     const MeshShaderLimits& limits = gpu.report().mesh;
     // A power of two that divides the meshlets of a page.
-    pipelines.meshlets_per_task = std::bit_floor(std::clamp(
-        std::min(limits.preferred_task_invocations, limits.max_task_invocations), 1U, meshlets_per_task_max));
+    pipelines.meshlets_per_task =
+        std::bit_floor(std::clamp(std::min(limits.preferred_task_invocations, limits.max_task_invocations),
+                                  1U, gpu::meshlets_per_task_max));
     const std::uint32_t mesh_size =
         std::clamp(std::min(limits.preferred_mesh_invocations, limits.max_mesh_invocations), 1U, 128U);
     const VkBool32 recording = record_positions ? VK_TRUE : VK_FALSE;

@@ -28,6 +28,7 @@ ORO_CONST uint meshlet_quads = 8u;
 ORO_CONST uint meshlet_posts = 9u;
 ORO_CONST uint meshlets_per_side = 16u;
 ORO_CONST uint meshlets_per_page = 256u;
+ORO_CONST uint meshlets_per_task_max = 128u;  // of a task workgroup
 ORO_CONST uint meshlet_vertices = 81u;
 ORO_CONST uint meshlet_triangles = 128u;
 // Heights are kept with one more post on each side, so that slopes are continuous across pages.

@@ -1,0 +1,24 @@
+// From options, or from a view's file, to a view and its region: what shot and view begin with.
+#include <utility>
+
+#include "apps/view.h"
+
+namespace oro {
+
+Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
+                       const RegionOptions& region_options, const Progress& progress, View& view,
+                       Region& region) {
+    if (!view_file.empty()) {
+        ORO_TRY(view, read_view(view_file));
+        ORO_CHECK(change_view(view, view_options));
+        ORO_CHECK(change_region(view, region_options));
+        ORO_TRY(region, open_region(view.region, progress));
+        return {};
+    }
+    ORO_TRY(RegionRequest request, region_request(region_options));
+    ORO_TRY(view, view_without_eye(view_options, std::move(request)));
+    ORO_TRY(region, open_region(view.region, progress));
+    return place_eye(view, view_options, region);
+}
+
+}  // namespace oro
