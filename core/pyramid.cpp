@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
@@ -61,6 +62,7 @@ class LevelBuilder {
   private:
     void finish_node(int node_row, int node_column, const PageSummary& page, gpu::MeshletBounds& bounds);
     void sum_up(PyramidPage& page) const;
+    static void sum_up_quarter(PyramidPage& page, int number);
     void hold_pages_below(PyramidPage& page) const;
     template <class Visit>
     void visit_nodes_below(int node_row, int node_column, const Visit& visit) const;
@@ -145,6 +147,35 @@ void LevelBuilder::sum_up(PyramidPage& page) const {
     summary.lod_radius_m = radius_growth * radius_m;
 }
 
+void LevelBuilder::sum_up_quarter(PyramidPage& page, int number) {
+    PageQuarter& quarter = page.quarters[static_cast<std::size_t>(number)];
+    const int first_row = number / 2 * (side / 2);
+    const int first_column = number % 2 * (side / 2);
+    const auto for_each_node = [&](const auto& visit) {
+        for (int i = 0; i < side * side / 4; ++i)
+            visit(page.nodes[static_cast<std::size_t>((first_row + i / (side / 2)) * side + first_column +
+                                                      i % (side / 2))]);
+    };
+    double largest_m = 0.0;
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high(-low);
+    for_each_node([&](const gpu::MeshletBounds& node) {
+        largest_m = std::max(largest_m, static_cast<double>(node.error_m));
+        if (node.radius < 0.0F) return;
+        low = glm::min(low, glm::dvec3(node.centre));
+        high = glm::max(high, glm::dvec3(node.centre));
+    });
+    quarter.largest_error_m = std::min(rounded_up(error_growth * largest_m), gpu::unfit_error_m);
+    if (low.x > high.x) return;
+    quarter.centre_m = 0.5 * (low + high);
+    for_each_node([&](const gpu::MeshletBounds& node) {
+        if (node.radius < 0.0F) return;
+        const double reach_m =
+            glm::distance(quarter.centre_m, glm::dvec3(node.centre)) + static_cast<double>(node.lod_radius);
+        quarter.lod_radius_m = std::max(quarter.lod_radius_m, radius_growth * reach_m);
+    });
+}
+
 void LevelBuilder::hold_pages_below(PyramidPage& page) const {
     const PageSummary& summary = page.summary;
     const bool drawn = summary.triangles > 0;
@@ -180,6 +211,7 @@ void LevelBuilder::build(int number, PyramidPage& page, gpu::PageBlock& block) {
     }
     std::copy(std::begin(block.meshlets), std::end(block.meshlets), page.nodes.begin());
     sum_up(page);
+    for (int quarter = 0; quarter < 4; ++quarter) sum_up_quarter(page, quarter);
     hold_pages_below(page);
 }
 

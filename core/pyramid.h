@@ -13,14 +13,28 @@
 
 namespace oro {
 
-// A page of a level. nodes: its meshlets, with their errors, row by row, as in the page's block.
-struct PyramidPage {
+// The nodes of a quarter of a page (8 x 8 of them: what one page of the level below covers), all together: a
+// sphere in the page's frame that holds their lod spheres, and their largest error. A bound on these in
+// double holds for each of them in float.
+struct PageQuarter {
+    glm::dvec3 centre_m{0.0};
+    double lod_radius_m{-1.0};  // negative: none of them has a triangle
+    float largest_error_m{};    // unfit_error_m where one is unfit; may be so without a triangle, too
+};
+
+// What the choice of pages needs to know of one.
+struct PageRecord {
     PageSummary summary;
-    std::array<gpu::MeshletBounds, gpu::meshlets_per_page> nodes;
     // What the page's triangles lie in, and those of all pages below it (the four that cover the same ground,
     // and so on): a sphere around summary.centre_m, negative for none, and a horizon cone.
     double reach_m{-1.0};
     HorizonCone horizon;
+    std::array<PageQuarter, 4> quarters;  // north-west, north-east, south-west, south-east
+};
+
+// A page of a level. nodes: its meshlets, with their errors, row by row, as in the page's block.
+struct PyramidPage : PageRecord {
+    std::array<gpu::MeshletBounds, gpu::meshlets_per_page> nodes;
 };
 
 struct PyramidLevel {
