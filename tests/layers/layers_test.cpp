@@ -28,8 +28,9 @@ const std::map<std::string, Layer>& layers() {
     static const std::map<std::string, Layer> table = {
         {"shaders", {{standard_library, "glm/.*", "[a-z_]+\\.(glsl|h)"}, {}}},
         {"core",
-         {{standard_library, "glm/.*", "meshoptimizer\\.h", "core/.*", "shaders/.*\\.(glsl|h)"},
-          {"orograph_options", "glm::glm", "meshoptimizer(::meshoptimizer)?"}}},
+         {{standard_library, "(fcntl|unistd|sys/[a-z]+|zstd)\\.h", "glm/.*", "meshoptimizer\\.h", "core/.*",
+           "shaders/.*\\.(glsl|h)"},
+          {"orograph_options", "glm::glm", "meshoptimizer(::meshoptimizer)?", "zstd::static"}}},
         {"geo",
          {{standard_library, "(fcntl|unistd|sys/[a-z]+|zlib)\\.h", "glm/.*", "core/.*", "geo/.*",
            "(cpl|gdal|ogr|vrt)[a-z_]*\\.h", "proj\\.h", "GeographicLib/.*", "libexif/.*",
