@@ -78,7 +78,7 @@ using StitchedErrors = std::array<std::array<float, 4>, gpu::meshlets_per_page>;
 // Writes a region file, page after page, so that it can be stopped at any moment, by a kill or a power cut,
 // and go on from there: it grows as PATH.partial and takes its real name, whole, in finish(). Beside it grows
 // PATH.partial-stitched, which the finished file does not have. The same pages make the same bytes, however
-// often the writing was broken off. Keeps no payload in memory. For one thread at a time.
+// often the writing was broken off. Keeps no payload in memory.
 class RegionFileWriter {
   public:
     // Goes on with a .partial that was begun with the same outline and fingerprint by the same version of the
@@ -92,8 +92,9 @@ class RegionFileWriter {
     [[nodiscard]] const PageOrder& order() const { return order_; }
     // Pages that are there already, the first ones of the order.
     [[nodiscard]] std::uint64_t pages_done() const { return pages_done_; }
-    // What was appended, also before a break; number: below pages_done(). The stitched errors are gone once
-    // all pages are there and finish() was begun; nobody needs them then.
+    // What was appended, also before a break; number: below pages_done(). For any number of threads, also
+    // while one appends; all else is for one thread. The stitched errors are gone once all pages are there
+    // and finish() was begun; nobody needs them then.
     [[nodiscard]] Result<PageRecord> record(std::uint64_t number) const;
     Result<void> payload(std::uint64_t number, PagePayload& payload) const;
     Result<void> stitched(std::uint64_t number, StitchedErrors& stitched) const;

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <atomic>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 #include "tests/core/made_region_file.h"
 #include "tests/support/test_data.h"
@@ -223,6 +225,31 @@ TEST(RegionFileWriter, StartsOverWhereAnythingElseWasBegun) {
     const auto other = begin(path);
     ASSERT_TRUE(other.ok());
     EXPECT_EQ(other->pages_done(), 0U);
+}
+
+TEST(RegionFileWriter, IsReadByOthersWhileItAppends) {
+    auto writer = begin(scratch_folder() / "a.oro");
+    ASSERT_TRUE(writer.ok());
+    ASSERT_TRUE(append_until(*writer, 4).ok());
+    std::atomic<int> wrong{0};
+    const auto read_again = [&] {
+        const auto payload = std::make_unique<PagePayload>();
+        const auto stitched = std::make_unique<StitchedErrors>();
+        for (std::uint64_t i = 0; i < 40; ++i) {
+            const auto page = made_page(writer->order(), i % 4);
+            const auto record = writer->record(i % 4);
+            if (!record.ok() || !same(*record, page->record)) ++wrong;
+            if (!writer->payload(i % 4, *payload).ok() ||
+                std::memcmp(payload.get(), &page->payload, sizeof(PagePayload)) != 0)
+                ++wrong;
+            if (!writer->stitched(i % 4, *stitched).ok() || *stitched != page->stitched) ++wrong;
+        }
+    };
+    {
+        const std::jthread first(read_again), second(read_again);
+        EXPECT_TRUE(append_until(*writer, made_pages).ok());
+    }
+    EXPECT_EQ(wrong, 0);
 }
 
 TEST(RegionFileWriter, GoesOnAfterAFullDisk) {
