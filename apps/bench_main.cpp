@@ -1,58 +1,37 @@
-// orograph-bench: how fast a device draws, apart from everything else. Links core and render alone, so that
-// it runs where GDAL and PROJ are not installed; its terrain is made by a formula.
+// orograph-bench: how fast this machine's GPU draws a region file from fixed eyes, or terrain by a formula.
+// Links core and render alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+#include <thread>
 #include <vector>
 
-#include "core/ground.h"
+#include "apps/bench_path.h"
+#include "apps/bench_terrain.h"
+#include "core/file_pages.h"
 #include "render/picture_renderer.h"
 
 namespace oro {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+using nlohmann::ordered_json;
+
 struct BenchOptions {
-    int patches{64};  // along each side, 8 x 8 quads each
+    std::string region;  // a region file; "": terrain by a formula
+    std::string path;    // of eyes
+    int patches{64};     // of the formula's terrain: along each side, 8 x 8 quads each
     int frames{30};
     int width_px{1920};
     int height_px{1080};
     std::string pipeline{"auto"};
+    double tau_px{1.0};
+    int gpu_memory_mb{0};
+    bool floor{false};
     bool json{false};
 };
-
-// Hills on all scales down to the post spacing, 0 to some 1,500 m; the same on every machine up to the last
-// digits of sine.
-HeightField made_region(int patches) {
-    constexpr double posts_per_deg = 1200.0;
-    const int posts = patches * static_cast<int>(gpu::meshlet_quads) + 1;
-    HeightField field;
-    field.grid.lat = {posts_per_deg, 46.0 + posts / posts_per_deg, 0, -1, posts};
-    field.grid.lon = {posts_per_deg, 8.0, 0, 1, posts};
-    field.H_m.reserve(field.grid.post_count());
-    for (int row = 0; row < posts; ++row) {
-        for (int column = 0; column < posts; ++column) {
-            double H_m = 750.0, height_m = 400.0, scale = 0.002;
-            for (int octave = 0; octave < 8; ++octave, height_m *= 0.5, scale *= 2.1)
-                H_m += height_m * std::sin(scale * row + octave) * std::cos(scale * column - octave);
-            field.H_m.push_back(static_cast<float>(H_m));
-        }
-    }
-    return field;
-}
-
-// An eye straight above the middle, from where the whole square just fits: every meshlet is drawn.
-Camera eye_above(const HeightField& field, int width_px, int height_px) {
-    Camera camera;
-    camera.width_px = width_px;
-    camera.height_px = height_px;
-    const double lat_deg = 0.5 * (field.grid.north_deg() + field.grid.south_deg());
-    const double half_m = 0.5 * (field.grid.north_deg() - field.grid.south_deg()) * 111200.0;
-    camera.eye = {lat_deg, 0.5 * (field.grid.west_deg() + field.grid.east_deg()),
-                  2000.0 + 1.05 * half_m / camera.half_fov_tangent().y};
-    camera.attitude.pitch_deg = -90.0;
-    return camera;
-}
 
 gpu::FrameStyle plain_style() {
     gpu::FrameStyle style{};
@@ -73,37 +52,128 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Medians over the frames that count.
 struct BenchTimes {
     FrameReport last;
+    double choose_s{};
     double raster_s{};
     double shade_s{};
-    double whole_s{};
+    double gpu_s{};
+    double plan_s{};     // processor: pages chosen
+    double frame_s{};    // processor: the whole frame, the wait for the GPU included
+    double settled_s{};  // the first frame, with all that had to be read
+    std::size_t pages_on_gpu{};
+    std::uint64_t bytes_on_gpu{};
 };
 
-Result<BenchTimes> time_frames(const Gpu& gpu, const Scene& scene, const Camera& camera, RasterPath path,
-                               int frames) {
-    FrameRendererOptions options;
-    options.extent = {static_cast<std::uint32_t>(camera.width_px),
-                      static_cast<std::uint32_t>(camera.height_px)};
-    options.path = path;
-    ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, options));
+Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Camera& camera,
+                               const BenchOptions& options) {
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    const FramePlan plan = plan_frame(scene.pages, scene.shape, camera, tile);
     const gpu::FrameStyle style = plain_style();
-    std::vector<double> raster, shade, whole;
+    std::vector<double> choose, raster, shade, whole, planned, frame;
     BenchTimes times;
-    constexpr int warm_up = 3;
-    for (int i = 0; i < frames + warm_up; ++i) {
-        ORO_TRY(times.last, renderer.draw(scene.store, plan, style));
-        if (i < warm_up) continue;
+    // Until clocks are up: at least so many frames, and so long.
+    constexpr int least_warm_up = 3;
+    constexpr double warm_up_s = 0.3;
+    const auto beginning = Clock::now();
+    for (int i = 0, counted = 0; counted < options.frames; ++i) {
+        const auto start = Clock::now();
+        ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px));
+        if (!plan.missing.empty())
+            return Error{ErrorKind::failed, "--gpu-memory", "is too small for this view"};
+        const double plan_s = seconds_since(start);
+        ORO_TRY(times.last, renderer.draw(std::move(plan), style));
+        const double frame_s = seconds_since(start);
+        if (i == 0) times.settled_s = frame_s;
+        if (i < least_warm_up || seconds_since(beginning) < warm_up_s) continue;
+        ++counted;
+        choose.push_back(times.last.choose_s);
         raster.push_back(times.last.raster_s);
         shade.push_back(times.last.shade_s);
-        whole.push_back(times.last.raster_s + times.last.shade_s);
+        whole.push_back(times.last.gpu_s());
+        planned.push_back(plan_s);
+        frame.push_back(frame_s);
     }
+    times.choose_s = median(choose);
     times.raster_s = median(raster);
     times.shade_s = median(shade);
-    times.whole_s = median(whole);
+    times.gpu_s = median(whole);
+    times.plan_s = median(planned);
+    times.frame_s = median(frame);
+    times.pages_on_gpu = scene.store().size();
+    times.bytes_on_gpu = scene.store().bytes();
     return times;
+}
+
+Result<FrameRenderer> renderer_for(const Gpu& gpu, RasterPath path, const BenchOptions& options) {
+    FrameRendererOptions renderer_options;
+    renderer_options.extent = {static_cast<std::uint32_t>(options.width_px),
+                               static_cast<std::uint32_t>(options.height_px)};
+    renderer_options.path = path;
+    return FrameRenderer::create(gpu, renderer_options);
+}
+
+int thread_count() {
+    return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+}
+
+// Triangles a second that a way of drawing reaches when all of them are visible and small.
+Result<double> peak_triangles_per_s(const Gpu& gpu, RasterPath path, BenchOptions options) {
+    const HeightField field = made_region(512);
+    ORO_TRY(Scene scene, Scene::create(gpu, pages_in_memory(field, 1.0, thread_count()), 0));
+    ORO_TRY(FrameRenderer renderer, renderer_for(gpu, path, options));
+    options.tau_px = 0.0;
+    const Camera camera = eye_above(field, options.width_px, options.height_px);
+    ORO_TRY(const BenchTimes times, time_frames(scene, renderer, camera, options));
+    return times.last.counts.triangles_drawn / times.raster_s;
+}
+
+ordered_json times_json(const BenchTimes& times) {
+    const gpu::FrameCounts& counts = times.last.counts;
+    ordered_json json;
+    json["gpu_ms"] = 1e3 * times.gpu_s;
+    json["choose_ms"] = 1e3 * times.choose_s;
+    json["raster_ms"] = 1e3 * times.raster_s;
+    json["shade_ms"] = 1e3 * times.shade_s;
+    json["cpu_plan_ms"] = 1e3 * times.plan_s;
+    json["cpu_frame_ms"] = 1e3 * times.frame_s;
+    json["first_settled_ms"] = 1e3 * times.settled_s;
+    json["triangles"] = counts.triangles_drawn;
+    json["meshlets"] = counts.meshlets_drawn;
+    json["lanes_used"] =
+        counts.meshlets_drawn == 0
+            ? 0.0
+            : counts.triangles_drawn / (static_cast<double>(gpu::meshlet_triangles) * counts.meshlets_drawn);
+    json["task_workgroups"] = times.last.task_groups;
+    json["mesh_workgroups"] = counts.mesh_groups;
+    json["pages_in_frame"] = times.last.pages;
+    json["pages_live"] = counts.pages_live;
+    json["pages_on_gpu"] = times.pages_on_gpu;
+    json["bytes_on_gpu"] = times.bytes_on_gpu;
+    json["triangles_per_s"] = counts.triangles_drawn / times.raster_s;
+    return json;
+}
+
+void print_times(const std::string& name, const ordered_json& json) {
+    std::printf("%-6s", name.c_str());
+    for (const auto& [key, value] : json.items()) {
+        std::printf(
+            " %s %s", key.c_str(),
+            value.is_number_float() ? (std::to_string(value.get<double>())).c_str() : value.dump().c_str());
+    }
+    std::printf("\n");
+}
+
+Result<std::vector<BenchEye>> eyes_of(const BenchOptions& options, const RegionPages& pages,
+                                      const HeightField& made) {
+    if (options.region.empty())
+        return std::vector<BenchEye>{{"above", eye_above(made, options.width_px, options.height_px)}};
+    if (options.path.empty()) return Error{ErrorKind::usage, "--path", "is missing: name a file with eyes"};
+    return read_bench_path(options.path, pages.facts().undulation, options.width_px, options.height_px);
 }
 
 Result<void> run_bench(const BenchOptions& options) {
@@ -113,26 +183,62 @@ Result<void> run_bench(const BenchOptions& options) {
 #endif
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(const RasterPath path, raster_path_for(options.pipeline, gpu->report()));
-    const HeightField field = made_region(options.patches);
-    ORO_TRY(const Scene scene, create_scene(*gpu, field, 1.0));
-    const Camera camera = eye_above(field, options.width_px, options.height_px);
-    ORO_TRY(const BenchTimes times, time_frames(*gpu, scene, camera, path, options.frames));
-    const double triangles = times.last.counts.triangles_drawn;
-    const char* const form =
-        options.json
-            ? "{\"device\": \"%s\", \"driver\": \"%s\", \"pipeline\": \"%s\", \"patches\": %d, \"size_px\": "
-              "[%d, %d], \"frames\": %d, "
-              "\"triangles\": %.0f, \"meshlets\": %u, \"pages\": %zu, \"page_bytes\": %llu, \"raster_ms\": "
-              "%.4f, \"shade_ms\": %.4f, "
-              "\"gpu_ms\": %.4f, \"triangles_per_s\": %.4g}\n"
-            : "%s (%s), %s path, %d patches a side, %d x %d px, median of %d frames\n%.0f triangles in %u "
-              "meshlets of %zu pages (%llu "
-              "bytes): raster %.4f ms, shade %.4f ms, together %.4f ms on the GPU; %.4g triangles/s\n";
-    std::printf(form, gpu->report().name.c_str(), gpu->report().driver.c_str(), name_of(path).c_str(),
-                options.patches, options.width_px, options.height_px, options.frames, triangles,
-                times.last.counts.meshlets_drawn, scene.pages.size(),
-                static_cast<unsigned long long>(scene.store.bytes()), 1e3 * times.raster_s,
-                1e3 * times.shade_s, 1e3 * times.whole_s, triangles / times.raster_s);
+    const auto opening = Clock::now();
+    HeightField made;
+    std::unique_ptr<RegionPages> pages;
+    if (options.region.empty()) {
+        made = made_region(options.patches);
+        pages = pages_in_memory(made, 1.0, thread_count());
+    } else {
+        ORO_TRY(RegionFile file, RegionFile::open(options.region));
+        pages = pages_of_file(std::make_shared<const RegionFile>(std::move(file)));
+    }
+    const double open_s = seconds_since(opening);
+    ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, *pages, made));
+    ORO_TRY(Scene scene, Scene::create(*gpu, std::move(pages),
+                                       static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U));
+    ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, path, options));
+    ordered_json json;
+    json["device"] = gpu->report().name;
+    json["driver"] = gpu->report().driver;
+    json["pipeline"] = name_of(path);
+    json["region"] = options.region.empty() ? std::to_string(options.patches) + " patches" : options.region;
+    json["size_px"] = {options.width_px, options.height_px};
+    json["tau_px"] = options.tau_px;
+    json["frames"] = options.frames;
+    json["open_ms"] = 1e3 * open_s;
+    double peak = 0.0;
+    if (options.floor) {
+        ORO_TRY(peak, peak_triangles_per_s(*gpu, path, options));
+        json["peak_triangles_per_s"] = peak;
+    }
+    if (!options.json) {
+        std::printf("%s (%s), %s path, %d x %d px, tau %g px, medians of %d frames; opened in %.1f ms\n",
+                    gpu->report().name.c_str(), gpu->report().driver.c_str(), name_of(path).c_str(),
+                    options.width_px, options.height_px, options.tau_px, options.frames, 1e3 * open_s);
+    }
+    for (const BenchEye& eye : eyes) {
+        ORO_TRY(const BenchTimes times, time_frames(scene, renderer, eye.camera, options));
+        ordered_json one = times_json(times);
+        if (options.floor) {
+            const double floor_s = times.last.counts.triangles_drawn / peak + times.shade_s;
+            one["floor_ms"] = 1e3 * floor_s;
+            one["times_floor"] = times.gpu_s / floor_s;
+        }
+        if (!options.json) print_times(eye.name, one);
+        json["eyes"][eye.name] = std::move(one);
+    }
+    if (options.json) std::printf("%s\n", json.dump().c_str());
+    return {};
+}
+
+Result<void> set_size(const std::string& text, BenchOptions& options) {
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &options.width_px, &options.height_px, &read) != 2 ||
+        read != static_cast<int>(text.size()) || options.width_px < 1 || options.height_px < 1 ||
+        options.width_px > 8192 || options.height_px > 8192)
+        return Error{ErrorKind::usage, "--size",
+                     "'" + text + "' is not WIDTHxHEIGHT in pixels, each 1 to 8192"};
     return {};
 }
 
@@ -140,17 +246,26 @@ Result<void> run_bench(const BenchOptions& options) {
 }  // namespace oro
 
 int main(int argc, char** argv) {
-    CLI::App app{"Times how fast this machine's GPU draws made-up terrain: medians of GPU timestamps.",
-                 "orograph-bench"};
+    CLI::App app{"Times how fast this machine's GPU draws: medians of GPU timestamps.", "orograph-bench"};
     oro::BenchOptions options;
-    app.add_option("--patches", options.patches, "Meshlets along each side of the square")
+    std::string size = "1920x1080";
+    app.add_option("REGION", options.region,
+                   "A region file (orograph bake makes one); without: terrain by a formula");
+    app.add_option("--path", options.path, "Eyes to draw from: a .json file like those in data/paths");
+    app.add_option("--patches", options.patches, "Of the formula's terrain: meshlets along each side")
         ->check(CLI::Range(1, 1280));
-    app.add_option("--frames", options.frames, "Frames that count, after three that do not")
+    app.add_option("--tau", options.tau_px, "Largest error, pixels; 0: full resolution")
+        ->check(CLI::Range(0.0, 1000.0));
+    app.add_option("--size", size, "Picture size, WIDTHxHEIGHT pixels");
+    app.add_option("--frames", options.frames, "Frames that count, after some that do not")
         ->check(CLI::Range(1, 10000));
-    app.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(1, 8192));
-    app.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(1, 8192));
     app.add_option("--pipeline", options.pipeline, "mesh, compute or auto")
         ->check(CLI::IsMember({"auto", "mesh", "compute"}));
+    app.add_option("--gpu-memory", options.gpu_memory_mb, "Megabytes of terrain on the GPU at most")
+        ->check(CLI::Range(0, 1000000));
+    app.add_flag("--floor", options.floor,
+                 "Measure the path's peak triangle rate, too, and tell times as multiples of the least that "
+                 "it allows");
     app.add_flag("--json", options.json, "Print one JSON object");
     try {
         app.parse(argc, argv);
@@ -159,7 +274,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "orograph-bench: %s\n", e.what());
         return static_cast<int>(oro::ErrorKind::usage);
     }
-    const auto done = oro::run_bench(options);
+    oro::Result<void> done = oro::set_size(size, options);
+    if (done.ok()) done = oro::run_bench(options);
     if (done.ok()) return 0;
     std::fprintf(stderr, "orograph-bench: %s\n", done.error().line().c_str());
     return static_cast<int>(done.error().kind);

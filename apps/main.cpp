@@ -27,6 +27,7 @@ void add_shot(CLI::App& app, oro::ShotOptions& options) {
         *app.add_subcommand("shot", "Write a geotagged picture (.png, .jpg, .tif) and its view (.json)");
     oro::add_region_options(command, options.region);
     oro::add_view_options(command, options.view);
+    oro::add_memory_options(command, options.memory);
     command.add_option("--view", options.view_file,
                        "Take sources and eye from a view: the .json beside a picture, or the picture");
     command.add_option("--out", options.out, "The picture to write");
@@ -42,6 +43,7 @@ void add_view(CLI::App& app, oro::WindowOptions& options) {
         "P: write a geotagged picture here. Esc: leave.");
     oro::add_region_options(command, options.region);
     oro::add_view_options(command, options.view);
+    oro::add_memory_options(command, options.memory);
     command.add_option("--view", options.view_file,
                        "Start from a view: the .json beside a picture, or the picture");
     command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");

@@ -57,8 +57,17 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
             "--pipeline", options.pipeline,
             "How triangles are drawn: mesh shaders, compute, or auto (default: mesh where the device has it)")
         ->check(CLI::IsMember({"auto", "mesh", "compute"}));
+    command.add_option("--tau", options.tau_px,
+                       "Largest error of what is drawn, pixels (default 1; 0: every post that there is)");
     command.add_option("--time", options.time,
                        "The picture's time, e.g. 2026-11-21T09:00:00Z (default: now)");
+}
+
+void add_memory_options(CLI::App& command, MemoryOptions& options) {
+    command
+        .add_option("--gpu-memory", options.gpu_memory_mb,
+                    "Megabytes of terrain on the GPU at most (default: half of its memory, at most 2 GiB)")
+        ->check(CLI::Range(16, 1000000));
 }
 
 }  // namespace oro

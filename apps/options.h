@@ -38,11 +38,18 @@ struct ViewOptions {
     std::optional<std::string> style;
     std::optional<std::string> time;
     std::optional<std::string> pipeline;
+    std::optional<double> tau_px;
+};
+
+// How much memory drawing may take, MB of 10^6 bytes; nothing: as much as is reasonable here.
+struct MemoryOptions {
+    std::optional<int> gpu_memory_mb;
 };
 
 struct ShotOptions {
     RegionOptions region;
     ViewOptions view;
+    MemoryOptions memory;
     std::string view_file;
     std::string out;
     bool overwrite{false};
@@ -53,6 +60,7 @@ struct ShotOptions {
 struct WindowOptions {
     RegionOptions region;
     ViewOptions view;
+    MemoryOptions memory;
     std::string view_file;
     bool quiet{false};
 };
@@ -69,5 +77,6 @@ struct DoctorOptions {
 
 void add_region_options(CLI::App& command, RegionOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
+void add_memory_options(CLI::App& command, MemoryOptions& options);
 
 }  // namespace oro

@@ -51,13 +51,14 @@ Geotags geotags_of(const View& view, const Region& region) {
 }
 
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                    const Region& region, const Gpu& gpu, const Scene& scene,
+                                    const Region& region, const Gpu& gpu, Scene& scene,
                                     const gpu::FrameStyle& style, const RenderProgress& progress) {
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,
             create_picture(files.picture, geotags_of(view, region), overwrite));
     ORO_TRY(WholeFile view_file, WholeFile::create(files.view, overwrite));
     PictureOptions options;
     options.samples = view.samples;
+    options.tau_px = view.tau_px;
     ORO_TRY(options.path, raster_path_for(view.pipeline, gpu.report()));
     ORO_TRY(PictureReport report,
             render_picture(
@@ -65,6 +66,10 @@ Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, c
                 [&](std::span<const std::uint8_t> rgb) { return writer->write_row(rgb); }, progress));
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
+    if (!report.settled)
+        return Error{ErrorKind::failed, "--gpu-memory",
+                     "the GPU may hold " + std::to_string(scene.store().capacity()) +
+                         " pages of terrain; this view needs more (a larger --tau needs fewer)"};
     // The view is on the disk before the picture gets its name, and gets its own name after: when the disk is
     // full, neither changes.
     const std::string text = view_to_json(view, true) + "\n";

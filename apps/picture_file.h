@@ -23,7 +23,7 @@ Geotags geotags_of(const View& view, const Region& region);
 // Draws and writes both files, each whole or not at all. Errors: those of the files and of the device; any
 // message of the validation layer, where it is on.
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                    const Region& region, const Gpu& gpu, const Scene& scene,
+                                    const Region& region, const Gpu& gpu, Scene& scene,
                                     const gpu::FrameStyle& style, const RenderProgress& progress);
 
 }  // namespace oro

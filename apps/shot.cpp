@@ -14,6 +14,7 @@
 #include "apps/picture_file.h"
 #include "apps/progress_bar.h"
 #include "apps/region_json.h"
+#include "apps/region_scene.h"
 #include "apps/style.h"
 #include "apps/view.h"
 #include "core/ground.h"
@@ -40,7 +41,8 @@ struct ShotResult {
     View view;
     Region region;
     PictureReport picture;
-    std::size_t pages{};
+    std::uint64_t pages{};
+    std::uint64_t page_bytes{};
     std::uint64_t triangles_at_full_resolution{};
     ShotTimes times;
 };
@@ -109,17 +111,18 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["meshlets"] = {{"drawn", counts.meshlets_drawn},
                         {"culled_by_frustum", counts.meshlets_beyond_frustum},
                         {"culled_by_horizon", counts.meshlets_beyond_horizon},
-                        {"void", counts.meshlets_void}};
+                        {"mesh_workgroups", counts.mesh_groups}};
     json["pages"] = {{"all", shot.pages},
                      {"drawn", counts.pages_drawn},
                      {"culled_by_frustum", shot.picture.pages_beyond_frustum},
-                     {"culled_by_horizon", shot.picture.pages_beyond_horizon}};
+                     {"culled_by_horizon", shot.picture.pages_beyond_horizon},
+                     {"bytes_on_gpu", shot.page_bytes}};
+    json["tau_px"] = shot.view.tau_px;
+    json["settled"] = counts.settled;
     json["tiles"] = shot.picture.tiles;
-    json["times_s"] = {{"read", shot.times.read_s},
-                       {"pages", shot.times.pages_s},
-                       {"draw_and_write", shot.times.draw_s},
-                       {"gpu_raster", counts.raster_s},
-                       {"gpu_shade", counts.shade_s}};
+    json["times_s"] = {{"read", shot.times.read_s},           {"pages", shot.times.pages_s},
+                       {"draw_and_write", shot.times.draw_s}, {"gpu_choose", counts.choose_s},
+                       {"gpu_raster", counts.raster_s},       {"gpu_shade", counts.shade_s}};
     json["device"] = {{"name", gpu.report().name},
                       {"type", gpu.report().type},
                       {"driver", gpu.report().driver},
@@ -186,17 +189,17 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
 
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     const auto start = Clock::now();
-    ORO_TRY(const Scene scene, create_scene(*gpu, shot.region.field, shot.view.exaggeration,
-                                            [&](double share) { bar.show(share, "placing posts"); }));
-    if (scene.pages.empty())
-        return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
-    shot.pages = scene.pages.size();
-    shot.triangles_at_full_resolution = scene.triangles;
+    ORO_TRY(Scene scene, create_scene(*gpu, shot.region, shot.view.exaggeration, options.memory,
+                                      [&](double share) { bar.show(share, "measuring levels"); }));
+    const PageLayout finest = scene.pages().layout(0);
+    shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
+    shot.triangles_at_full_resolution = scene.pages().facts().triangles;
     shot.times.pages_s = seconds_since(start);
     const auto drawing = Clock::now();
     ORO_TRY(shot.picture, write_picture(files, options.overwrite, shot.view, shot.region, *gpu, scene,
                                         style.frame, [&](double share) { bar.show(share, "drawing"); }));
     shot.times.draw_s = seconds_since(drawing);
+    shot.page_bytes = scene.store().bytes();
     bar.clear();
     say(options.quiet || files.picture != told.picture, "wrote " + files.picture + " and " + files.view);
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, told, *gpu, style), true).c_str());

@@ -26,6 +26,7 @@ struct View {
     std::optional<SunDirection> sun;  // nothing: the style's
     std::string style{"default"};
     std::string pipeline{"auto"};  // or "mesh", "compute"
+    double tau_px{1.0};            // largest error of what is drawn; 0: full resolution
     std::int64_t time_utc_s{};
 };
 

@@ -65,6 +65,8 @@ View read_fields(const nlohmann::json& json) {
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
     if (view.pipeline != "auto" && view.pipeline != "mesh" && view.pipeline != "compute")
         throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of auto, mesh, compute"};
+    // Nor have they a tau: they were drawn at full resolution.
+    view.tau_px = json.contains("tau_px") ? json_number(json, "tau_px", 0, 1000) : 0.0;
     view.time_utc_s = json_whole(json, "time_utc_s", first_second, last_second);
     return view;
 }
@@ -104,6 +106,7 @@ std::string view_to_json(const View& view, bool pretty) {
         json["sun"] = {{"azimuth_deg", view.sun->azimuth_deg}, {"elevation_deg", view.sun->elevation_deg}};
     json["style"] = view.style;
     json["pipeline"] = view.pipeline;
+    json["tau_px"] = view.tau_px;
     json["time_utc_s"] = view.time_utc_s;
     json["time"] = time_text(view.time_utc_s);
     return json_text(json, pretty);

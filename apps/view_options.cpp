@@ -95,6 +95,9 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     }
     if (options.style) view.style = *options.style;
     if (options.pipeline) view.pipeline = *options.pipeline;
+    if (options.tau_px) {
+        ORO_TRY(view.tau_px, within("--tau", *options.tau_px, 0.0, 1000.0));
+    }
     if (options.time) {
         ORO_TRY(view.time_utc_s, parse_time(*options.time));
     }

@@ -9,6 +9,7 @@
 #include "apps/json_text.h"
 #include "apps/picture_file.h"
 #include "apps/progress_bar.h"
+#include "apps/region_scene.h"
 #include "apps/style.h"
 #include "core/ground.h"
 #include "geo/place.h"
@@ -24,7 +25,7 @@ struct Viewer {
     Region region;
     gpu::FrameStyle style;
     const Gpu& gpu;
-    const Scene& scene;
+    Scene& scene;
     Window& window;
     FrameRenderer& renderer;
     bool asking_place{false};
@@ -169,8 +170,8 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     camera.width_px = static_cast<int>(extent.width);
     camera.height_px = static_cast<int>(extent.height);
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    ORO_CHECK(viewer.renderer.draw(
-        viewer.scene.store, plan_frame(viewer.scene.pages, viewer.scene.shape, camera, tile), viewer.style));
+    ORO_TRY(FramePlan plan, viewer.scene.settled_plan(camera, tile, viewer.view.tau_px));
+    ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown;
     return {};
@@ -204,9 +205,8 @@ Result<void> run_view(const WindowOptions& options) {
     gpu_options.instance_extensions = extensions;
     gpu_options.presents = true;
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
-    ORO_TRY(const Scene scene, create_scene(*gpu, region.field, view.exaggeration,
-                                            [&](double share) { bar.show(share, "placing posts"); }));
-    if (scene.pages.empty()) return Error{ErrorKind::no_data, "region", "every post is void"};
+    ORO_TRY(Scene scene, create_scene(*gpu, region, view.exaggeration, options.memory,
+                                      [&](double share) { bar.show(share, "measuring levels"); }));
     bar.clear();
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
     if (region.voids > 0)

@@ -22,9 +22,6 @@ bool sphere_beyond_plane_cpu(const vec3& centre, float radius, const vec4& plane
 bool beyond_horizon_cpu(const vec3& eye_offset, float eye_angle_rad, float horizon_angle_rad) {
     return beyond_horizon(eye_offset, eye_angle_rad, horizon_angle_rad);
 }
-std::uint32_t border_index_cpu(std::uint32_t row, std::uint32_t column) {
-    return border_index(row, column);
-}
 }  // namespace gpu
 
 namespace {

@@ -56,7 +56,6 @@ bool beyond_frustum(std::span<const Plane> planes, const glm::dvec3& centre_m, d
 namespace gpu {
 bool sphere_beyond_plane_cpu(const vec3& centre, float radius, const vec4& plane);
 bool beyond_horizon_cpu(const vec3& eye_offset, float eye_angle_rad, float horizon_angle_rad);
-std::uint32_t border_index_cpu(std::uint32_t row, std::uint32_t column);
 }  // namespace gpu
 
 }  // namespace oro

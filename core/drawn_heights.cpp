@@ -9,33 +9,34 @@
 namespace oro {
 namespace {
 
-struct Post {
-    int row;
-    int column;
-};
-
-// The post that stands for all that are the same point: column 0 for the last one of a region that goes round
-// the Earth, and at a pole the first that is not void.
-Post canonical_post(const HeightField& field, int row, int column) {
-    const PostGrid& grid = field.grid;
-    if (is_void(field.H_at_post_m(row, column))) return {row, column};
-    if (std::abs(row_lat_deg(grid, row)) == 90.0) {
-        int first = 0;
-        while (is_void(field.H_at_post_m(row, first))) ++first;
-        return {row, first};
-    }
-    const bool twin = column == grid.columns() - 1 && grid.goes_round();
-    return {row, twin && !is_void(field.H_at_post_m(row, 0)) ? 0 : column};
+bool at_pole(const PostGrid& grid, int row) {
+    return std::abs(row_lat_deg(grid, row)) == 90.0;
 }
 
-// The nearest step, halves upwards; what an exaggeration lifts beyond 1,000 km stays there.
+}  // namespace
+
 std::int32_t height_steps(double h_m) {
-    constexpr double limit = std::numeric_limits<std::int32_t>::max();
+    constexpr double limit = highest_height_steps;
     return static_cast<std::int32_t>(
         std::clamp(std::floor(h_m * (1.0 / height_step_m) + 0.5), -limit, limit));
 }
 
-}  // namespace
+int canonical_column(const HeightField& field, int row, int column) {
+    const PostGrid& grid = field.grid;
+    if (is_void(field.H_at_post_m(row, column))) return column;
+    if (at_pole(grid, row)) {
+        int first = 0;
+        while (is_void(field.H_at_post_m(row, first))) ++first;
+        return first;
+    }
+    const bool twin = column == grid.columns() - 1 && grid.goes_round();
+    return twin && !is_void(field.H_at_post_m(row, 0)) ? 0 : column;
+}
+
+double canonical_lon_deg(const PostGrid& grid, int row, int column) {
+    const bool twin = column == grid.columns() - 1 && grid.goes_round();
+    return grid.lon.at_deg(twin || at_pole(grid, row) ? 0 : column);
+}
 
 double row_lat_deg(const PostGrid& grid, std::int64_t row) {
     const double lat_deg = grid.lat.at_deg(row);
@@ -43,11 +44,10 @@ double row_lat_deg(const PostGrid& grid, std::int64_t row) {
 }
 
 double drawn_h_m(const HeightField& field, int row, int column, double exaggeration) {
-    const Post post = canonical_post(field, row, column);
-    const double h_m =
-        static_cast<double>(field.H_at_post_m(post.row, post.column)) * exaggeration +
-        field.undulation.at_m(row_lat_deg(field.grid, post.row), field.grid.lon.at_deg(post.column));
-    return height_steps(h_m) * height_step_m;
+    const float H_m = field.H_at_post_m(row, canonical_column(field, row, column));
+    const double N_m =
+        field.undulation.at_m(row_lat_deg(field.grid, row), canonical_lon_deg(field.grid, row, column));
+    return height_steps(static_cast<double>(H_m) * exaggeration + N_m) * height_step_m;
 }
 
 DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int threads) {
@@ -65,13 +65,13 @@ DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int th
         const double lat_deg = row_lat_deg(grid, row);
         const UndulationField::Between N_row =
             has_N ? field.undulation.row_between(lat_deg) : UndulationField::Between{};
-        const bool at_pole = std::abs(lat_deg) == 90.0;
+        const bool pole = at_pole(grid, row);
         for (int column = 0; column < grid.columns(); ++column) {
             const std::size_t i = static_cast<std::size_t>(column);
             const float H_m = field.H_m[first + i];
             if (is_void(H_m)) {
                 heights.steps[first + i] = void_height_steps;
-            } else if (at_pole || column == grid.columns() - 1) {
+            } else if (pole || column == grid.columns() - 1) {
                 heights.steps[first + i] = height_steps(drawn_h_m(field, row, column, exaggeration));
             } else {
                 const double N_m = has_N ? field.undulation.at_m(N_row, columns[i]) : 0.0;
@@ -85,9 +85,8 @@ DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int th
 }
 
 Ecef post_ecef(const HeightField& field, int row, int column, double exaggeration) {
-    const Post post = canonical_post(field, row, column);
-    assert(!is_void(field.H_at_post_m(post.row, post.column)));
-    return ecef_from_geodetic({row_lat_deg(field.grid, post.row), field.grid.lon.at_deg(post.column),
+    assert(!is_void(field.H_at_post_m(row, column)));
+    return ecef_from_geodetic({row_lat_deg(field.grid, row), canonical_lon_deg(field.grid, row, column),
                                drawn_h_m(field, row, column, exaggeration)});
 }
 

@@ -11,12 +11,13 @@
 
 namespace oro {
 
-// Drawn heights above the ellipsoid, exaggeration and undulation included, in steps of 2^-11 m: a height less
-// the whole metres of a page's origin is then exact in a float (up to 8,192 m), so that every page and level
-// holds the same height for a post. Within 1,048 km of the ellipsoid. Costs at most 0.25 mm, and is what
-// pages and all that is drawn call the height.
+// Drawn heights above the ellipsoid, exaggeration and undulation included, in steps of 2^-11 m: whole
+// numbers, the same for a post on every page and level, and exact in a float as far as 8,192 m from the eye's
+// own height. Within 524 km of the ellipsoid (what an exaggeration lifts higher stays there). Costs at most
+// 0.25 mm, and is what pages and all that is drawn call the height.
 inline constexpr double height_step_m = 1.0 / 2048.0;
 inline constexpr std::int32_t void_height_steps = std::numeric_limits<std::int32_t>::min();
+inline constexpr std::int32_t highest_height_steps = 1 << 30;  // and as far down
 
 // Those of a whole region, row by row. Posts that are one point (a meridian's two columns, a pole) have one
 // height.
@@ -34,9 +35,18 @@ struct DrawnHeights {
 // 4 bytes a post; the work is shared between `threads` (at least 1), with one result for any number.
 DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int threads);
 
+// The step nearest to a height, halves upwards.
+[[nodiscard]] std::int32_t height_steps(double h_m);
+
 // Latitude of a row of a region, any number; a row whose spacing was rounded on its way here still ends
 // exactly on the pole.
 double row_lat_deg(const PostGrid& grid, std::int64_t row);
+
+// The column whose H and N stand for all posts that are the same point as one that is not void: column 0 for
+// the last one of a region that goes round the Earth, and at a pole the first that is not void.
+int canonical_column(const HeightField& field, int row, int column);
+// Longitude where N is asked for a post: that of its canonical point.
+double canonical_lon_deg(const PostGrid& grid, int row, int column);
 
 // Drawn height of one post that is not void, the same as in drawn_heights.
 double drawn_h_m(const HeightField& field, int row, int column, double exaggeration);

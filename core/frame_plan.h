@@ -1,29 +1,43 @@
-// What a frame draws: the pages that can be seen from an eye, each with its place in view coordinates.
+// What a frame draws: the pages that can be seen from an eye at the detail that tau asks for, with all that
+// places them.
 #pragma once
 
 #include <cstddef>
-#include <span>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/camera.h"
-#include "core/page.h"
+#include "core/region_pages.h"
 #include "shaders/shared.h"
 
 namespace oro {
 
-// One frame of one tile, ready for the GPU but for device addresses and style.
+// One frame of one tile, ready for the GPU but for the addresses of its buffers and the style.
 struct FramePlan {
-    gpu::FrameConstants constants{};        // addresses, counts and style are left to the renderer
-    std::vector<gpu::FramePage> pages;      // nearest first; `block` is left to the renderer
-    std::vector<std::size_t> page_numbers;  // which page of the region each one is
+    gpu::FrameConstants constants{};
+    std::vector<gpu::FramePage> pages;  // nearest first; parents of drawn pages, too
+    std::vector<PageIndex> page_indices;
+    std::vector<gpu::RowTerms> row_terms;        // 129 for each row of pages of a level
+    std::vector<gpu::ColumnTerms> column_terms;  // 129 for each column of pages of a level
+    // Pages that the frame should have and has not, most wanted first. Where there are any, coarser ones
+    // stand in; the picture still has no cracks.
+    std::vector<PageIndex> missing;
+    std::size_t
+        pages_wanted{};  // those of `pages` and `missing`, and those that wait for a missing neighbour
     std::size_t pages_beyond_frustum{};
     std::size_t pages_beyond_horizon{};
 };
 
-// Chooses the pages that can be seen (conservative: none that can is left out) and places them relative to
-// the eye. Placing a page's frame in view coordinates adds at most 6e-8 of its distance to the error of its
-// posts.
-FramePlan plan_frame(std::span<const PageSummary> pages, const RegionShape& shape, const Camera& camera,
-                     const Tile& tile);
+// Device address of a page's block, 0 where it is not on the GPU.
+using Residency = std::function<std::uint64_t(const PageIndex& page)>;
+
+// Chooses the pages of a frame, from the top down: of those that can be seen (conservative: none that can is
+// left out) each whose parent is not good enough for tau_px pixels everywhere, or has its posts too far apart
+// to shade slopes from (gpu::shading_spacing_px). Between neighbours that are there the levels differ by at
+// most one, whatever is missing. Errors: a page's record that cannot be read; more pages than triangle ids
+// can number.
+Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residency, const Camera& camera,
+                             const Tile& tile, double tau_px);
 
 }  // namespace oro

@@ -10,6 +10,8 @@ namespace oro::gpu {
 using std::min;
 using std::sqrt;
 #define ORO_FUNCTION inline
+#define ORO_PRECISE
 #include "shaders/levels.glsl"
 #undef ORO_FUNCTION
+#undef ORO_PRECISE
 }  // namespace oro::gpu

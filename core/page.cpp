@@ -11,8 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "core/high_low.h"
-
 namespace oro {
 namespace {
 
@@ -22,36 +20,66 @@ constexpr int stride = static_cast<int>(gpu::height_stride);
 constexpr int meshlet_quads = static_cast<int>(gpu::meshlet_quads);
 constexpr int meshlets_per_side = static_cast<int>(gpu::meshlets_per_side);
 
-// The terms of gpu::RowTerms and gpu::ColumnTerms before they are rounded.
-struct Row {
-    double R, C, S, P, Z;
+// Distance of a place from the Earth's axis.
+double cylinder_rho_m(const Geodetic& place) {
+    return (prime_vertical_radius_m(place.lat_deg) + place.h_m) * sine_cosine_deg(place.lat_deg).cosine;
+}
+
+// Where the posts of a page lie in the region.
+class PagePosts {
+  public:
+    PagePosts(const PostGrid& grid, PageIndex index)
+        : level_(level_grid(grid, index.level)),
+          first_row_(index.row * quads),
+          first_column_(index.column * quads),
+          goes_round_(grid.goes_round()) {}
+
+    // The region's post at a page's row and column, -1 .. 129; nothing outside the region. The apron goes on
+    // round the Earth.
+    [[nodiscard]] std::optional<PageIndex> region_post(int row, int column) const {
+        const int level_row = first_row_ + row;
+        int level_column = first_column_ + column;
+        const int quads_round = level_.column.quads;
+        if (goes_round_) {
+            if (level_column == -1) level_column = quads_round - 1;
+            if (level_column == quads_round + 1 && column == posts) level_column = 1;
+        }
+        if (level_row < 0 || level_row > level_.row.quads) return std::nullopt;
+        if (level_column < 0 || level_column > quads_round) return std::nullopt;
+        return PageIndex{level_.row.region_post(level_row), level_.column.region_post(level_column)};
+    }
+    [[nodiscard]] const LevelGrid& level() const { return level_; }
+    [[nodiscard]] int first_row() const { return first_row_; }  // of the level's posts
+    [[nodiscard]] int first_column() const { return first_column_; }
+
+  private:
+    LevelGrid level_;
+    int first_row_;
+    int first_column_;
+    bool goes_round_;
 };
-struct Column {
-    double V, W;
-};
+
+template <class Visit>
+void for_each_post(const PagePosts& page, const Visit& visit) {
+    for (int row = -1; row <= posts; ++row) {
+        for (int column = -1; column <= posts; ++column)
+            visit(static_cast<std::size_t>((row + 1) * stride + column + 1), page.region_post(row, column));
+    }
+}
 
 // A page while it is built: its posts in double, then what the block and the summary make of them.
 class Draft {
   public:
-    // `heights` may be null: then each post's is worked out where it is needed.
-    Draft(const HeightField& field, const RegionShape& shape, const DrawnHeights* heights, PageIndex index,
+    Draft(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights, PageIndex index,
           gpu::PageBlock& block)
-        : field_(field),
-          shape_(shape),
-          heights_(heights),
-          block_(block),
-          level_(level_grid(field.grid, index.level)),
-          first_row_(index.row * quads),
-          first_column_(index.column * quads) {
+        : grid_(grid), shape_(shape), heights_(heights), block_(block), posts_(grid, index) {
         summary_.index = index;
     }
 
     PageSummary build() {
         measure_heights();
         place_origin();
-        fill_tables();
-        fill_heights();
-        fill_borders();
+        fill_block();
         place_posts();
         bound_meshlets();
         bound_page();
@@ -61,187 +89,97 @@ class Draft {
   private:
     void measure_heights();
     void place_origin();
-    void fill_tables();
-    void fill_heights();
-    void fill_borders();
+    void fill_block();
     void place_posts();
     void bound_meshlets();
     void bound_page();
     void bound_meshlet(int number);
     int mark_triangles(int number);
-    std::optional<PageIndex> region_post(int row, int column) const;
-    double height_m(PageIndex post) const;
     glm::dvec3 scaled(const glm::dvec3& position_m) const;
 
     static std::size_t at(int row, int column) { return static_cast<std::size_t>(row * posts + column); }
-    bool drawable(int row, int column) const {
-        return block_.dh[static_cast<std::size_t>(row + 1) * stride + static_cast<std::size_t>(column + 1)] >
-               gpu::void_dh_limit_m;
+    std::int32_t steps(int row, int column) const {
+        return heights_.steps[static_cast<std::size_t>((row + 1) * stride + column + 1)];
     }
+    bool drawable(int row, int column) const { return steps(row, column) != void_height_steps; }
 
-    const HeightField& field_;
+    const PostGrid& grid_;
     const RegionShape& shape_;
-    const DrawnHeights* heights_;
+    const PageHeights& heights_;
     gpu::PageBlock& block_;
-    LevelGrid level_;
-    int first_row_;  // of the level's posts
-    int first_column_;
+    PagePosts posts_;
     PageSummary summary_{};
     double middle_lon_deg_{};  // of the origin, in the region's own whole turn
     double rho0_m_{};
     double z0_m_{};
-    std::array<double, gpu::page_heights> h_m_{};  // with the apron; NaN where void
-    std::array<Row, gpu::page_posts> rows_{};
-    std::array<Column, gpu::page_posts> columns_{};
     std::vector<glm::dvec3> position_m_;  // page frame
     std::vector<bool> drawn_;             // posts that belong to a triangle
     std::array<glm::dvec3, gpu::meshlets_per_page>
         directions_{};  // of the meshlets' horizon cones, page frame
 };
 
-// Number in the region of a level's post, and where that post would lie beyond the region's end.
-std::int64_t post_beyond(const LevelAxis& axis, int post) {
-    return post <= axis.quads ? axis.region_post(post) : std::int64_t{post} << axis.level;
-}
-
-// The region's post at a page's row and column, -1 .. 129; nothing outside the region. The apron goes on
-// round the Earth.
-std::optional<PageIndex> Draft::region_post(int row, int column) const {
-    const int level_row = first_row_ + row;
-    int level_column = first_column_ + column;
-    const int quads_round = level_.column.quads;
-    if (field_.grid.goes_round()) {
-        if (level_column == -1) level_column = quads_round - 1;
-        if (level_column == quads_round + 1 && column == posts) level_column = 1;
-    }
-    if (level_row < 0 || level_row > level_.row.quads) return std::nullopt;
-    if (level_column < 0 || level_column > quads_round) return std::nullopt;
-    return PageIndex{level_.row.region_post(level_row), level_.column.region_post(level_column)};
-}
-
-// Drawn height of a region's post; NaN where void.
-double Draft::height_m(PageIndex post) const {
-    if (heights_ != nullptr) {
-        const std::int32_t steps = heights_->at(post.row, post.column);
-        return steps == void_height_steps ? std::numeric_limits<double>::quiet_NaN() : steps * height_step_m;
-    }
-    if (is_void(field_.H_at_post_m(post.row, post.column))) return std::numeric_limits<double>::quiet_NaN();
-    return drawn_h_m(field_, post.row, post.column, shape_.exaggeration);
-}
-
 void Draft::measure_heights() {
-    double lowest_m = std::numeric_limits<double>::infinity();
-    double highest_m = -lowest_m;
-    for (int row = -1; row <= posts; ++row) {
-        for (int column = -1; column <= posts; ++column) {
-            double& h_m = h_m_[static_cast<std::size_t>((row + 1) * stride + column + 1)];
-            h_m = std::numeric_limits<double>::quiet_NaN();
-            const std::optional<PageIndex> post = region_post(row, column);
-            if (post) h_m = height_m(*post);
-            if (std::isnan(h_m) || row < 0 || row == posts || column < 0 || column == posts) continue;
-            lowest_m = std::min(lowest_m, h_m);
-            highest_m = std::max(highest_m, h_m);
+    std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
+    std::int32_t highest = std::numeric_limits<std::int32_t>::min();
+    for (int row = 0; row < posts; ++row) {
+        for (int column = 0; column < posts; ++column) {
+            if (!drawable(row, column)) continue;
+            lowest = std::min(lowest, steps(row, column));
+            highest = std::max(highest, steps(row, column));
         }
     }
-    if (lowest_m > highest_m) lowest_m = highest_m = 0.0;
-    summary_.lowest_h_m = lowest_m;
-    summary_.highest_h_m = highest_m;
-    summary_.origin.h_m = std::round(0.5 * (lowest_m + highest_m));
+    if (lowest > highest) lowest = highest = 0;
+    summary_.lowest_h_m = lowest * height_step_m;
+    summary_.highest_h_m = highest * height_step_m;
+    summary_.origin.h_m = std::round(0.5 * (summary_.lowest_h_m + summary_.highest_h_m));
 }
 
 void Draft::place_origin() {
-    const PostGrid& grid = field_.grid;
     // A coarse page may be far larger than what the region has of it.
     const auto end = [&](const LevelAxis& axis, int first) {
         return axis.level == 0 ? first + quads : axis.region_post(std::min(first + quads, axis.quads));
     };
-    const double lat_deg = 0.5 * (grid.lat.at_deg(post_beyond(level_.row, first_row_)) +
-                                  grid.lat.at_deg(end(level_.row, first_row_)));
-    middle_lon_deg_ = 0.5 * (grid.lon.at_deg(post_beyond(level_.column, first_column_)) +
-                             grid.lon.at_deg(end(level_.column, first_column_)));
+    const LevelGrid& level = posts_.level();
+    const double lat_deg = 0.5 * (grid_.lat.at_deg(post_beyond(level.row, posts_.first_row())) +
+                                  grid_.lat.at_deg(end(level.row, posts_.first_row())));
+    middle_lon_deg_ = 0.5 * (grid_.lon.at_deg(post_beyond(level.column, posts_.first_column())) +
+                             grid_.lon.at_deg(end(level.column, posts_.first_column())));
     // A coarse page may hang over a pole; its origin stays on this side.
     summary_.origin.lat_deg = std::clamp(lat_deg, -90.0, 90.0);
     summary_.origin.lon_deg = normalised_lon_deg(middle_lon_deg_);
-    const SineCosine lat = sine_cosine_deg(summary_.origin.lat_deg);
-    const SineCosine lon = sine_cosine_deg(summary_.origin.lon_deg);
-    const double normal_m = prime_vertical_radius_m(summary_.origin.lat_deg);
-    rho0_m_ = (normal_m + summary_.origin.h_m) * lat.cosine;
-    z0_m_ = (normal_m * (1.0 - wgs84_e2) + summary_.origin.h_m) * lat.sine;
-    summary_.origin_ecef = Ecef{{rho0_m_ * lon.cosine, rho0_m_ * lon.sine, z0_m_}};
-    summary_.ecef_from_page =
-        glm::dmat3(lon.cosine, lon.sine, 0.0, -lon.sine, lon.cosine, 0.0, 0.0, 0.0, 1.0);
+    set_page_frame(summary_);
+    rho0_m_ = cylinder_rho_m(summary_.origin);
+    z0_m_ = summary_.origin_ecef.m.z;
 }
 
-void Draft::fill_tables() {
-    const PostGrid& grid = field_.grid;
-    const double h0_m = summary_.origin.h_m;
-    for (int i = 0; i < posts; ++i) {
-        const std::size_t n = static_cast<std::size_t>(i);
-        const double lat_deg = row_lat_deg(grid, post_beyond(level_.row, first_row_ + i));
-        const SineCosine lat = sine_cosine_deg(lat_deg);
-        const double normal_m = prime_vertical_radius_m(lat_deg);
-        const double P = (normal_m + h0_m) * lat.cosine;
-        const double Z = (normal_m * (1.0 - wgs84_e2) + h0_m) * lat.sine - z0_m_;
-        rows_[n] = {P - rho0_m_, lat.cosine, lat.sine, P, Z};
-        block_.rows[n] = {static_cast<float>(rows_[n].R), static_cast<float>(rows_[n].C),
-                          static_cast<float>(rows_[n].S), static_cast<float>(rows_[n].P),
-                          static_cast<float>(rows_[n].Z)};
-        const double turn_deg =
-            grid.lon.at_deg(post_beyond(level_.column, first_column_ + i)) - middle_lon_deg_;
-        const double half_sine = sine_cosine_deg(0.5 * turn_deg).sine;
-        columns_[n] = {2.0 * half_sine * half_sine, sine_cosine_deg(turn_deg).sine};
-        block_.columns[n] = {static_cast<float>(columns_[n].V), static_cast<float>(columns_[n].W)};
-    }
-    const double lat0_deg = summary_.origin.lat_deg;
-    block_.h0_m = static_cast<float>(h0_m);
-    const double step = std::ldexp(1.0, level_.level());
-    block_.row_spacing_m = static_cast<float>((meridian_radius_m(lat0_deg) + h0_m) *
-                                              radians_from_deg(step * grid.lat.spacing_deg()).rad);
-    block_.column_spacing_rad = static_cast<float>(radians_from_deg(step * grid.lon.spacing_deg()).rad);
-    block_.exaggeration = static_cast<float>(shape_.exaggeration);
-    for (int corner = 0; corner < 4; ++corner) {
-        const std::int64_t row = first_row_ + (corner / 2) * quads;
-        const std::int64_t column = first_column_ + (corner % 2) * quads;
-        const double lat_deg = grid.lat.at_deg(row << level_.level());
-        const double lon_deg = grid.lon.at_deg(column << level_.level());
-        block_.N_m[corner] = static_cast<float>(field_.undulation.at_m(lat_deg, lon_deg));
-    }
-}
-
-void Draft::fill_heights() {
-    for (std::size_t i = 0; i < h_m_.size(); ++i) {
-        block_.dh[i] =
-            std::isnan(h_m_[i]) ? gpu::void_dh_m : static_cast<float>(h_m_[i] - summary_.origin.h_m);
-    }
-}
-
-void Draft::fill_borders() {
-    for (int row = 0; row < posts; ++row) {
-        const bool whole_row = row == 0 || row == quads;
-        for (int column = 0; column < posts; column += whole_row ? 1 : quads) {
-            gpu::BorderPost& border = block_.borders[gpu::border_index_cpu(
-                static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column))];
-            border = {gpu::vec3(0.0F), gpu::vec3(0.0F)};
-            if (!drawable(row, column)) continue;
-            const PageIndex post = *region_post(row, column);
-            const Ecef ecef = post_ecef(field_, post.row, post.column, shape_.exaggeration);
-            split_high_low(ecef.m, border.high, border.low);
-        }
-    }
+void Draft::fill_block() {
+    set_spacing(grid_, summary_.origin, block_);
+    std::copy(heights_.steps.begin(), heights_.steps.end(), std::begin(block_.heights));
 }
 
 void Draft::place_posts() {
     position_m_.assign(static_cast<std::size_t>(posts) * posts, glm::dvec3(0.0));
     drawn_.assign(position_m_.size(), false);
+    std::array<double, gpu::page_posts> V{};
+    std::array<double, gpu::page_posts> W{};
+    for (int j = 0; j < posts; ++j) {
+        const double turn_deg =
+            grid_.lon.at_deg(post_beyond(posts_.level().column, posts_.first_column() + j)) - middle_lon_deg_;
+        const double half_sine = sine_cosine_deg(0.5 * turn_deg).sine;
+        V[static_cast<std::size_t>(j)] = 2.0 * half_sine * half_sine;
+        W[static_cast<std::size_t>(j)] = sine_cosine_deg(turn_deg).sine;
+    }
     for (int i = 0; i < posts; ++i) {
-        const Row& row = rows_[static_cast<std::size_t>(i)];
+        const double lat_deg = row_lat_deg(grid_, post_beyond(posts_.level().row, posts_.first_row() + i));
+        const SineCosine lat = sine_cosine_deg(lat_deg);
+        const double normal_m = prime_vertical_radius_m(lat_deg);
         for (int j = 0; j < posts; ++j) {
             if (!drawable(i, j)) continue;
-            const Column& column = columns_[static_cast<std::size_t>(j)];
-            const double dh_m =
-                h_m_[static_cast<std::size_t>((i + 1) * stride + j + 1)] - summary_.origin.h_m;
-            const double r = row.P + dh_m * row.C;
-            position_m_[at(i, j)] = {row.R + dh_m * row.C - r * column.V, r * column.W, row.Z + dh_m * row.S};
+            const double h_m = steps(i, j) * height_step_m;
+            const double r = (normal_m + h_m) * lat.cosine;
+            position_m_[at(i, j)] = {r - rho0_m_ - r * V[static_cast<std::size_t>(j)],
+                                     r * W[static_cast<std::size_t>(j)],
+                                     (normal_m * (1.0 - wgs84_e2) + h_m) * lat.sine - z0_m_};
         }
     }
 }
@@ -299,9 +237,10 @@ Sphere sphere_around(std::span<const glm::dvec3> points) {
 void Draft::bound_meshlet(int number) {
     gpu::MeshletBounds& bounds = block_.meshlets[number];
     bounds = {gpu::vec3(0.0F), -1.0F, gpu::vec3(0.0F), 0.0F, 0.0F, -1.0F, 0U};
-    const int rows = level_.row.quads_of_node(first_row_ / meshlet_quads + number / meshlets_per_side);
-    const int columns =
-        level_.column.quads_of_node(first_column_ / meshlet_quads + number % meshlets_per_side);
+    const int rows =
+        posts_.level().row.quads_of_node(posts_.first_row() / meshlet_quads + number / meshlets_per_side);
+    const int columns = posts_.level().column.quads_of_node(posts_.first_column() / meshlet_quads +
+                                                            number % meshlets_per_side);
     bounds.quads = static_cast<gpu::uint>(rows) | static_cast<gpu::uint>(columns) << 4U;
     // A post may belong to a neighbour's triangle alone: keeping it costs a little and loses nothing.
     const int triangles = mark_triangles(number);
@@ -356,6 +295,27 @@ void Draft::bound_page() {
 
 }  // namespace
 
+std::int64_t post_beyond(const LevelAxis& axis, int post) {
+    return post <= axis.quads ? axis.region_post(post) : std::int64_t{post} << axis.level;
+}
+
+void set_spacing(const PostGrid& grid, const Geodetic& origin, gpu::PageBlock& block) {
+    block.row_spacing_m = static_cast<float>((meridian_radius_m(origin.lat_deg) + origin.h_m) *
+                                             radians_from_deg(grid.lat.spacing_deg()).rad);
+    block.column_spacing_m = static_cast<float>((prime_vertical_radius_m(origin.lat_deg) + origin.h_m) *
+                                                radians_from_deg(grid.lon.spacing_deg()).rad);
+}
+
+void set_page_frame(PageSummary& summary) {
+    const SineCosine lat = sine_cosine_deg(summary.origin.lat_deg);
+    const SineCosine lon = sine_cosine_deg(summary.origin.lon_deg);
+    const double normal_m = prime_vertical_radius_m(summary.origin.lat_deg);
+    const double rho_m = cylinder_rho_m(summary.origin);
+    const double z_m = (normal_m * (1.0 - wgs84_e2) + summary.origin.h_m) * lat.sine;
+    summary.origin_ecef = Ecef{{rho_m * lon.cosine, rho_m * lon.sine, z_m}};
+    summary.ecef_from_page = glm::dmat3(lon.cosine, lon.sine, 0.0, -lon.sine, lon.cosine, 0.0, 0.0, 0.0, 1.0);
+}
+
 PageLayout page_layout(const PostGrid& grid) {
     return level_grid(grid, 0).pages();
 }
@@ -383,17 +343,58 @@ RegionShape region_shape(const HeightField& field, double exaggeration) {
     return {occluder_below(lowest_h_m, diagonal_m), exaggeration};
 }
 
-PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
-                       gpu::PageBlock& block) {
-    Draft draft(field, shape, nullptr, index, block);
+PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, PageIndex index) {
+    assert(heights.rows == grid.rows() && heights.columns == grid.columns());
+    PageHeights page;
+    for_each_post(PagePosts(grid, index), [&](std::size_t i, const std::optional<PageIndex>& post) {
+        page.steps[i] = post ? heights.at(post->row, post->column) : void_height_steps;
+    });
+    return page;
+}
+
+PageElevations page_elevations(const HeightField& field, PageIndex index) {
+    PageElevations page;
+    for_each_post(PagePosts(field.grid, index), [&](std::size_t i, const std::optional<PageIndex>& post) {
+        page.H_m[i] = post ? field.H_at_post_m(post->row, canonical_column(field, post->row, post->column))
+                           : void_height_m;
+    });
+    return page;
+}
+
+PageHeights page_heights(const PostGrid& grid, const UndulationField& undulation, double exaggeration,
+                         const PageElevations& elevations, PageIndex index) {
+    const bool has_N = !undulation.N_m.empty();
+    const PagePosts page_posts(grid, index);
+    PageHeights page;
+    for (int row = -1; row <= posts; ++row) {
+        UndulationField::Between N_row{};
+        for (int column = -1; column <= posts; ++column) {
+            const auto i = static_cast<std::size_t>((row + 1) * stride + column + 1);
+            page.steps[i] = void_height_steps;
+            if (is_void(elevations.H_m[i])) continue;
+            const std::optional<PageIndex> post = page_posts.region_post(row, column);
+            if (!post) continue;
+            N_row = has_N ? undulation.row_between(row_lat_deg(grid, post->row)) : N_row;
+            const double N_m = has_N ? undulation.at_m(N_row, undulation.column_between(canonical_lon_deg(
+                                                                  grid, post->row, post->column)))
+                                     : 0.0;
+            page.steps[i] = height_steps(static_cast<double>(elevations.H_m[i]) * exaggeration + N_m);
+        }
+    }
+    return page;
+}
+
+PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,
+                       PageIndex index, gpu::PageBlock& block) {
+    Draft draft(grid, shape, heights, index, block);
     return draft.build();
 }
 
-PageSummary build_page(const HeightField& field, const RegionShape& shape, const DrawnHeights& heights,
-                       PageIndex index, gpu::PageBlock& block) {
-    assert(heights.rows == field.grid.rows() && heights.columns == field.grid.columns());
-    Draft draft(field, shape, &heights, index, block);
-    return draft.build();
+PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
+                       gpu::PageBlock& block) {
+    const PageHeights heights =
+        page_heights(field.grid, field.undulation, shape.exaggeration, page_elevations(field, index), index);
+    return build_page(field.grid, shape, heights, index, block);
 }
 
 }  // namespace oro

@@ -1,6 +1,7 @@
 // A region's levels cut into pages of 128 x 128 quads, each with all that the GPU needs to place and cull it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -22,10 +23,6 @@ struct PageIndex {
 };
 
 // Pages of a region's level 0.
-//
-// Where a region goes round the Earth and its quads are no multiple of 128, its last column lies within a
-// page, and so may a pole's row: those posts are placed like inner ones, within the page's error of their
-// twins on the first column's rim.
 PageLayout page_layout(const PostGrid& grid);
 
 // What holds for the whole region and every page of it.
@@ -54,14 +51,38 @@ struct PageSummary {
     double lod_radius_m{};     // around centre_m: holds the nodes' lod spheres
 };
 
-// Fills `block` for a page of any level and gives its summary. Posts of the block are placed within 1 mm of
-// their true position for pages up to 4 km wide, 2 mm up to 12 km, and in proportion beyond (evaluated in
-// float32 as shaders/place.glsl does).
+// The heights of a page, row by row from post (-1, -1): its 129 x 129 posts and one more on each side (round
+// the Earth, too), so that slopes are continuous across pages.
+struct PageHeights {
+    std::array<std::int32_t, gpu::page_heights>
+        steps;  // drawn, see drawn_heights.h; void_height_steps where none
+};
+PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, PageIndex index);
+
+// The same posts as the source gives them: H in metres, void_height_m where there is none. Posts that are one
+// point (a meridian's two columns, a pole) have the H that is drawn for all of them.
+struct PageElevations {
+    std::array<float, gpu::page_heights> H_m;
+};
+PageElevations page_elevations(const HeightField& field, PageIndex index);
+// From these to what is drawn; the same numbers as page_heights gives.
+PageHeights page_heights(const PostGrid& grid, const UndulationField& undulation, double exaggeration,
+                         const PageElevations& elevations, PageIndex index);
+
+// Fills `block` for a page of any level and gives its summary. The nodes' errors are left to the pyramid.
+PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,
+                       PageIndex index, gpu::PageBlock& block);
+// The same from the field's own posts.
 PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
                        gpu::PageBlock& block);
-// The same, faster: from heights that are there already. `heights` are the field's own with the shape's
-// exaggeration.
-PageSummary build_page(const HeightField& field, const RegionShape& shape, const DrawnHeights& heights,
-                       PageIndex index, gpu::PageBlock& block);
+
+// Fills a block's spacing for a page with that origin.
+void set_spacing(const PostGrid& grid, const Geodetic& origin, gpu::PageBlock& block);
+
+// The frame of a page from its origin: origin_ecef and ecef_from_page.
+void set_page_frame(PageSummary& summary);
+
+// Number in the region of a post of a level, and where it would lie beyond the region's end.
+std::int64_t post_beyond(const LevelAxis& axis, int post);
 
 }  // namespace oro

@@ -118,6 +118,7 @@ float HeightField::H_at_m(double lat_deg, double lon_deg) const {
 }
 
 HeightRange height_range(const HeightField& field) {
+    if (field.range) return *field.range;
     HeightRange range{0.0F, 0.0F, 0};
     bool any = false;
     for (const float H_m : field.H_m) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -81,15 +82,33 @@ struct UndulationField {
     [[nodiscard]] double at_m(double lat_deg, double lon_deg) const;
 };
 
+struct HeightRange {
+    float lowest_m;
+    float highest_m;
+    std::size_t voids;
+};
+
+// Posts that are read when they are asked for; from any thread.
+class PostSource {
+  public:
+    virtual ~PostSource() = default;
+    // H of a post of the grid, void_height_m where there is none.
+    [[nodiscard]] virtual float H_m(int row, int column) const = 0;
+};
+
 // The true surface of a scene: orthometric heights H on a post grid, and the undulation N that lifts them
 // onto the ellipsoid (h = H + N). Each cell is two triangles, split by the diagonal from its north-west to
 // its south-east post; between posts H is linear over those triangles in geodetic coordinates.
 struct HeightField {
     PostGrid grid;
     std::vector<float> H_m;  // row by row, rows() * columns(); void_height_m where there is none
+    // Where the posts are not in memory: H_m is empty, and these stand for it; range is then known, too.
+    std::shared_ptr<const PostSource> posts;
+    std::optional<HeightRange> range;
     UndulationField undulation;
 
     [[nodiscard]] float H_at_post_m(int row, int column) const {
+        if (posts) return posts->H_m(row, column);
         return H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
                    static_cast<std::size_t>(column)];
     }
@@ -101,11 +120,6 @@ struct HeightField {
     [[nodiscard]] std::optional<double> surface_H_m(double lat_deg, double lon_deg) const;
 };
 
-struct HeightRange {
-    float lowest_m;
-    float highest_m;
-    std::size_t voids;
-};
 // Lowest and highest H and the number of void posts; 0..0 when all are void.
 HeightRange height_range(const HeightField& field);
 

@@ -16,7 +16,6 @@ namespace oro {
 namespace {
 
 constexpr int side = static_cast<int>(gpu::meshlets_per_side);
-constexpr int pages_at_a_time = 32;
 // From a level to the next, errors and radii grow by this much beyond what they must hold: more than rounding
 // in float takes from a page's place, a sphere's distance and the formulas of shaders/levels.glsl.
 constexpr double error_growth = 1.0 + 1.0e-5;
@@ -29,9 +28,11 @@ float rounded_up(double value) {
                : nearest;
 }
 
-std::size_t node_number(const LevelGrid& grid, int row, int column) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.column.nodes()) +
-           static_cast<std::size_t>(column);
+// A node's place among the stitched errors of its level: its page, and its number there.
+std::array<float, 4>& of_node(std::vector<StitchedErrors>& errors, const LevelGrid& grid, int row,
+                              int column) {
+    const auto page = static_cast<std::size_t>(row / side * grid.pages().columns + column / side);
+    return errors[page][static_cast<std::size_t>(row % side * side + column % side)];
 }
 
 glm::dvec3 ecef_of(const PageSummary& page, const glm::dvec3& in_page_m) {
@@ -41,23 +42,28 @@ glm::dvec3 ecef_of(const PageSummary& page, const glm::dvec3& in_page_m) {
 // Builds one level's pages upon those of the level before.
 class LevelBuilder {
   public:
-    LevelBuilder(const HeightField& field, const RegionShape& shape, const DrawnHeights& heights,
-                 const LevelPyramid& pyramid, int level, std::vector<PerEdge> stitched_below_m)
-        : field_(field),
+    LevelBuilder(const PostGrid& region, const RegionShape& shape, const DrawnHeights& heights,
+                 const LevelPyramid& pyramid, int level, std::vector<StitchedErrors> stitched_below_m)
+        : region_(region),
           shape_(shape),
           heights_(heights),
           goes_round_(pyramid.goes_round),
           level_(level),
-          grid_(level_grid(field.grid, level)),
+          grid_(level_grid(region, level)),
           below_(level > 0 ? &pyramid.levels[static_cast<std::size_t>(level - 1)] : nullptr),
-          errors_(field.grid, heights, level),
-          stitched_m_(node_number(grid_, grid_.row.nodes(), 0)),
+          errors_(region, heights, level),
+          stitched_m_(static_cast<std::size_t>(grid_.pages().rows) *
+                      static_cast<std::size_t>(grid_.pages().columns)),
           stitched_below_m_(std::move(stitched_below_m)) {}
 
-    // Page `number` of the level, row by row. Safe to call from several threads, once for each page.
-    void build(int number, PyramidPage& page, gpu::PageBlock& block);
-    // Of all nodes of the level, row by row, once all pages are built.
-    std::vector<PerEdge> take_stitched_errors() { return std::move(stitched_m_); }
+    // Page `number` of the level, row by row, with what was measured of it before, if anything. Safe to call
+    // from several threads, once for each page.
+    void build(int number, const PyramidHooks& hooks, PyramidPage& page, gpu::PageBlock& block);
+    [[nodiscard]] const StitchedErrors& stitched(int number) const {
+        return stitched_m_[static_cast<std::size_t>(number)];
+    }
+    // Of all pages of the level, once they are built.
+    std::vector<StitchedErrors> take_stitched_errors() { return std::move(stitched_m_); }
 
   private:
     void finish_node(int node_row, int node_column, const PageSummary& page, gpu::MeshletBounds& bounds);
@@ -67,7 +73,7 @@ class LevelBuilder {
     template <class Visit>
     void visit_nodes_below(int node_row, int node_column, const Visit& visit) const;
 
-    const HeightField& field_;
+    const PostGrid& region_;
     const RegionShape& shape_;
     const DrawnHeights& heights_;
     bool goes_round_;
@@ -75,8 +81,8 @@ class LevelBuilder {
     LevelGrid grid_;
     const PyramidLevel* below_;
     NodeErrors errors_;
-    std::vector<PerEdge> stitched_m_;
-    std::vector<PerEdge> stitched_below_m_;
+    std::vector<StitchedErrors> stitched_m_;
+    std::vector<StitchedErrors> stitched_below_m_;
 };
 
 constexpr std::size_t north_edge = 0, east_edge = 1, south_edge = 2, west_edge = 3, no_edge = 4;
@@ -106,7 +112,10 @@ void LevelBuilder::visit_nodes_below(int node_row, int node_column, const Visit&
 void LevelBuilder::finish_node(int node_row, int node_column, const PageSummary& page,
                                gpu::MeshletBounds& bounds) {
     const NodeError error = errors_.error(node_row, node_column);
-    stitched_m_[node_number(grid_, node_row, node_column)] = error.stitched_m;
+    for (std::size_t i = 0; i < 4; ++i)
+        of_node(stitched_m_, grid_, node_row, node_column)[i] = std::min(
+            static_cast<float>(rounded_up(std::min<double>(error.stitched_m[i], gpu::unfit_error_m))),
+            gpu::unfit_error_m);
     double error_m = std::min<double>(error.own_m, gpu::unfit_error_m);
     const bool fits = error_m < gpu::unfit_error_m;
     if (bounds.radius < 0.0F) {
@@ -120,7 +129,7 @@ void LevelBuilder::finish_node(int node_row, int node_column, const PageSummary&
         const gpu::MeshletBounds& other = below_->node(row, column);
         error_m = std::max(error_m, error_growth * static_cast<double>(other.error_m));
         if (edge != no_edge)
-            error_m = std::max(error_m, stitched_below_m_[node_number(below_->grid, row, column)][edge]);
+            error_m = std::max<double>(error_m, of_node(stitched_below_m_, below_->grid, row, column)[edge]);
         if (other.radius < 0.0F) return;
         const glm::dvec3 other_centre = ecef_of(below_->page_of_node(row, column).summary, other.centre);
         radius_m =
@@ -200,14 +209,21 @@ void LevelBuilder::hold_pages_below(PyramidPage& page) const {
     }
 }
 
-void LevelBuilder::build(int number, PyramidPage& page, gpu::PageBlock& block) {
+void LevelBuilder::build(int number, const PyramidHooks& hooks, PyramidPage& page, gpu::PageBlock& block) {
     const PageIndex index{number / grid_.pages().columns, number % grid_.pages().columns, level_};
-    page.summary = build_page(field_, shape_, heights_, index, block);
+    page.summary = build_page(region_, shape_, page_heights(region_, heights_, index), index, block);
+    PyramidHooks::Measured measured;
+    const bool known = hooks.recall && hooks.recall(index, measured);
+    if (known) stitched_m_[static_cast<std::size_t>(number)] = measured.stitched;
     for (int i = 0; i < side * side; ++i) {
         const int node_row = index.row * side + i / side;
         const int node_column = index.column * side + i % side;
-        if (node_row < grid_.row.nodes() && node_column < grid_.column.nodes())
+        if (known) {
+            block.meshlets[i].error_m = measured.error_m[static_cast<std::size_t>(i)];
+            block.meshlets[i].lod_radius = measured.lod_radius_m[static_cast<std::size_t>(i)];
+        } else if (node_row < grid_.row.nodes() && node_column < grid_.column.nodes()) {
             finish_node(node_row, node_column, page.summary, block.meshlets[i]);
+        }
     }
     std::copy(std::begin(block.meshlets), std::end(block.meshlets), page.nodes.begin());
     sum_up(page);
@@ -215,34 +231,64 @@ void LevelBuilder::build(int number, PyramidPage& page, gpu::PageBlock& block) {
     hold_pages_below(page);
 }
 
+// All pages of a level, some at a time: built and worked on in parallel, then handed on in order.
+Result<void> build_level(LevelBuilder& builder, PyramidLevel& level, int threads, const PyramidHooks& hooks,
+                         std::vector<gpu::PageBlock>& blocks) {
+    const int count = level.layout.rows * level.layout.columns;
+    level.pages.resize(static_cast<std::size_t>(count));
+    for (int first = 0; first < count; first += PyramidHooks::pages_at_a_time) {
+        const int some = std::min(PyramidHooks::pages_at_a_time, count - first);
+        in_parallel(some, threads, [&](int i) {
+            PyramidPage& page = level.pages[static_cast<std::size_t>(first + i)];
+            gpu::PageBlock& block = blocks[static_cast<std::size_t>(i)];
+            builder.build(first + i, hooks, page, block);
+            if (hooks.work) hooks.work(i, page, block);
+        });
+        for (int i = 0; hooks.sink && i < some; ++i) {
+            ORO_CHECK(hooks.sink(i, level.pages[static_cast<std::size_t>(first + i)],
+                                 blocks[static_cast<std::size_t>(i)], builder.stitched(first + i)));
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 LevelPyramid build_pyramid(const HeightField& field, const RegionShape& shape, int threads,
                            const PageSink& sink) {
+    return build_pyramid(field.grid, shape, drawn_heights(field, shape.exaggeration, threads), threads, sink);
+}
+
+LevelPyramid build_pyramid(const PostGrid& grid, const RegionShape& shape, const DrawnHeights& heights,
+                           int threads, const PageSink& sink) {
+    PyramidHooks hooks;
+    if (sink) {
+        hooks.sink = [&](int, const PyramidPage& page, const gpu::PageBlock& block,
+                         const StitchedErrors&) -> Result<void> {
+            sink(page, block);
+            return {};
+        };
+    }
+    return build_pyramid_with(grid, shape, heights, threads, hooks).value();  // such a sink has no errors
+}
+
+Result<LevelPyramid> build_pyramid_with(const PostGrid& grid, const RegionShape& shape,
+                                        const DrawnHeights& heights, int threads, const PyramidHooks& hooks,
+                                        bool keep_levels) {
     assert(threads >= 1);
-    LevelPyramid pyramid{shape, field.grid.goes_round(), {}};
-    const DrawnHeights heights = drawn_heights(field, shape.exaggeration, threads);
-    std::vector<gpu::PageBlock> blocks(pages_at_a_time);
-    const int levels = level_count(field.grid);
+    LevelPyramid pyramid{shape, grid.goes_round(), {}};
+    std::vector<gpu::PageBlock> blocks(PyramidHooks::pages_at_a_time);
+    const int levels = level_count(grid);
     pyramid.levels.reserve(static_cast<std::size_t>(levels));
-    std::vector<PerEdge> stitched_m;
+    std::vector<StitchedErrors> stitched_m;
     for (int k = 0; k < levels; ++k) {
-        LevelBuilder builder(field, shape, heights, pyramid, k, std::move(stitched_m));
+        LevelBuilder builder(grid, shape, heights, pyramid, k, std::move(stitched_m));
         PyramidLevel& level = pyramid.levels.emplace_back();
-        level.grid = level_grid(field.grid, k);
+        level.grid = level_grid(grid, k);
         level.layout = level.grid.pages();
-        const int count = level.layout.rows * level.layout.columns;
-        level.pages.resize(static_cast<std::size_t>(count));
-        for (int first = 0; first < count; first += pages_at_a_time) {
-            const int some = std::min(pages_at_a_time, count - first);
-            in_parallel(some, threads, [&](int i) {
-                builder.build(first + i, level.pages[static_cast<std::size_t>(first + i)],
-                              blocks[static_cast<std::size_t>(i)]);
-            });
-            for (int i = 0; sink && i < some; ++i)
-                sink(level.pages[static_cast<std::size_t>(first + i)], blocks[static_cast<std::size_t>(i)]);
-        }
+        ORO_CHECK(build_level(builder, level, threads, hooks, blocks));
         stitched_m = builder.take_stitched_errors();
+        if (k > 0 && !keep_levels) pyramid.levels[static_cast<std::size_t>(k - 1)].pages = {};
     }
     return pyramid;
 }

@@ -10,6 +10,7 @@
 #include "core/culling.h"
 #include "core/page.h"
 #include "core/post_grid.h"
+#include "core/result.h"
 
 namespace oro {
 
@@ -73,10 +74,41 @@ struct LevelPyramid {
 // caller's thread. The block is good during the call only.
 using PageSink = std::function<void(const PyramidPage& page, const gpu::PageBlock& block)>;
 
+// Errors of the four stitched edges of each node of a page (NodeError::stitched_m), rounded up.
+using StitchedErrors = std::array<std::array<float, 4>, gpu::meshlets_per_page>;
+
+// What a builder does beside building; any of them may be empty.
+struct PyramidHooks {
+    // What was measured of a page before: its nodes' errors and lod radii, and its stitched errors. False
+    // when there is nothing of it. Called from several threads, once for each page.
+    struct Measured {
+        std::array<float, gpu::meshlets_per_page> error_m;
+        std::array<float, gpu::meshlets_per_page> lod_radius_m;
+        StitchedErrors stitched;
+    };
+    std::function<bool(const PageIndex& page, Measured& measured)> recall;
+    // Work on a complete page, from several threads; `place` is 0 .. pages_at_a_time - 1, a place of its own
+    // among the pages that are worked on.
+    std::function<void(int place, const PyramidPage& page, const gpu::PageBlock& block)> work;
+    // Gets each page in order, after its work, on the caller's thread. An error ends the building.
+    std::function<Result<void>(int place, const PyramidPage& page, const gpu::PageBlock& block,
+                               const StitchedErrors& stitched)>
+        sink;
+    static constexpr int pages_at_a_time = 32;
+};
+
 // Builds all levels of a region with up to `threads` threads (at least 1); the result does not depend on
 // their number. Keeps 12 KB a page, and 4 bytes a post while it works; a post costs about 110 ns of processor
 // time.
 LevelPyramid build_pyramid(const HeightField& field, const RegionShape& shape, int threads,
                            const PageSink& sink = {});
+// The same from heights that are there already: the field's own, with the shape's exaggeration.
+LevelPyramid build_pyramid(const PostGrid& grid, const RegionShape& shape, const DrawnHeights& heights,
+                           int threads, const PageSink& sink = {});
+// The same with hooks. keep_levels: false drops the pages of a level once those of the next are built, so
+// that only the last two levels are in memory. Errors: the sink's.
+Result<LevelPyramid> build_pyramid_with(const PostGrid& grid, const RegionShape& shape,
+                                        const DrawnHeights& heights, int threads, const PyramidHooks& hooks,
+                                        bool keep_levels = true);
 
 }  // namespace oro

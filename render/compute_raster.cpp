@@ -8,7 +8,6 @@ namespace {
 
 constexpr VkBufferUsageFlags listed =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-constexpr std::uint32_t pages_per_dispatch = 65535;
 
 void wait_for_lists(VkCommandBuffer commands) {
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
@@ -31,7 +30,6 @@ Result<ComputeRaster> ComputeRaster::create(const Gpu& gpu, VkExtent2D extent) {
                                          BufferPlace::device, "large triangles"));
     ORO_TRY(raster.tasks_, create_buffer(gpu, gpu::tasks_max * sizeof(gpu::LargeTask), listed,
                                          BufferPlace::device, "large tasks"));
-    ORO_CHECK(raster.reserve_pages(256));
     ORO_CHECK(raster.resize(extent));
     return raster;
 }
@@ -77,19 +75,13 @@ void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan
 }
 
 void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan,
-                           PushBlock push) const {
+                           VkBuffer choice) const {
     record_clear(commands, plan);
     const auto bind = [&](const OwnedPipeline& pipeline) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
     };
     bind(pipelines.cull);
-    for (std::uint32_t first = 0; first < plan.pages.size(); first += pages_per_dispatch) {
-        push.first_page = first;
-        vkCmdPushConstants(commands, pipelines.layout.get(), pipelines.push_stages, 0, sizeof(push), &push);
-        const std::uint32_t count =
-            std::min(pages_per_dispatch, static_cast<std::uint32_t>(plan.pages.size()) - first);
-        vkCmdDispatch(commands, gpu::meshlets_per_page / 64, count, 1);
-    }
+    vkCmdDispatchIndirect(commands, choice, offsetof(gpu::LivePages, cull_groups));
     wait_for_lists(commands);
     bind(pipelines.raster);
     vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, meshlet_groups));

@@ -19,10 +19,10 @@ class ComputeRaster {
 
     // Puts its addresses into the frame's constants.
     void address(gpu::FrameConstants& constants) const;
-    // Records all steps; the frame's constants are at push.frame_address. Leaves the visibility buffer ready
-    // for compute reads.
+    // Records all steps, with the frame's push constants already set; `choice` holds LivePages. Leaves the
+    // visibility buffer ready for compute reads.
     void record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan,
-                PushBlock push) const;
+                VkBuffer choice) const;
 
     // Depth << 32 | id for each pixel of the last frame, row by row, `width` to a row.
     [[nodiscard]] const Buffer& visibility() const { return visibility_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstddef>
 #include <cstring>
 
 namespace oro {
@@ -10,8 +11,27 @@ namespace {
 
 constexpr VkDeviceSize pages_offset = 2048;  // FrameConstants come first
 static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
-constexpr std::uint32_t pages_per_draw =
-    65535;  // the least that any device allows along an axis of a dispatch
+
+// Where the parts of a frame's data lie, in bytes.
+struct FrameLayout {
+    VkDeviceSize rows;
+    VkDeviceSize columns;
+    VkDeviceSize size;
+};
+FrameLayout layout_of(const FramePlan& plan) {
+    const auto aligned = [](VkDeviceSize size) { return (size + 15) / 16 * 16; };
+    FrameLayout layout{};
+    layout.rows = aligned(pages_offset + plan.pages.size() * sizeof(gpu::FramePage));
+    layout.columns = aligned(layout.rows + plan.row_terms.size() * sizeof(gpu::RowTerms));
+    layout.size = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
+    return layout;
+}
+
+// The choice of levels, in words: first LivePages, then for so many pages `live`, `accepted` and `edges`.
+constexpr VkDeviceSize live_pages_words = 16;
+static_assert(sizeof(gpu::LivePages) <= 4 * live_pages_words);
+constexpr VkDeviceSize live_words = 2;
+constexpr VkDeviceSize choice_words = live_words + gpu::accepted_words + gpu::edges_words;  // a page
 
 constexpr ImageUse unused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
 constexpr ImageUse as_colour{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -26,11 +46,13 @@ constexpr ImageUse shader_read{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMP
 constexpr ImageUse shader_write{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                 VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 
+constexpr std::uint32_t timestamp_count = 4;
+
 Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = 3;
+    info.queryCount = timestamp_count;
     VkQueryPool handle{};
     ORO_VK(vkCreateQueryPool(gpu.device(), &info, nullptr, &handle));
     gpu.name(VK_OBJECT_TYPE_QUERY_POOL, handle, "frame times");
@@ -59,7 +81,6 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
         ORO_TRY(ComputeRaster compute, ComputeRaster::create(gpu, options.extent));
         renderer.compute_.emplace(std::move(compute));
     }
-    ORO_CHECK(renderer.reserve_pages(256));
     ORO_CHECK(renderer.create_images());
     ORO_CHECK(renderer.create_set());
     return renderer;
@@ -92,24 +113,25 @@ Result<void> FrameRenderer::create_images() {
 }
 
 Result<void> FrameRenderer::create_set() {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3};
+    const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3},
+                           VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}};
     VkDescriptorPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = 1;
-    pool.poolSizeCount = 1;
-    pool.pPoolSizes = &size;
+    pool.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool.pPoolSizes = sizes.data();
     VkDescriptorPool pool_handle{};
     ORO_VK(vkCreateDescriptorPool(gpu_->device(), &pool, nullptr, &pool_handle));
     pool_ = OwnedDescriptorPool(gpu_->device(), pool_handle);
-    gpu_->name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_handle, "shading images");
-    const VkDescriptorSetLayout layout = pipelines_.image_set.get();
+    gpu_->name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_handle, "frame");
+    const VkDescriptorSetLayout layout = pipelines_.set.get();
     VkDescriptorSetAllocateInfo set{};
     set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     set.descriptorPool = pool_handle;
     set.descriptorSetCount = 1;
     set.pSetLayouts = &layout;
     ORO_VK(vkAllocateDescriptorSets(gpu_->device(), &set, &set_));
-    gpu_->name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "shading images");
+    gpu_->name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "frame");
     const std::array<VkImageView, 3> views{ids_.view.get(), sum_.view.get(), picture_.view.get()};
     std::array<VkDescriptorImageInfo, 3> images{};
     std::array<VkWriteDescriptorSet, 3> writes{};
@@ -123,67 +145,131 @@ Result<void> FrameRenderer::create_set() {
         writes[i].pImageInfo = &images[i];
     }
     vkUpdateDescriptorSets(gpu_->device(), 3, writes.data(), 0, nullptr);
+    if (frame_data_.handle) bind_constants();
     return {};
 }
 
-Result<void> FrameRenderer::reserve_pages(std::size_t count) {
+// The constants are at the beginning of the frame's data.
+void FrameRenderer::bind_constants() const {
+    const VkDescriptorBufferInfo buffer{frame_data_.handle.get(), 0, sizeof(gpu::FrameConstants)};
+    VkWriteDescriptorSet write{};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set_;
+    write.dstBinding = 3;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    write.pBufferInfo = &buffer;
+    vkUpdateDescriptorSets(gpu_->device(), 1, &write, 0, nullptr);
+}
+
+// Room for the pages of a plan, on both sides, and for what is chosen of them.
+Result<void> FrameRenderer::reserve(const FramePlan& plan) {
+    const FrameLayout layout = layout_of(plan);
+    if (staging_.size < layout.size) {
+        const VkDeviceSize size = std::max(layout.size, 2 * staging_.size);
+        ORO_TRY(staging_, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::upload,
+                                        "frame staging"));
+        constexpr VkBufferUsageFlags usage =
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+        ORO_TRY(frame_data_, create_buffer(*gpu_, size, usage, BufferPlace::device, "frame data"));
+        bind_constants();
+    }
+    const std::size_t count = std::max<std::size_t>(plan.pages.size(), 64);
     if (compute_) ORO_CHECK(compute_->reserve_pages(count));
-    if (count <= page_capacity_) return {};
-    const std::size_t capacity = std::max(count, 2 * page_capacity_);
-    const VkDeviceSize size = pages_offset + capacity * sizeof(gpu::FramePage);
-    ORO_TRY(staging_, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::upload,
-                                    "frame staging"));
-    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    ORO_TRY(frame_data_, create_buffer(*gpu_, size, usage, BufferPlace::device, "frame data"));
-    page_capacity_ = capacity;
+    if (count > page_capacity_) {
+        // A multiple of 4, so that each part starts at a multiple of 16 bytes.
+        page_capacity_ = (std::max(count, 2 * page_capacity_) + 3) / 4 * 4;
+        constexpr VkBufferUsageFlags usage =
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+        ORO_TRY(choice_, create_buffer(*gpu_, 4 * (live_pages_words + page_capacity_ * choice_words), usage,
+                                       BufferPlace::device, "choice of levels"));
+    }
+    const VkDeviceSize pixels = VkDeviceSize{4} * options_.extent.width * options_.extent.height;
+    if (options_.keep_depths && depths_.size < pixels) {
+        ORO_TRY(depths_, create_buffer(*gpu_, pixels,
+                                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                           VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                       BufferPlace::device, "depths"));
+    }
+    const VkDeviceSize positions = count * gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
+    if (options_.record_positions && recorded_.size < positions) {
+        ORO_TRY(recorded_,
+                create_buffer(*gpu_, positions,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                              BufferPlace::readback, "recorded positions"));
+    }
     return {};
 }
 
-Result<void> FrameRenderer::upload(FramePlan& plan, const PageStore& pages, const gpu::FrameStyle& style,
-                                   std::uint32_t sample_index, std::uint32_t sample_count) {
-    constexpr std::size_t pages_max = UINT32_MAX / (gpu::meshlets_per_page * gpu::meshlet_triangles);
-    if (plan.pages.size() > pages_max)
-        return Error{ErrorKind::failed, "picture",
-                     std::to_string(plan.pages.size()) +
-                         " pages of 128 x 128 posts are in view, and triangle ids reach for " +
-                         std::to_string(pages_max) + "; narrow the region"};
-    ORO_CHECK(reserve_pages(plan.pages.size()));
-    for (std::size_t i = 0; i < plan.pages.size(); ++i)
-        plan.pages[i].block = address_words(pages.address(plan.page_numbers[i]));
+void FrameRenderer::address_choice(gpu::FrameConstants& constants) const {
+    VkDeviceAddress at = choice_.address;
+    constants.live_pages = address_words(at);
+    at += 4 * live_pages_words;
+    constants.live = address_words(at);
+    at += 4 * live_words * page_capacity_;
+    constants.accepted = address_words(at);
+    at += VkDeviceSize{4} * gpu::accepted_words * page_capacity_;
+    constants.edges = address_words(at);
+}
+
+Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style, std::uint32_t sample_index,
+                                   std::uint32_t sample_count) {
+    ORO_CHECK(reserve(plan));
+    const FrameLayout layout = layout_of(plan);
     gpu::FrameConstants& constants = plan.constants;
     constants.sample_index = sample_index;
     constants.sample_count = sample_count;
     constants.pages = address_words(frame_data_.address + pages_offset);
+    constants.row_terms = address_words(frame_data_.address + layout.rows);
+    constants.column_terms = address_words(frame_data_.address + layout.columns);
     constants.counts = address_words(counts_.address);
+    if (options_.keep_depths) constants.depths = address_words(depths_.address);
+    if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.style = style;
+    address_choice(constants);
     if (compute_) compute_->address(constants);
-    if (options_.record_positions) {
-        const VkDeviceSize size = std::max<std::size_t>(plan.pages.size(), 1) * gpu::page_posts *
-                                  gpu::page_posts * sizeof(gpu::vec3);
-        if (recorded_.size < size) {
-            ORO_TRY(recorded_, create_buffer(*gpu_, size,
-                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                                 VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                                             BufferPlace::readback, "recorded positions"));
-        }
-        constants.recorded = address_words(recorded_.address);
-    }
+    const auto copy = [&](VkDeviceSize at, const auto& values) {
+        if (!values.empty())
+            std::memcpy(staging_.mapped + at, values.data(), values.size() * sizeof(values[0]));
+    };
     std::memcpy(staging_.mapped, &constants, sizeof(constants));
-    if (!plan.pages.empty())
-        std::memcpy(staging_.mapped + pages_offset, plan.pages.data(),
-                    plan.pages.size() * sizeof(gpu::FramePage));
+    copy(pages_offset, plan.pages);
+    copy(layout.rows, plan.row_terms);
+    copy(layout.columns, plan.column_terms);
+    last_width_px_ = constants.width_px;
     return {};
 }
 
 void FrameRenderer::record_upload(VkCommandBuffer commands, const FramePlan& plan) const {
-    const VkBufferCopy copy{0, 0, pages_offset + plan.pages.size() * sizeof(gpu::FramePage)};
+    const VkBufferCopy copy{0, 0, layout_of(plan).size};
     vkCmdCopyBuffer(commands, staging_.handle.get(), frame_data_.handle.get(), 1, &copy);
     vkCmdFillBuffer(commands, counts_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                   VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+// Levels: which nodes of which pages, for whichever way of drawing follows.
+void FrameRenderer::record_choice(VkCommandBuffer commands, const FramePlan& plan) const {
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1, &set_, 0,
+                            nullptr);
+    const auto count = static_cast<std::uint32_t>(plan.pages.size());
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.accept.get());
+    if (count > 0)
+        vkCmdDispatch(commands, std::min(count, gpu::groups_per_row),
+                      (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.live_pages.get());
+    vkCmdDispatch(commands, 1, 1, 1);
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                   VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                       VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
 void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& plan) const {
@@ -213,15 +299,16 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.terrain.get());
-    PushBlock push = push_block();
-    for (std::uint32_t first = 0; first < plan.pages.size(); first += pages_per_draw) {
-        push.first_page = first;
-        vkCmdPushConstants(commands, pipelines_.layout.get(), pipelines_.push_stages, 0, sizeof(push), &push);
-        const std::uint32_t count =
-            std::min(pages_per_draw, static_cast<std::uint32_t>(plan.pages.size()) - first);
-        gpu_->draw_mesh_tasks()(commands, gpu::meshlets_per_page / pipelines_.meshlets_per_task, count, 1);
-    }
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout.get(), 0, 1, &set_,
+                            0, nullptr);
+    gpu_->draw_mesh_tasks_indirect()(commands, choice_.handle.get(), offsetof(gpu::LivePages, task_groups), 1,
+                                     0);
     vkCmdEndRendering(commands);
+    // The task shader has written the edges that the shading pass reads.
+    memory_barrier(commands,
+                   VK_PIPELINE_STAGE_2_TASK_SHADER_BIT_EXT | VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT,
+                   VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) const {
@@ -232,30 +319,26 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.shade.get());
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1, &set_, 0,
-                            nullptr);
-    const PushBlock push = push_block();
-    vkCmdPushConstants(commands, pipelines_.layout.get(), pipelines_.push_stages, 0, sizeof(push), &push);
     vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
 }
 
-PushBlock FrameRenderer::push_block() const {
-    const gpu::uvec2 address = address_words(frame_data_.address);
-    return {{address.x, address.y}, 0};
-}
-
 void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) const {
-    vkCmdResetQueryPool(commands, timestamps_.get(), 0, 3);
+    const auto stamp = [&](std::uint32_t number) {
+        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), number);
+    };
+    vkCmdResetQueryPool(commands, timestamps_.get(), 0, timestamp_count);
     record_upload(commands, plan);
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 0);
+    stamp(0);
+    record_choice(commands, plan);
+    stamp(1);
     if (compute_) {
-        compute_->record(commands, pipelines_, plan, push_block());
+        compute_->record(commands, pipelines_, plan, choice_.handle.get());
     } else {
         record_raster(commands, plan);
     }
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 1);
+    stamp(2);
     record_shade(commands, plan);
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 2);
+    stamp(3);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
                    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
@@ -265,26 +348,34 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) cons
                    VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
-Result<FrameReport> FrameRenderer::draw(const PageStore& pages, FramePlan plan, const gpu::FrameStyle& style,
+Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& style,
                                         std::uint32_t sample_index, std::uint32_t sample_count) {
     assert(plan.constants.width_px <= options_.extent.width &&
            plan.constants.height_px <= options_.extent.height);
     assert(sample_count == 1 || options_.several_samples);
-    ORO_CHECK(upload(plan, pages, style, sample_index, sample_count));
+    ORO_CHECK(upload(plan, style, sample_index, sample_count));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
-    report.pages_drawn = plan.pages.size();
+    report.pages = plan.pages.size();
+    if (!compute_)
+        report.task_groups =
+            std::uint64_t{report.counts.pages_live} * (gpu::meshlets_per_page / pipelines_.meshlets_per_task);
     if (report.counts.triangles_not_clipped > 0)
         return Error{ErrorKind::failed, "picture",
                      std::to_string(report.counts.triangles_not_clipped) +
                          " triangles more than the compute path can clip in a frame; --pipeline mesh can"};
-    std::array<std::uint64_t, 3> ticks{};
-    ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, 3, sizeof(ticks), ticks.data(),
-                                 sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    std::array<std::uint64_t, timestamp_count> ticks{};
+    ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, timestamp_count, sizeof(ticks),
+                                 ticks.data(), sizeof(std::uint64_t),
+                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     const double tick_s = gpu_->timestamp_period_ns() * 1e-9;
-    report.raster_s = static_cast<double>(ticks[1] - ticks[0]) * tick_s;
-    report.shade_s = static_cast<double>(ticks[2] - ticks[1]) * tick_s;
+    const auto between_s = [&](std::size_t from) {
+        return static_cast<double>(ticks[from + 1] - ticks[from]) * tick_s;
+    };
+    report.choose_s = between_s(0);
+    report.raster_s = between_s(1);
+    report.shade_s = between_s(2);
     return report;
 }
 
@@ -324,44 +415,55 @@ Result<std::vector<std::uint8_t>> FrameRenderer::read_picture(std::uint32_t widt
     return as_vector<std::uint8_t>(bytes);
 }
 
-// Word 0 of a pixel of the compute path's buffer is the id, word 1 the depth.
-Result<std::vector<std::uint32_t>> FrameRenderer::read_visibility_words(std::uint32_t width,
-                                                                        std::uint32_t height,
-                                                                        std::size_t word) {
-    const VkDeviceSize size = VkDeviceSize{8} * width * height;
-    ORO_TRY(const Buffer buffer, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                               BufferPlace::readback, "visibility read back"));
+// Words of a buffer on the device.
+Result<std::vector<std::uint32_t>> FrameRenderer::read_words(const Buffer& source, VkDeviceSize first,
+                                                             std::size_t count) {
+    if (count == 0) return std::vector<std::uint32_t>{};
+    const VkDeviceSize size = 4 * static_cast<VkDeviceSize>(count);
+    ORO_TRY(const Buffer buffer,
+            create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::readback, "read back"));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
-        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-        const VkBufferCopy copy{0, 0, size};
-        vkCmdCopyBuffer(commands, compute_->visibility().handle.get(), buffer.handle.get(), 1, &copy);
+        const VkBufferCopy copy{4 * first, 0, size};
+        vkCmdCopyBuffer(commands, source.handle.get(), buffer.handle.get(), 1, &copy);
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     }));
-    std::vector<std::uint32_t> words(std::size_t{width} * height);
-    for (std::size_t i = 0; i < words.size(); ++i)
-        std::memcpy(&words[i], buffer.mapped + 8 * i + 4 * word, sizeof(std::uint32_t));
+    std::vector<std::uint32_t> words(count);
+    std::memcpy(words.data(), buffer.mapped, size);
     return words;
 }
 
 Result<std::vector<std::uint32_t>> FrameRenderer::read_ids(std::uint32_t width, std::uint32_t height) {
-    if (compute_) return read_visibility_words(width, height, 0);
-    ORO_TRY(const std::vector<std::byte> bytes,
-            read_image(ids_, VK_IMAGE_ASPECT_COLOR_BIT, shader_read, width, height));
-    return as_vector<std::uint32_t>(bytes);
+    if (!compute_) {
+        ORO_TRY(const std::vector<std::byte> bytes,
+                read_image(ids_, VK_IMAGE_ASPECT_COLOR_BIT, shader_read, width, height));
+        return as_vector<std::uint32_t>(bytes);
+    }
+    assert(width == last_width_px_);
+    ORO_TRY(std::vector<std::uint32_t> words,
+            read_words(compute_->visibility(), 0, std::size_t{2} * width * height));
+    for (std::size_t i = 0; i < words.size() / 2; ++i) words[i] = words[2 * i];
+    words.resize(words.size() / 2);
+    return words;
 }
 
 Result<std::vector<float>> FrameRenderer::read_depths(std::uint32_t width, std::uint32_t height) {
-    if (compute_) {
-        ORO_TRY(const std::vector<std::uint32_t> bits, read_visibility_words(width, height, 1));
-        std::vector<float> depths(bits.size());
-        std::memcpy(depths.data(), bits.data(), bits.size() * sizeof(float));
-        return depths;
-    }
-    ORO_TRY(const std::vector<std::byte> bytes,
-            read_image(depth_, VK_IMAGE_ASPECT_DEPTH_BIT, as_depth, width, height));
-    return as_vector<float>(bytes);
+    assert(options_.keep_depths && width == last_width_px_);
+    ORO_TRY(const std::vector<std::uint32_t> bits, read_words(depths_, 0, std::size_t{width} * height));
+    std::vector<float> depths(bits.size());
+    std::memcpy(depths.data(), bits.data(), bits.size() * sizeof(float));
+    return depths;
+}
+
+Result<std::vector<std::uint32_t>> FrameRenderer::read_accepted(std::size_t pages) {
+    return read_words(choice_, live_pages_words + live_words * page_capacity_, pages * gpu::accepted_words);
+}
+
+Result<std::vector<std::uint32_t>> FrameRenderer::read_edges(std::size_t pages) {
+    return read_words(choice_, live_pages_words + (live_words + gpu::accepted_words) * page_capacity_,
+                      pages * gpu::edges_words);
 }
 
 std::vector<gpu::vec3> FrameRenderer::recorded() const {

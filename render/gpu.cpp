@@ -202,8 +202,8 @@ Result<void> Gpu::create_device(const GpuOptions& options) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(physical_, &properties);
     timestamp_period_ns_ = static_cast<double>(properties.limits.timestampPeriod);
-    draw_mesh_tasks_ =
-        reinterpret_cast<PFN_vkCmdDrawMeshTasksEXT>(vkGetDeviceProcAddr(device_, "vkCmdDrawMeshTasksEXT"));
+    draw_mesh_tasks_indirect_ = reinterpret_cast<PFN_vkCmdDrawMeshTasksIndirectEXT>(
+        vkGetDeviceProcAddr(device_, "vkCmdDrawMeshTasksIndirectEXT"));
     name(VK_OBJECT_TYPE_QUEUE, queue_, "queue");
     return {};
 }

@@ -76,7 +76,9 @@ class Gpu {
     [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
     [[nodiscard]] const DeviceReport& report() const { return report_; }
     [[nodiscard]] double timestamp_period_ns() const { return timestamp_period_ns_; }
-    [[nodiscard]] PFN_vkCmdDrawMeshTasksEXT draw_mesh_tasks() const { return draw_mesh_tasks_; }
+    [[nodiscard]] PFN_vkCmdDrawMeshTasksIndirectEXT draw_mesh_tasks_indirect() const {
+        return draw_mesh_tasks_indirect_;
+    }
     // Messages of the validation layer so far (warnings and errors).
     [[nodiscard]] const std::vector<std::string>& validation_messages() const { return messages_; }
 
@@ -106,7 +108,7 @@ class Gpu {
     DeviceReport report_;
     VkPhysicalDeviceMemoryProperties memory_{};
     std::vector<std::string> messages_;
-    PFN_vkCmdDrawMeshTasksEXT draw_mesh_tasks_{nullptr};
+    PFN_vkCmdDrawMeshTasksIndirectEXT draw_mesh_tasks_indirect_{nullptr};
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name_{nullptr};
 };
 

@@ -1,15 +1,20 @@
 #include "render/page_store.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace oro {
 namespace {
-constexpr std::size_t pages_per_chunk = 512;   // 49 MB: far below every device's limit on one buffer
-constexpr std::size_t pages_in_staging = 128;  // divides pages_per_chunk, so a batch never crosses chunks
+
+constexpr std::size_t largest_chunk = 512;  // pages; 40 MB: far below every device's limit on one buffer
+constexpr std::size_t pages_in_staging = 64;
+
 }  // namespace
 
-Result<PageStore> PageStore::create(const Gpu& gpu) {
+Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity) {
     PageStore store(gpu);
+    store.capacity_ = std::max<std::size_t>(1, capacity);
+    store.pages_per_chunk_ = std::min(store.capacity_, largest_chunk);
     ORO_TRY(store.commands_, Commands::create(gpu, "page upload"));
     ORO_TRY(store.staging_,
             create_buffer(gpu, pages_in_staging * sizeof(gpu::PageBlock), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
@@ -17,41 +22,82 @@ Result<PageStore> PageStore::create(const Gpu& gpu) {
     return store;
 }
 
-Result<void> PageStore::add_page(const gpu::PageBlock& block) {
-    if (count_ - sent_ == pages_in_staging) ORO_CHECK(send());
-    std::memcpy(staging_.mapped + (count_ - sent_) * sizeof(gpu::PageBlock), &block, sizeof block);
-    ++count_;
-    return {};
+std::uint64_t PageStore::bytes() const {
+    return chunks_.size() * pages_per_chunk_ * sizeof(gpu::PageBlock);
 }
 
-Result<void> PageStore::finish() {
-    return send();
+std::uint64_t PageStore::address(const PageIndex& page) {
+    const auto found = slots_of_.find({page.level, page.row, page.column});
+    if (found == slots_of_.end()) return 0;
+    const std::size_t slot = found->second;
+    slots_[slot].used = frame_;
+    return chunks_[slot / pages_per_chunk_].address + slot % pages_per_chunk_ * sizeof(gpu::PageBlock);
 }
 
-Result<void> PageStore::send() {
-    if (sent_ == count_) return {};
-    if (sent_ / pages_per_chunk == chunks_.size()) {
-        constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                             VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-        ORO_TRY(Buffer chunk, create_buffer(*gpu_, pages_per_chunk * sizeof(gpu::PageBlock), usage,
-                                            BufferPlace::device, "pages " + std::to_string(chunks_.size())));
-        chunks_.push_back(std::move(chunk));
+// A slot that is free, or was not used for longest and not by this frame; false when there is none.
+Result<bool> PageStore::find_slot(std::size_t& slot) {
+    if (slots_.size() < capacity_) {
+        slot = slots_.size();
+        if (slot / pages_per_chunk_ == chunks_.size()) {
+            constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                                 VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+            ORO_TRY(Buffer chunk,
+                    create_buffer(*gpu_, pages_per_chunk_ * sizeof(gpu::PageBlock), usage,
+                                  BufferPlace::device, "pages " + std::to_string(chunks_.size())));
+            chunks_.push_back(std::move(chunk));
+        }
+        slots_.push_back({{}, frame_});
+        return true;
     }
-    VkBufferCopy copy{};
-    copy.dstOffset = sent_ % pages_per_chunk * sizeof(gpu::PageBlock);
-    copy.size = (count_ - sent_) * sizeof(gpu::PageBlock);
-    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
-        vkCmdCopyBuffer(commands, staging_.handle.get(), chunks_.back().handle.get(), 1, &copy);
+    const auto oldest = std::min_element(slots_.begin(), slots_.end(),
+                                         [](const Slot& a, const Slot& b) { return a.used < b.used; });
+    if (oldest->used >= frame_) return false;
+    slots_of_.erase(oldest->page);
+    slot = static_cast<std::size_t>(oldest - slots_.begin());
+    return true;
+}
+
+Result<std::size_t> PageStore::send(std::span<const LoadedPage> pages) {
+    std::size_t sent = 0;
+    std::vector<std::size_t> batch;
+    for (const LoadedPage& page : pages) {
+        const Key key{page.index.level, page.index.row, page.index.column};
+        if (slots_of_.contains(key)) {
+            ++sent;
+            continue;
+        }
+        std::size_t slot = 0;
+        ORO_TRY(const bool found, find_slot(slot));
+        if (!found) break;
+        slots_[slot] = {key, frame_};
+        slots_of_[key] = slot;
+        std::memcpy(staging_.mapped + batch.size() * sizeof(gpu::PageBlock), page.block.get(),
+                    sizeof(gpu::PageBlock));
+        batch.push_back(slot);
+        ++sent;
+        if (batch.size() == pages_in_staging) {
+            ORO_CHECK(copy(batch));
+            batch.clear();
+        }
+    }
+    ORO_CHECK(copy(batch));
+    return sent;
+}
+
+Result<void> PageStore::copy(std::span<const std::size_t> slots) {
+    if (slots.empty()) return {};
+    return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+        for (std::size_t i = 0; i < slots.size(); ++i) {
+            const VkBufferCopy copy{i * sizeof(gpu::PageBlock),
+                                    slots[i] % pages_per_chunk_ * sizeof(gpu::PageBlock),
+                                    sizeof(gpu::PageBlock)};
+            vkCmdCopyBuffer(commands, staging_.handle.get(),
+                            chunks_[slots[i] / pages_per_chunk_].handle.get(), 1, &copy);
+        }
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
-    }));
-    sent_ = count_;
-    return {};
-}
-
-VkDeviceAddress PageStore::address(std::size_t page) const {
-    return chunks_[page / pages_per_chunk].address + page % pages_per_chunk * sizeof(gpu::PageBlock);
+    });
 }
 
 }  // namespace oro

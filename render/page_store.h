@@ -1,7 +1,11 @@
-// Pages in GPU memory: fixed slots in large buffers, reached by device address.
+// Pages in GPU memory: as many slots as a budget allows, in a few large buffers, reached by device address.
 #pragma once
 
-#include <functional>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/page.h"
@@ -9,31 +13,50 @@
 
 namespace oro {
 
-// The pages of one region on the GPU.
+// A page on its way to the GPU.
+struct LoadedPage {
+    PageIndex index;
+    std::unique_ptr<gpu::PageBlock> block;
+};
+
+// The pages of one region that are on the GPU. What has not been used for longest makes room for what comes.
 class PageStore {
   public:
-    static Result<PageStore> create(const Gpu& gpu);
+    // At most `capacity` pages, at least 1. Buffers are made when they are needed.
+    static Result<PageStore> create(const Gpu& gpu, std::size_t capacity);
 
-    // Adds a page. Errors: out of memory.
-    Result<void> add_page(const gpu::PageBlock& block);
-    // Sends what is not yet sent; to be called after the last page.
-    Result<void> finish();
+    // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame.
+    std::uint64_t address(const PageIndex& page);
+    // From here on pages count as used by another frame: those of earlier ones may make room.
+    void begin_frame() { ++frame_; }
 
-    [[nodiscard]] std::size_t size() const { return count_; }
-    // Device address of a page's block, by the order in which pages were added.
-    [[nodiscard]] VkDeviceAddress address(std::size_t page) const;
-    [[nodiscard]] std::uint64_t bytes() const { return count_ * sizeof(gpu::PageBlock); }
+    // Sends pages, in their order, until no slot is left that the current frame does not use; number of those
+    // sent. Waits for the GPU. Errors: out of memory.
+    Result<std::size_t> send(std::span<const LoadedPage> pages);
+
+    [[nodiscard]] std::size_t size() const { return slots_of_.size(); }
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+    [[nodiscard]] std::uint64_t bytes() const;  // of the buffers
 
   private:
+    using Key = std::tuple<int, int, int>;  // level, row, column
+    struct Slot {
+        Key page;
+        std::uint64_t used{};  // frame
+    };
     explicit PageStore(const Gpu& gpu) : gpu_(&gpu) {}
-    Result<void> send();
+    Result<bool> find_slot(std::size_t& slot);
+    Result<void> copy(std::span<const std::size_t> slots);
 
     const Gpu* gpu_;
     Commands commands_;
     Buffer staging_;
     std::vector<Buffer> chunks_;
-    std::size_t count_{};
-    std::size_t sent_{};
+    std::size_t capacity_{};
+    std::size_t pages_per_chunk_{};
+    std::vector<Slot> slots_;  // those ever used
+    std::map<Key, std::size_t> slots_of_;
+    std::uint64_t frame_{1};
 };
 
 }  // namespace oro

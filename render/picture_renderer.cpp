@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <thread>
-
-#include "core/drawn_heights.h"
-#include "core/parallel.h"
 
 namespace oro {
 namespace {
@@ -17,26 +13,28 @@ constexpr int preferred_tile_px = 4096;
 void add_counts(PictureReport& sum, const FrameReport& part) {
     sum.meshlets_beyond_frustum += part.counts.meshlets_beyond_frustum;
     sum.meshlets_beyond_horizon += part.counts.meshlets_beyond_horizon;
-    sum.meshlets_void += part.counts.meshlets_void;
+    sum.mesh_groups += part.counts.mesh_groups;
     sum.meshlets_drawn += part.counts.meshlets_drawn;
     sum.triangles_drawn += part.counts.triangles_drawn;
-    sum.pages_drawn += part.pages_drawn;
+    sum.pages_drawn += part.counts.pages_live;
 }
 
 // Draws one tile, all its samples; its pixels stay in the renderer. Counts are those of the first sample.
-Result<void> draw_tile(const Scene& scene, const Camera& camera, const gpu::FrameStyle& style, int samples,
-                       Tile tile, FrameRenderer& renderer, PictureReport& report) {
-    for (int i = 0; i < samples; ++i) {
-        tile.sample_px = sample_place(i, samples);
-        FramePlan plan = plan_frame(scene.pages, scene.shape, camera, tile);
+Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
+                       const PictureOptions& options, Tile tile, FrameRenderer& renderer,
+                       PictureReport& report) {
+    for (int i = 0; i < options.samples; ++i) {
+        tile.sample_px = sample_place(i, options.samples);
+        ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px));
+        report.settled = report.settled && plan.missing.empty();
         if (i == 0) {
             report.pages_beyond_frustum += plan.pages_beyond_frustum;
             report.pages_beyond_horizon += plan.pages_beyond_horizon;
         }
-        ORO_TRY(const FrameReport drawn,
-                renderer.draw(scene.store, std::move(plan), style, static_cast<std::uint32_t>(i),
-                              static_cast<std::uint32_t>(samples)));
+        ORO_TRY(const FrameReport drawn, renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),
+                                                       static_cast<std::uint32_t>(options.samples)));
         if (i == 0) add_counts(report, drawn);
+        report.choose_s += drawn.choose_s;
         report.raster_s += drawn.raster_s;
         report.shade_s += drawn.shade_s;
     }
@@ -68,34 +66,7 @@ glm::dvec2 sample_place(int index, int count) {
     return {at(1.0 / plastic), at(1.0 / (plastic * plastic))};
 }
 
-Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exaggeration,
-                           const RenderProgress& progress) {
-    ORO_TRY(PageStore store, PageStore::create(gpu));
-    Scene scene{region_shape(field, exaggeration), {}, std::move(store), 0};
-    const PageLayout layout = page_layout(field.grid);
-    const int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
-    const DrawnHeights heights = drawn_heights(field, exaggeration, threads);
-    // Built here and sent as a whole, row by row: memory that the GPU reads from is slow to read back.
-    std::vector<gpu::PageBlock> blocks(static_cast<std::size_t>(layout.columns));
-    std::vector<PageSummary> pages(blocks.size());
-    for (int row = 0; row < layout.rows; ++row) {
-        in_parallel(layout.columns, threads, [&](int column) {
-            const auto at = static_cast<std::size_t>(column);
-            pages[at] = build_page(field, scene.shape, heights, {row, column}, blocks[at]);
-        });
-        for (std::size_t at = 0; at < pages.size(); ++at) {
-            if (pages[at].triangles == 0) continue;
-            ORO_CHECK(scene.store.add_page(blocks[at]));
-            scene.pages.push_back(pages[at]);
-            scene.triangles += pages[at].triangles;
-        }
-        if (progress) progress(static_cast<double>(row + 1) / layout.rows);
-    }
-    ORO_CHECK(scene.store.finish());
-    return scene;
-}
-
-Result<PictureReport> render_picture(const Gpu& gpu, const Scene& scene, const Camera& camera,
+Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera& camera,
                                      const gpu::FrameStyle& style, const PictureOptions& options,
                                      const RowSink& sink, const RenderProgress& progress) {
     assert(camera.width_px > 0 && camera.height_px > 0 && options.samples > 0);
@@ -121,7 +92,7 @@ Result<PictureReport> render_picture(const Gpu& gpu, const Scene& scene, const C
             tile.y_px = y;
             tile.width_px = std::min(tile_width, camera.width_px - x);
             tile.height_px = rows;
-            ORO_CHECK(draw_tile(scene, camera, style, options.samples, tile, renderer, report));
+            ORO_CHECK(draw_tile(scene, camera, style, options, tile, renderer, report));
             ORO_TRY(const std::vector<std::uint8_t> rgba,
                     renderer.read_picture(static_cast<std::uint32_t>(tile.width_px),
                                           static_cast<std::uint32_t>(rows)));

@@ -6,30 +6,16 @@
 #include <span>
 
 #include "core/camera.h"
-#include "core/page.h"
 #include "render/frame_renderer.h"
+#include "render/scene.h"
 
 namespace oro {
-
-// A region as it lies ready on the GPU.
-struct Scene {
-    RegionShape shape;
-    std::vector<PageSummary> pages;  // those with triangles, in the order of the store
-    PageStore store;
-    std::uint64_t triangles{};  // at full resolution
-};
-
-// Told how far a long step is, 0..1.
-using RenderProgress = std::function<void(double share)>;
-
-// Builds all pages of a height field and sends them to the GPU. Errors: out of device memory.
-Result<Scene> create_scene(const Gpu& gpu, const HeightField& field, double exaggeration,
-                           const RenderProgress& progress = {});
 
 struct PictureOptions {
     int samples{1};          // per pixel, 1..64, each at a place of its own
     int largest_tile_px{0};  // 0: chosen from the device; tests make it small
     RasterPath path{RasterPath::mesh};
+    double tau_px{1.0};  // 0: full resolution
 };
 
 // What it took to draw a picture: times are sums over its tiles and samples, counts those of the first sample
@@ -38,10 +24,12 @@ struct PictureReport {
     std::uint64_t meshlets_drawn{};
     std::uint64_t meshlets_beyond_frustum{};
     std::uint64_t meshlets_beyond_horizon{};
-    std::uint64_t meshlets_void{};
+    std::uint64_t mesh_groups{};
     std::uint64_t triangles_drawn{};
-    std::uint64_t pages_drawn{};
-    double raster_s{};  // GPU timestamps, all samples
+    std::uint64_t pages_drawn{};  // with a meshlet of the right level
+    bool settled{true};           // all that tau asks for was there
+    double choose_s{};            // GPU timestamps, all samples
+    double raster_s{};
     double shade_s{};
     std::uint64_t pages_beyond_frustum{};
     std::uint64_t pages_beyond_horizon{};
@@ -54,7 +42,7 @@ using RowSink = std::function<Result<void>(std::span<const std::uint8_t> rgb)>;
 
 // Draws what the camera sees and hands it on from the top row down. Errors: those of the device and of the
 // sink.
-Result<PictureReport> render_picture(const Gpu& gpu, const Scene& scene, const Camera& camera,
+Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera& camera,
                                      const gpu::FrameStyle& style, const PictureOptions& options,
                                      const RowSink& sink, const RenderProgress& progress = {});
 

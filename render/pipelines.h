@@ -10,18 +10,13 @@ inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat sum_format = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat picture_format_vk = VK_FORMAT_R8G8B8A8_UNORM;
 
-// What every draw and dispatch is told directly; the same block as in shaders/frame.glsl.
-struct PushBlock {
-    std::uint32_t frame_address[2];
-    std::uint32_t first_page;
-};
-
 struct Pipelines {
-    OwnedSetLayout image_set;          // bindings 0 ids, 1 sum, 2 picture: storage images of the shading pass
-    OwnedPipelineLayout layout;        // image_set and PushBlock for all stages
-    VkShaderStageFlags push_stages{};  // that PushBlock goes to
+    OwnedSetLayout set;  // 0 ids, 1 sum, 2 picture: storage images of the shading pass; 3 FrameConstants
+    OwnedPipelineLayout layout;        // that set alone
+    OwnedPipeline accept, live_pages;  // levels chosen, in this order
     OwnedPipeline terrain;             // mesh path: task, mesh, fragment
-    std::uint32_t meshlets_per_task{};
+    std::uint32_t meshlets_per_task{1};
+    std::uint32_t meshlets_per_group{1};                    // of a mesh workgroup
     OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
     OwnedPipeline shade;                                    // compute, 8 x 8
 };

@@ -1,5 +1,5 @@
 // Which level of a region is drawn where, and how the edges between levels meet. Compiled as GLSL for the GPU and as C++ by
-// core/levels.cpp, so that what is tested against brute force is what runs. Needs shared.h.
+// core/levels.cpp, so that what is tested against brute force is what runs: `precise`, so that both round alike. Needs shared.h.
 
 // Edges of a node that is drawn beside one of the next coarser level.
 ORO_CONST uint edge_north = 1u;
@@ -22,18 +22,18 @@ ORO_CONST float unfit_error_m = 1.0e30f;
 // to the next, so that what holds for a node holds for those below it.
 ORO_FUNCTION float projected_error_px(vec3 centre_view, float radius, float error_m, float pixels_per_tangent, float corner_tangent) {
     if (error_m <= 0.0f) return 0.0f;
-    float across_m = sqrt(centre_view.x * centre_view.x + centre_view.y * centre_view.y);
-    float distance_m = sqrt(across_m * across_m + centre_view.z * centre_view.z);
-    float slack_m = 1.0e-6f * distance_m + 1.0e-5f * radius;
-    float e = error_m * 1.00001f;
-    float px = 1.0e30f;
-    float z_min_m = -centre_view.z - radius - slack_m;
+    ORO_PRECISE float across_m = sqrt(centre_view.x * centre_view.x + centre_view.y * centre_view.y);
+    ORO_PRECISE float distance_m = sqrt(across_m * across_m + centre_view.z * centre_view.z);
+    ORO_PRECISE float slack_m = 1.0e-6f * distance_m + 1.0e-5f * radius;
+    ORO_PRECISE float e = error_m * 1.00001f;
+    ORO_PRECISE float px = 1.0e30f;
+    ORO_PRECISE float z_min_m = -centre_view.z - radius - slack_m;
     if (z_min_m > e) {
-        float t = min((across_m + radius + slack_m) / z_min_m, corner_tangent);
+        ORO_PRECISE float t = min((across_m + radius + slack_m) / z_min_m, corner_tangent);
         px = min(px, pixels_per_tangent * e * sqrt(1.0f + t * t) / (z_min_m - e));
     }
-    float stretch = sqrt(1.0f + corner_tangent * corner_tangent);
-    float d_min_m = distance_m - radius - slack_m;
+    ORO_PRECISE float stretch = sqrt(1.0f + corner_tangent * corner_tangent);
+    ORO_PRECISE float d_min_m = distance_m - radius - slack_m;
     if (d_min_m > e * stretch) px = min(px, pixels_per_tangent * e * stretch * stretch / (d_min_m - e * stretch));
     return px;
 }

@@ -3,12 +3,9 @@
 #extension GL_EXT_shader_atomic_int64 : require
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Lists { RasterLists at; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Words { uint at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Live { LivePages at; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer LargeTriangles { LargeTriangle at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer LargeTasks { LargeTask at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Visibility { uint64_t at[]; };
 
 Lists lists() { return Lists(FRAME.lists); }
-
-// The number of this workgroup in a dispatch that was folded into rows.
-uint folded_group() { return gl_WorkGroupID.y * groups_per_row + gl_WorkGroupID.x; }

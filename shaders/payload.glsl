@@ -1,5 +1,6 @@
 // What a task workgroup tells its mesh workgroups.
 struct TaskPayload {
     uint page_number;
-    uint meshlets[meshlets_per_task_max];
+    uint count;                            // of the meshlets
+    uint meshlets[meshlets_per_task_max];  // number in the page, edges << 8
 };

@@ -1,16 +1,14 @@
-// Exact placement of posts in float32. Needs frame.glsl and select.glsl.
-// Every expression is `precise`: the same post gives the same bits in every workgroup and shader that asks for it.
+// Exact placement of posts in float32, relative to the eye. Needs frame.glsl and levels.glsl.
+// Every expression is `precise`: the same post gives the same bits in every workgroup and shader that asks for it, and from every
+// page and level that has it.
 
-float post_dh(PageBlocks block, uint row, uint column) {
-    return block.at[0].dh[(row + 1u) * height_stride + column + 1u];
-}
+int post_height(PageBlocks block, uvec2 post) { return block.at[0].heights[(post.x + 1u) * height_stride + post.y + 1u]; }
 
-bool is_void(float dh) { return dh < void_dh_limit_m; }
-
-// Position in the page frame, relative to the page's origin; within 1 mm on pages up to 4 km, 2 mm up to 12 km.
-vec3 place_in_page(PageBlocks block, uint row, uint column, float dh) {
-    RowTerms t = block.at[0].rows[row];
-    ColumnTerms u = block.at[0].columns[column];
+// Position in the eye's meridian frame; within 1 mm up to 4 km away, and 1 mm and 3.2e-7 of the distance beyond (0.0005 px).
+vec3 place_from_eye(FramePage page, uvec2 post, int height) {
+    RowTerms t = RowTable(FRAME.row_terms).at[page.row_terms + post.x];
+    ColumnTerms u = ColumnTable(FRAME.column_terms).at[page.column_terms + post.y];
+    precise float dh = float(height - FRAME.reference_steps) * height_step_m;
     precise float r = t.P + dh * t.C;
     precise vec3 position;
     position.x = (t.R + dh * t.C) - r * u.V;
@@ -19,25 +17,9 @@ vec3 place_in_page(PageBlocks block, uint row, uint column, float dh) {
     return position;
 }
 
-// Position of a rim post relative to the eye, ECEF axes: the same bits whichever of its pages asks.
-vec3 place_on_rim(PageBlocks block, uint row, uint column) {
-    BorderPost post = block.at[0].borders[border_index(row, column)];
-    precise vec3 offset = (post.high - FRAME.eye_high) + (post.low - FRAME.eye_low);
-    return offset;
-}
-
-bool on_rim(uint row, uint column) {
-    return row == 0u || column == 0u || row == page_quads || column == page_quads;
-}
-
-// Position in view coordinates. row and column count within the page.
-vec3 place_in_view(PageBlocks block, FramePage page, uint row, uint column, float dh) {
-    precise vec3 position;
-    if (on_rim(row, column)) {
-        position = FRAME.view_from_ecef * place_on_rim(block, row, column);
-    } else {
-        position = page.view_from_page * place_in_page(block, row, column, dh) + page.origin_view;
-    }
+// Position in view coordinates. post: (row, column) within the page.
+vec3 place_in_view(FramePage page, uvec2 post, int height) {
+    precise vec3 position = FRAME.view_from_eye * place_from_eye(page, post, height);
     return position;
 }
 
@@ -49,4 +31,14 @@ vec4 project(vec3 view) {
     clip.y = FRAME.projection_scale.y * view.y + FRAME.projection_shift.y * clip.w;
     clip.z = FRAME.near_m;
     return clip;
+}
+
+// The post of a meshlet's vertex (row, column within the meshlet) in its page, after stitching.
+uvec2 vertex_post(FramePage page, uint meshlet, uvec2 vertex, uint edges) {
+    uvec2 corner = first_post(meshlet);
+    if (edges == 0u) return corner + vertex;
+    // Quads of the meshlet: 8, or fewer where the region ends.
+    uvec2 last = uvec2(FRAME.last_row, FRAME.last_column) + (1u << page.level) - 1u;
+    uvec2 quads = min((last >> page.level) - (uvec2(page.first_row, page.first_column) >> page.level) - corner, uvec2(meshlet_quads));
+    return corner + stitched_post(vertex, quads, edges);
 }

@@ -86,8 +86,14 @@ float depth_at(ScreenTriangle t, float share_b, float share_c) {
     return depth;
 }
 
-// The pixels of `box` that are inside, every `stride`-th from `start` on. The triangle is at most large_square_px wide and high:
-// then 32 bits hold every product.
+// At most near_px wide and high: then 32 bits hold every product of draw_near.
+const int near_px = 64;
+bool fits_near(ScreenTriangle t) {
+    ivec2 size = max(t.a, max(t.b, t.c)) - min(t.a, min(t.b, t.c));
+    return max(size.x, size.y) <= near_px * subpixels;
+}
+
+// The pixels of `box` that are inside, every `stride`-th from `start` on. The triangle fits_near.
 void draw_near(ScreenTriangle t, ivec4 box, uint start, uint stride) {
     ivec2 origin = box.xy * subpixels + ivec2(subpixels / 2);
     ivec2 a = t.a - origin, b = t.b - origin, c = t.c - origin;

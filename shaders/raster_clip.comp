@@ -2,7 +2,7 @@
 // Triangles that cross the near plane or leave the grid: cut to what is in front and on the grid, then handed on as large ones.
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
-#include "select.glsl"
+#include "levels.glsl"
 #include "place.glsl"
 #include "lists.glsl"
 #include "raster.glsl"
@@ -33,19 +33,19 @@ int clipped(inout vec4 corners[corners_max], int count, int plane) {
 }
 
 void main() {
-    uint number = folded_group() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+    uint number = folded(gl_WorkGroupID) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     if (number >= min(lists().at.clips, clips_max)) return;
     uint id = Words(FRAME.clip_list).at[number];
     uint triangle = (id - 1u) % meshlet_triangles, meshlet = (id - 1u) / meshlet_triangles % meshlets_per_page;
     FramePage page = frame_pages().at[(id - 1u) / (meshlet_triangles * meshlets_per_page)];
     PageBlocks block = PageBlocks(page.block);
-    uvec2 corner = uvec2(meshlet / meshlets_per_side, meshlet % meshlets_per_side) * meshlet_quads;
+    uint edges = edges_of((id - 1u) / meshlet_triangles);
     uvec2 posts[3];
     triangle_posts(triangle, posts[0], posts[1], posts[2]);
     vec4 corners[corners_max];
     for (int i = 0; i < 3; ++i) {
-        uvec2 post = posts[i] + corner;
-        corners[i] = project(place_in_view(block, page, post.x, post.y, post_dh(block, post.x, post.y)));
+        uvec2 post = vertex_post(page, meshlet, posts[i], edges);
+        corners[i] = project(place_in_view(page, post, post_height(block, post)));
     }
     int count = 3;
     for (int plane = 0; plane < clip_planes && count >= 3; ++plane) count = clipped(corners, count, plane);

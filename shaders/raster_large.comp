@@ -2,14 +2,13 @@
 // One square of one large triangle a workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
-#include "select.glsl"
 #include "lists.glsl"
 #include "raster.glsl"
 
 layout(local_size_x = 128) in;
 
 void main() {
-    uint number = folded_group();
+    uint number = folded(gl_WorkGroupID);
     if (number >= min(lists().at.tasks, tasks_max)) return;
     LargeTask task = LargeTasks(FRAME.task_list).at[number];
     if (task.triangle == no_triangle) return;
@@ -24,5 +23,6 @@ void main() {
     ivec2 square = ivec2(task.square & 0xffffu, task.square >> 16) * int(large_square_px);
     box = ivec4(max(box.xy, square), min(box.zw, square + int(large_square_px) - 1));
     if (box.z < box.x || box.w < box.y) return;
-    draw_far(t, box, gl_LocalInvocationIndex, 128u);
+    if (fits_near(t)) draw_near(t, box, gl_LocalInvocationIndex, 128u);
+    else draw_far(t, box, gl_LocalInvocationIndex, 128u);
 }

@@ -1,15 +1,6 @@
 // Which meshlets are worth drawing. Conservative: may keep what is hidden, never drops what can be seen. Compiled as GLSL for
 // the GPU and as C++ by core/culling.cpp, so that what is tested against brute force is what runs.
 
-// Number of a page's rim post (row or column 0 or 128) in PageBlock.borders: the north row, the south row, then the
-// west and east columns without their ends.
-ORO_FUNCTION uint border_index(uint row, uint column) {
-    if (row == 0u) return column;
-    if (row == page_quads) return page_posts + column;
-    uint side = column == 0u ? 0u : 127u;
-    return 2u * page_posts + side + row - 1u;
-}
-
 // A sphere in the page frame that lies wholly outside one of the planes. Slack: above the float rounding of every term.
 ORO_FUNCTION bool sphere_beyond_plane(vec3 centre, float radius, vec4 plane) {
     float distance_m = dot(vec3(plane), centre) + plane.w;

@@ -34,30 +34,26 @@ ORO_CONST uint meshlet_triangles = 128u;
 // Heights are kept with one more post on each side, so that slopes are continuous across pages.
 ORO_CONST uint height_stride = 131u;
 ORO_CONST uint page_heights = 17161u;  // height_stride squared
-ORO_CONST uint border_posts = 512u;    // see border_index
-// dh of a post that is void. Far below any real dh, and finite.
-ORO_CONST float void_dh_m = -1.0e30f;
-ORO_CONST float void_dh_limit_m = -1.0e29f;  // dh below this is void
+// Heights are kept in whole steps of 2^-11 m above the ellipsoid (core/drawn_heights.h), so that every page and level holds the
+// same number for a post.
+ORO_CONST float height_step_m = 1.0f / 2048.0f;
+ORO_CONST int void_height = -2147483647 - 1;
 
-// Exact placement of posts relative to their page's origin (lat0, lon0, h0), in the page frame: x outward in the equatorial
-// plane at lon0, y east, z north along the axis. With N_e the prime-vertical radius and rho0, z0 the origin's
-// cylinder coordinates, all computed in double and rounded once:
+// Exact placement of posts relative to the eye, in the eye's meridian frame: x outward in the equatorial plane at the eye's
+// longitude, y east, z north along the axis. Each frame has tables for its pages' rows and columns, computed in double and
+// rounded once, that depend on the post's angle and the eye alone: a post gets the same bits from every page and level.
+// With N_e the prime-vertical radius, ha the frame's height of reference (FrameConstants.reference_steps), rho_eye and z_eye
+// the eye's cylinder coordinates, and dlon from the eye's longitude:
 struct RowTerms {
-    float R;  // (N_e + h0) cos(lat) - rho0
+    float R;  // (N_e + ha) cos(lat) - rho_eye
     float C;  // cos(lat)
     float S;  // sin(lat)
-    float P;  // (N_e + h0) cos(lat)
-    float Z;  // (N_e (1 - e2) + h0) sin(lat) - z0
+    float P;  // (N_e + ha) cos(lat)
+    float Z;  // (N_e (1 - e2) + ha) sin(lat) - z_eye
 };
 struct ColumnTerms {
     float V;  // 2 sin^2(dlon / 2)
     float W;  // sin(dlon)
-};
-// A post on the page's rim in ECEF metres, high + low, each the float nearest to what remains. Both pages that share
-// the post hold the same bits, so their triangles meet without a gap.
-struct BorderPost {
-    vec3 high;
-    vec3 low;
 };
 // What a meshlet's posts lie in: a sphere in the page frame, and a cone around a direction in scaled space (unit sphere
 // = occluding ellipsoid): when the eye's direction is farther from `horizon_direction` than the eye's own horizon angle plus
@@ -75,19 +71,15 @@ struct MeshletBounds {
 };
 // One page as the GPU holds it.
 struct PageBlock {
-    RowTerms rows[129];
-    ColumnTerms columns[129];
-    BorderPost borders[512];
     MeshletBounds meshlets[256];
-    float h0_m;              // height of the page's origin above the ellipsoid
-    float row_spacing_m;     // metres along the meridian from one row to the next, at the page's middle
-    float column_spacing_rad;
-    float exaggeration;      // drawn h = H * exaggeration + N
-    float N_m[4];            // undulation at the north-west, north-east, south-west, south-east corners
-    float dh[17161];         // drawn h - h0, row by row from post (-1, -1); void_dh_m where void
+    // Metres from one of the region's posts (of level 0) to the next: along the meridian; along the parallel, to be multiplied by
+    // the cosine of the latitude. At the page's middle.
+    float row_spacing_m;
+    float column_spacing_m;
+    int heights[17161];      // drawn heights row by row from post (-1, -1), in steps; void_height where there is none
 };
 
-// A page that this frame draws. Its number in the frame's list is in the triangle ids.
+// A page of this frame: one that is drawn, or one above such a page. Its number in the frame's list is in the triangle ids.
 struct FramePage {
     mat3 view_from_page;     // rotation
     vec3 origin_view;        // the page's origin in view coordinates, metres
@@ -95,17 +87,47 @@ struct FramePage {
     vec3 horizon_direction;  // scaled direction of the eye minus that of the page
     uvec2 block;             // device address of its PageBlock
     uint cull;               // bits: 1 the frustum, 2 the horizon may hide some meshlets of it
+    uint level;
+    uint first_row;          // number in the region of the page's first post
+    uint first_column;
+    uint row_terms;          // place of its 129 rows in the frame's table
+    uint column_terms;
+    uint quarter;            // of its parent page that it lies in: 2 south + east
+    uint parent;             // number of that page in this frame; no_page when there is none
+    uint beside[4];          // pages of the parent's level that hold the parents of the nodes beyond the north, east, south and
+                             // west rim
+    uint children[4];        // pages of the next finer level: north-west, north-east, south-west, south-east
+    uint last_column;        // last node of a row, 15 or less where a region goes round the Earth
+    uint west_column;        // parent of the node beyond the west rim: its column in that page
+    uint stand_in;           // bits of the quarters whose nodes are drawn whatever their error: nothing finer is there
 };
+// Slopes are shaded from the coarsest page whose posts are at most so many pixels apart, whatever level the triangles are of.
+ORO_CONST float shading_spacing_px = 1.5f;
+ORO_CONST uint no_page = 0xffffffffu;
+ORO_CONST uint pages_max = 131071u;    // of a frame: what triangle ids can number
+ORO_CONST uint accepted_words = 8u;    // a page: a bit for each node
+ORO_CONST uint edges_words = 32u;      // a page: four bits for each node
 ORO_CONST uint cull_by_frustum = 1u;
 ORO_CONST uint cull_by_horizon = 2u;
 
+ORO_CONST uint groups_per_row = 32768u;  // of an indirect dispatch; below every device's limit
+
 struct FrameCounts {
+    uint pages_live;         // with a node of the right level
+    uint nodes_chosen;       // of the right level; those that are hidden included
     uint meshlets_beyond_frustum;
     uint meshlets_beyond_horizon;
-    uint meshlets_void;
     uint meshlets_drawn;
     uint triangles_drawn;
+    uint mesh_groups;        // mesh path: workgroups of mesh shaders
     uint triangles_not_clipped;  // compute path: no room in the list; the frame has holes
+};
+
+// The pages that have something to draw, in the frame's order, and how many workgroups go through them.
+struct LivePages {
+    uint count;
+    uint task_groups[3];     // of an indirect draw: groups of a page, then pages folded into rows
+    uint cull_groups[3];     // of an indirect dispatch: pages folded into rows
 };
 
 // What the compute rasteriser passes from one of its steps to the next. Group counts are those of an indirect dispatch.
@@ -129,11 +151,10 @@ struct LargeTask {
     uint square;  // x in the low 16 bits, y in the high ones, in units of large_square_px
 };
 ORO_CONST uint no_triangle = 0xffffffffu;  // a task whose triangle found no room and was drawn at once
-ORO_CONST uint large_square_px = 64u;
+ORO_CONST uint large_square_px = 32u;
 ORO_CONST uint clips_max = 1048576u;
 ORO_CONST uint large_max = 262144u;
 ORO_CONST uint tasks_max = 1048576u;
-ORO_CONST uint groups_per_row = 32768u;  // of an indirect dispatch; below every device's limit
 
 struct TintStop {
     float H_m;
@@ -155,10 +176,18 @@ struct FrameStyle {
     float sky_scale_height_m;
 };
 
+// The geoid's undulation N at nodes of its own, bilinear between them; the nearest beyond them.
+struct UndulationTable {
+    uvec2 N_m;               // device address of float[rows * columns]; 0 where N is 0 everywhere
+    uint rows;
+    uint columns;
+    vec2 first;              // of the region's first post: (row, column) among the nodes
+    vec2 per_post;           // nodes from one of the region's posts to the next
+};
+
 struct FrameConstants {
-    mat3 view_from_ecef;
-    vec3 eye_high;           // the eye in ECEF metres, high + low
-    vec3 eye_low;
+    mat3 view_from_eye;      // rotation, from the eye's meridian frame
+    int reference_steps;     // height that the row terms are for, a whole number of metres
     vec2 projection_scale;   // see core/camera.h, Projection
     vec2 projection_shift;
     float near_m;
@@ -168,18 +197,32 @@ struct FrameConstants {
     float earth_radius_m;    // Gaussian radius of curvature at the eye
     uint width_px;
     uint height_px;
+    float pixels_per_tangent;  // for the choice of levels, see core/levels.h
+    float corner_tangent;
+    float tau_px;
+    float exaggeration;      // drawn h = H * exaggeration + N
+    uint last_row;           // of the region's posts
+    uint last_column;
     uint page_count;
     uint sample_index;       // samples of a pixel are drawn one after the other
     uint sample_count;
     uvec2 pages;             // device address of FramePage[page_count]
+    uvec2 row_terms;         // RowTerms
+    uvec2 column_terms;      // ColumnTerms
+    uvec2 accepted;          // accepted_words a page: nodes that may stand for what is below them
+    uvec2 edges;             // edges_words a page: edges (levels.glsl) of the nodes that are drawn
+    uvec2 live;              // uint[2 page_count]: whether a page has something to draw, then the numbers of those that have
+    uvec2 live_pages;        // LivePages
     uvec2 counts;            // device address of FrameCounts
+    uvec2 depths;            // float for each pixel, row by row: reversed depth of what is seen; 0 when not wanted
     uvec2 recorded;          // device address of recorded positions, or 0 (tests only)
     uvec2 visibility;        // compute rasteriser: device address of depth << 32 | id for each pixel, row by row
     uvec2 lists;             // RasterLists
-    uvec2 meshlet_list;      // frame page * 256 + meshlet
+    uvec2 meshlet_list;      // frame page * 256 + meshlet, edges << 28
     uvec2 clip_list;         // triangle ids
     uvec2 large_list;        // LargeTriangle[large_max]
     uvec2 task_list;         // LargeTask[tasks_max]
+    UndulationTable undulation;
     FrameStyle style;
 };
 

@@ -1,4 +1,4 @@
-// From a triangle id and a pixel's ray back to the place on the surface. Needs frame.glsl and place.glsl.
+// From a triangle id and a pixel's ray back to the place on the surface. Needs frame.glsl, levels.glsl and place.glsl.
 
 struct SurfacePoint {
     vec3 view;      // metres
@@ -8,38 +8,86 @@ struct SurfacePoint {
     vec3 normal;    // east, north, up at the place
 };
 
-float dh_or(PageBlocks block, ivec2 post, float otherwise) {
-    float dh = block.at[0].dh[uint(post.x + 1) * height_stride + uint(post.y + 1)];
-    return is_void(dh) ? otherwise : dh;
+int height_or(PageBlocks block, ivec2 post, int otherwise) {
+    int height = block.at[0].heights[uint(post.x + 1) * height_stride + uint(post.y + 1)];
+    return height == void_height ? otherwise : height;
 }
 
-// Slope at a post towards (south, east), per post. One-sided beside a void.
-vec2 slope_at_post(PageBlocks block, ivec2 post) {
-    float here = dh_or(block, post, 0.0);
-    float north = dh_or(block, post + ivec2(-1, 0), void_dh_m), south = dh_or(block, post + ivec2(1, 0), void_dh_m);
-    float west = dh_or(block, post + ivec2(0, -1), void_dh_m), east = dh_or(block, post + ivec2(0, 1), void_dh_m);
-    float down_scale = (is_void(north) ? 0.0 : 1.0) + (is_void(south) ? 0.0 : 1.0);
-    float right_scale = (is_void(west) ? 0.0 : 1.0) + (is_void(east) ? 0.0 : 1.0);
-    float down = (is_void(south) ? here : south) - (is_void(north) ? here : north);
-    float right = (is_void(east) ? here : east) - (is_void(west) ? here : west);
-    return vec2(down / max(down_scale, 1.0), right / max(right_scale, 1.0));
+// Number in the region of a place in a page (row, column, fractional): the last quad is narrower where the region ends.
+vec2 region_post(FramePage page, vec2 post) {
+    vec2 first = vec2(page.first_row, page.first_column), last = vec2(FRAME.last_row, FRAME.last_column);
+    float spacing = float(1u << page.level);
+    vec2 whole = floor(post);
+    vec2 from = min(first + whole * spacing, last), to = min(first + (whole + 1.0) * spacing, last);
+    return from + (post - whole) * (to - from);
+}
+
+// The inverse.
+vec2 page_post(FramePage page, vec2 region) {
+    vec2 first = vec2(page.first_row, page.first_column), last = vec2(FRAME.last_row, FRAME.last_column);
+    float spacing = float(1u << page.level);
+    vec2 whole = floor((region - first) / spacing);
+    vec2 from = first + whole * spacing, to = min(from + spacing, last);
+    return whole + (region - from) / max(to - from, vec2(1.0e-3));
+}
+
+// Goes down to the page that a place is shaded from: posts close enough on the screen, or the finest that is here.
+void descend(inout FramePage page, inout vec2 post, float distance_m) {
+    float spacing_px = PageBlocks(page.block).at[0].row_spacing_m * float(1u << page.level) * FRAME.pixels_per_tangent / distance_m;
+    vec2 region = region_post(page, post);
+    while (spacing_px > shading_spacing_px) {
+        uvec2 part = uvec2(greaterThanEqual(post, vec2(float(page_quads) * 0.5)));
+        uint child = page.children[part.x * 2u + part.y];
+        if (child == no_page) return;
+        page = frame_pages().at[child];
+        post = clamp(page_post(page, region), vec2(0.0), vec2(float(page_quads)));
+        spacing_px *= 0.5;
+    }
+}
+
+// Slope at a post towards (south, east), metres from one of the region's posts to the next. One-sided beside a void.
+vec2 slope_at_post(PageBlocks block, FramePage page, ivec2 post) {
+    int here = height_or(block, post, 0);
+    ivec4 around = ivec4(height_or(block, post + ivec2(-1, 0), void_height), height_or(block, post + ivec2(1, 0), void_height),
+                         height_or(block, post + ivec2(0, -1), void_height), height_or(block, post + ivec2(0, 1), void_height));
+    bvec4 there = notEqual(around, ivec4(void_height));
+    // A region that goes round the Earth has posts beyond its last: there the spacing is the same on both sides.
+    vec2 at = region_post(page, vec2(post));
+    vec2 before = region_post(page, vec2(post - 1)), after = region_post(page, vec2(post + 1));
+    float spacing = float(1u << page.level);
+    vec2 to_after = vec2(after.x > at.x ? after.x - at.x : spacing, after.y > at.y ? after.y - at.y : spacing);
+    vec2 to_before = vec2(at.x > before.x ? at.x - before.x : spacing, at.y > before.y ? at.y - before.y : spacing);
+    float down = float((there.y ? around.y : here) - (there.x ? around.x : here));
+    float right = float((there.w ? around.w : here) - (there.z ? around.z : here));
+    float down_posts = (there.y ? to_after.x : 0.0) + (there.x ? to_before.x : 0.0);
+    float right_posts = (there.w ? to_after.y : 0.0) + (there.z ? to_before.y : 0.0);
+    return height_step_m * vec2(down / max(down_posts, 1.0), right / max(right_posts, 1.0));
 }
 
 // Normal of the smoothed surface: slopes at the cell's four posts, bilinear between them.
-vec3 normal_at(PageBlocks block, vec2 post) {
+vec3 normal_at(PageBlocks block, FramePage page, vec2 post) {
     ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 in_cell = post - vec2(cell);
-    vec2 north = mix(slope_at_post(block, cell), slope_at_post(block, cell + ivec2(0, 1)), in_cell.y);
-    vec2 south = mix(slope_at_post(block, cell + ivec2(1, 0)), slope_at_post(block, cell + ivec2(1, 1)), in_cell.y);
+    vec2 north = mix(slope_at_post(block, page, cell), slope_at_post(block, page, cell + ivec2(0, 1)), in_cell.y);
+    vec2 south = mix(slope_at_post(block, page, cell + ivec2(1, 0)), slope_at_post(block, page, cell + ivec2(1, 1)), in_cell.y);
     vec2 slope = mix(north, south, in_cell.x);
-    float column_spacing_m = max(block.at[0].rows[uint(cell.x)].P * block.at[0].column_spacing_rad, 1.0e-3);
+    float cosine = RowTable(FRAME.row_terms).at[page.row_terms + uint(cell.x)].C;
+    float column_spacing_m = max(abs(cosine) * block.at[0].column_spacing_m, 1.0e-3);
     return normalize(vec3(-slope.y / column_spacing_m, slope.x / block.at[0].row_spacing_m, 1.0));
 }
 
-float undulation_at(PageBlocks block, vec2 post) {
-    vec2 share = post / float(page_quads);
-    float north = mix(block.at[0].N_m[0], block.at[0].N_m[1], share.y);
-    float south = mix(block.at[0].N_m[2], block.at[0].N_m[3], share.y);
+// The geoid's undulation at a post of the region.
+float undulation_at(vec2 post) {
+    if (FRAME.undulation.N_m == uvec2(0u)) return 0.0;
+    vec2 size = vec2(FRAME.undulation.rows, FRAME.undulation.columns);
+    vec2 node = clamp(FRAME.undulation.first + post * FRAME.undulation.per_post, vec2(0.0), size - 1.0);
+    uvec2 low = uvec2(min(floor(node), max(size - 2.0, 0.0)));
+    uvec2 high = min(low + 1u, uvec2(size) - 1u);
+    vec2 share = node - vec2(low);
+    Floats N_m = Floats(FRAME.undulation.N_m);
+    uint columns = FRAME.undulation.columns;
+    float north = mix(N_m.at[low.x * columns + low.y], N_m.at[low.x * columns + high.y], share.y);
+    float south = mix(N_m.at[high.x * columns + low.y], N_m.at[high.x * columns + high.y], share.y);
     return mix(north, south, share.x);
 }
 
@@ -48,15 +96,16 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     uint meshlet = (id / meshlet_triangles) % meshlets_per_page;
     FramePage page = frame_pages().at[id / (meshlet_triangles * meshlets_per_page)];
     PageBlocks block = PageBlocks(page.block);
-    uvec2 corner = uvec2(meshlet / meshlets_per_side, meshlet % meshlets_per_side) * meshlet_quads;
+    uint edges = edges_of(id / meshlet_triangles);
     uvec2 posts[3];
     triangle_posts(triangle, posts[0], posts[1], posts[2]);
     vec3 at[3];
-    float dh[3];
+    float heights_m[3];
     for (int i = 0; i < 3; ++i) {
-        posts[i] += corner;
-        dh[i] = post_dh(block, posts[i].x, posts[i].y);
-        at[i] = place_in_view(block, page, posts[i].x, posts[i].y, dh[i]);
+        posts[i] = vertex_post(page, meshlet, posts[i], edges);
+        int height = post_height(block, posts[i]);
+        heights_m[i] = float(height) * height_step_m;
+        at[i] = place_in_view(page, posts[i], height);
     }
     // Where the ray from the eye (the origin of view coordinates) crosses the triangle's plane.
     // Source: T. Möller, B. Trumbore, Fast, minimum storage ray/triangle intersection, J. Graphics Tools 2(1), 1997.
@@ -71,9 +120,10 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     SurfacePoint point;
     point.view = share_a * at[0] + share_b * at[1] + share_c * at[2];
     point.post = share_a * vec2(posts[0]) + share_b * vec2(posts[1]) + share_c * vec2(posts[2]);
-    float h_m = block.at[0].h0_m + share_a * dh[0] + share_b * dh[1] + share_c * dh[2];
-    point.h_m = h_m;
-    point.H_m = (h_m - undulation_at(block, point.post)) / block.at[0].exaggeration;
-    point.normal = normal_at(block, point.post);
+    point.h_m = share_a * heights_m[0] + share_b * heights_m[1] + share_c * heights_m[2];
+    point.H_m = (point.h_m - undulation_at(region_post(page, point.post))) / FRAME.exaggeration;
+    vec2 post = point.post;
+    descend(page, post, length(point.view));
+    point.normal = normal_at(PageBlocks(page.block), page, post);
     return point;
 }

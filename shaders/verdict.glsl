@@ -1,11 +1,10 @@
 // Whether a meshlet is drawn, and if not, why. Both ways of drawing ask here. Needs frame.glsl and select.glsl.
 const uint is_kept = 0u;
-const uint is_void_meshlet = 1u;
+const uint is_not_chosen = 1u;  // another level is drawn there, or nothing is
 const uint is_beyond_frustum = 2u;
 const uint is_beyond_horizon = 3u;
 
 uint verdict_on(FramePage page, MeshletBounds bounds) {
-    if (bounds.radius < 0.0) return is_void_meshlet;
     if ((page.cull & cull_by_frustum) != 0u) {
         for (int i = 0; i < 5; ++i) {
             if (sphere_beyond_plane(bounds.centre, bounds.radius, page.planes[i])) return is_beyond_frustum;
@@ -23,5 +22,4 @@ void count_verdict(uint verdict) {
     if (verdict == is_kept) atomicAdd(counts.at.meshlets_drawn, 1u);
     else if (verdict == is_beyond_frustum) atomicAdd(counts.at.meshlets_beyond_frustum, 1u);
     else if (verdict == is_beyond_horizon) atomicAdd(counts.at.meshlets_beyond_horizon, 1u);
-    else atomicAdd(counts.at.meshlets_void, 1u);
 }

@@ -79,13 +79,14 @@ TEST_P(GoldenPicture, IsDrawnAsItWas) {
 INSTANTIATE_TEST_SUITE_P(
     Jacksboro, GoldenPicture,
     ::testing::Values(
-        Golden{"overview", {}}, Golden{"overview_samples", {"--samples", "8", "--exaggeration", "2"}},
-        Golden{"valley", {"--at", "36.47,-84.27", "--above", "300", "--heading", "50", "--pitch", "-8"}},
+        Golden{"overview", {"--tau", "0"}},
+        Golden{"overview_samples", {"--tau", "0", "--samples", "8", "--exaggeration", "2"}},
+        Golden{"valley", {"--tau", "0", "--at", "36.47,-84.27", "--above", "300", "--heading", "50", "--pitch", "-8"}},
         Golden{
             "edge",
-            {"--at", "36.6,-84.38", "--above", "1500", "--heading", "250", "--pitch", "-15", "--roll", "10"}},
-        Golden{"from_space", {"--at", "36.5,-84.2", "--altitude", "2000000", "--pitch", "-89", "--fov", "4"}},
-        Golden{"nadir", {"--at", "36.5,-84.2", "--altitude", "30000", "--pitch", "-90", "--sun", "90,20"}}),
+            {"--tau", "0", "--at", "36.6,-84.38", "--above", "1500", "--heading", "250", "--pitch", "-15", "--roll", "10"}},
+        Golden{"from_space", {"--tau", "0", "--at", "36.5,-84.2", "--altitude", "2000000", "--pitch", "-89", "--fov", "4"}},
+        Golden{"nadir", {"--tau", "0", "--at", "36.5,-84.2", "--altitude", "30000", "--pitch", "-90", "--sun", "90,20"}}),
     [](const auto& golden) { return std::string(golden.param.name); });
 
 }  // namespace

@@ -238,7 +238,7 @@ TEST_F(Shot, AntimeridianAndPoles) {
             words.insert(words.end(), shot.begin(), shot.end());
             for (const std::string& word :
                  Words{"--out", folder / "far.png", "--overwrite", "--json", "-q", "--size", "320x180",
-                       "--samples", "2", "--pipeline", pipeline})
+                       "--samples", "2", "--tau", "0", "--pipeline", pipeline})
                 words.push_back(word);
             oro::test::Circumstances validated;
             validated.environment = {"OROGRAPH_VALIDATION=1"};

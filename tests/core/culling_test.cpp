@@ -35,11 +35,27 @@ bool behind_unit_sphere(const glm::dvec3& eye, const glm::dvec3& point) {
     return glm::length(eye + t * step) < 1.0 - 1.0e-12;
 }
 
+// A region of one page that is known already.
+class OnePage : public RegionPages {
+  public:
+    OnePage(const PostGrid& grid, const RegionShape& shape, const PageSummary& page)
+        : RegionPages({grid, {}, shape, 0}), record_{page, page.radius_m, page.horizon, {}} {}
+
+    [[nodiscard]] Result<PageRecord> record(const PageIndex&) const override { return PageRecord(record_); }
+    Result<void> load(const PageIndex&, gpu::PageBlock&) const override {
+        return Error{ErrorKind::failed, "test", "blocks are not kept"};
+    }
+
+  private:
+    PageRecord record_;
+};
+
 // A page of random terrain somewhere on the Earth, and all of its posts.
 struct Place {
     RegionShape shape;
     PageSummary summary;
     gpu::PageBlock block;
+    std::unique_ptr<OnePage> pages;
     std::vector<glm::dvec3> ecef_m;  // 129 x 129
 
     const glm::dvec3& post(int meshlet, int i) const {
@@ -73,6 +89,7 @@ std::unique_ptr<Place> random_place(std::mt19937_64& random, const HorizonOcclud
             place->ecef_m.push_back(post_ecef(field, row, column, 1.0).m);
     }
     if (other_occluder) place->shape = region_shape(field, 1.0);  // what truly hides
+    place->pages = std::make_unique<OnePage>(field.grid, place->shape, place->summary);
     return place;
 }
 
@@ -176,12 +193,13 @@ struct Verdict {
     bool beyond_horizon;
 };
 Verdict verdict_on(const Place& place, const Camera& camera, const Tile& tile, int meshlet) {
-    const FramePlan plan =
-        plan_frame(std::span(&place.summary, 1), {place.shape.occluder, 1.0}, camera, tile);
-    if (plan.pages.empty()) return {plan.pages_beyond_frustum == 1, plan.pages_beyond_horizon == 1};
-    const gpu::FramePage& page = plan.pages[0];
+    const Result<FramePlan> plan = plan_frame(
+        *place.pages, [](const PageIndex&) { return 1U; }, camera, tile, 0.0);
+    EXPECT_TRUE(plan.ok());
+    if (plan->pages.empty()) return {plan->pages_beyond_frustum == 1, plan->pages_beyond_horizon == 1};
+    const gpu::FramePage& page = plan->pages[0];
     const gpu::MeshletBounds& bounds = place.block.meshlets[meshlet];
-    // As shaders/terrain.task.
+    // As shaders/verdict.glsl.
     Verdict verdict{false, false};
     for (const gpu::vec4& plane : page.planes) {
         const bool beyond = gpu::sphere_beyond_plane_cpu(bounds.centre, bounds.radius, plane);
@@ -191,7 +209,7 @@ Verdict verdict_on(const Place& place, const Camera& camera, const Tile& tile, i
     verdict.beyond_horizon =
         (page.cull & gpu::cull_by_horizon) != 0 &&
         gpu::beyond_horizon_cpu(page.horizon_direction - bounds.horizon_offset,
-                                plan.constants.horizon_angle_rad, bounds.horizon_angle_rad);
+                                plan->constants.horizon_angle_rad, bounds.horizon_angle_rad);
     return verdict;
 }
 

@@ -13,6 +13,7 @@
 #include <map>
 #include <random>
 
+#include "tests/core/covering.h"
 #include "tests/core/drawn_surface.h"
 #include "tests/core/pyramid_region.h"
 #include "tests/core/world_field.h"
@@ -21,83 +22,6 @@ namespace oro {
 namespace {
 
 using test::Region, test::patchy_field, test::random_camera, test::whole, test::taus_px;
-
-// Each level-0 node with a triangle is covered once; -1 where there is nothing to cover.
-void expect_one_cover(const Region& region, const NodeSelection& selection, std::vector<int>& level_at) {
-    const PyramidLevel& finest = region.pyramid.levels[0];
-    const int rows = finest.grid.row.nodes();
-    const int columns = finest.grid.column.nodes();
-    level_at.assign(static_cast<std::size_t>(rows * columns), -1);
-    for (const DrawnNode& node : selection.nodes) {
-        for (int row = node.row << node.level; row < std::min(rows, (node.row + 1) << node.level); ++row) {
-            for (int column = node.column << node.level;
-                 column < std::min(columns, (node.column + 1) << node.level); ++column) {
-                int& level = level_at[static_cast<std::size_t>(row * columns + column)];
-                ASSERT_EQ(level, -1) << "drawn twice";
-                level = node.level;
-            }
-        }
-    }
-    for (int i = 0; i < rows * columns; ++i) {
-        if (finest.node(i / columns, i % columns).radius >= 0.0F) {
-            ASSERT_GE(level_at[static_cast<std::size_t>(i)], 0) << "not drawn";
-        } else {
-            level_at[static_cast<std::size_t>(i)] = -1;
-        }
-    }
-}
-
-void expect_steps_of_one(const Region& region, const std::vector<int>& level_at) {
-    const int rows = region.grid(0).row.nodes();
-    const int columns = region.grid(0).column.nodes();
-    for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column) {
-            const int here = level_at[static_cast<std::size_t>(row * columns + column)];
-            const auto expect = [&](int other) {
-                if (here >= 0 && other >= 0) {
-                    ASSERT_LE(std::abs(here - other), 1) << row << " " << column;
-                }
-            };
-            if (row > 0) expect(level_at[static_cast<std::size_t>((row - 1) * columns + column)]);
-            if (column > 0) expect(level_at[static_cast<std::size_t>(row * columns + column - 1)]);
-            if (column == 0 && region.pyramid.goes_round)
-                expect(level_at[static_cast<std::size_t>(row * columns + columns - 1)]);
-        }
-    }
-}
-
-// Every edge of every drawn triangle belongs to two, in opposite directions, but where the surface ends:
-// there the full resolution must end, too. Posts are compared by number, so nothing can open.
-void expect_watertight(const Region& region, const NodeSelection& selection) {
-    using Edge = std::pair<test::RegionPost, test::RegionPost>;
-    std::map<Edge, int> edges;
-    const int last_column = region.heights.columns - 1;
-    const auto closed = [&](test::RegionPost post) {
-        if (region.pyramid.goes_round && post.column == last_column) post.column = 0;
-        return post;
-    };
-    for (const DrawnNode& node : selection.nodes) {
-        for (const auto& triangle : test::drawn_triangles(region.heights, region.grid(node.level), node.row,
-                                                          node.column, node.edges)) {
-            for (std::size_t i = 0; i < 3; ++i) ++edges[{closed(triangle[i]), closed(triangle[(i + 1) % 3])}];
-        }
-    }
-    for (const auto& [edge, uses] : edges) {
-        ASSERT_EQ(uses, 1) << "one triangle on each side";
-        if (edges.contains({edge.second, edge.first})) continue;
-        auto [a, b] = edge;
-        if (std::abs(a.column - b.column) > last_column / 2) (a.column == 0 ? a : b).column = last_column;
-        // An end of the surface. Triangles run counter-clockwise seen from above, so what is to the right of
-        // a -> b lies outside: of the full resolution, too.
-        const double length = std::hypot(b.row - a.row, b.column - a.column);
-        const double outward_row = 0.5 * (a.row + b.row) + 0.01 * (b.column - a.column) / length;
-        const double outward_column = 0.5 * (a.column + b.column) - 0.01 * (b.row - a.row) / length;
-        const bool outside = outward_row < 0.0 || outward_column < 0.0 ||
-                             outward_row > region.heights.rows - 1 || outward_column > last_column;
-        ASSERT_TRUE(outside || !test::finest_triangle(region.heights, outward_row, outward_column))
-            << a.row << "," << a.column << " - " << b.row << "," << b.column;
-    }
-}
 
 TEST(Levels, CoverTheRegionOnceInStepsOfOne) {
     const unsigned seed = 300;
@@ -121,10 +45,10 @@ TEST(Levels, CoverTheRegionOnceInStepsOfOne) {
         const NodeSelection selection =
             select_nodes(region.unhidden, camera, whole(camera), taus_px[i / 3 % 3]);
         std::vector<int> level_at;
-        ASSERT_NO_FATAL_FAILURE(expect_one_cover(region, selection, level_at)) << i;
-        ASSERT_NO_FATAL_FAILURE(expect_steps_of_one(region, level_at)) << i;
+        ASSERT_NO_FATAL_FAILURE(test::expect_one_cover(region, selection.nodes, level_at)) << i;
+        ASSERT_NO_FATAL_FAILURE(test::expect_steps_of_one(region, level_at)) << i;
         if (i < 24) {
-            ASSERT_NO_FATAL_FAILURE(expect_watertight(region, selection)) << i;
+            ASSERT_NO_FATAL_FAILURE(test::expect_watertight(region, selection.nodes)) << i;
         }
         for (const DrawnNode& node : selection.nodes) {
             ++by_level[static_cast<std::size_t>(node.level)];

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -28,15 +29,8 @@ BuiltPage built(const HeightField& field, PageIndex index, double exaggeration =
     return page;
 }
 
-const gpu::BorderPost& rim(const BuiltPage& page, int row, int column) {
-    return page.block
-        ->borders[gpu::border_index_cpu(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column))];
-}
-float dh(const BuiltPage& page, int row, int column) {
-    return page.block->dh[(row + 1) * 131 + column + 1];
-}
-bool same_bits(const gpu::BorderPost& a, const gpu::BorderPost& b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
+std::int32_t height(const BuiltPage& page, int row, int column) {
+    return page.block->heights[(row + 1) * 131 + column + 1];
 }
 bool same_bits(const Ecef& a, const Ecef& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
@@ -71,41 +65,49 @@ TEST(PageLayout, CoversTheGrid) {
     EXPECT_EQ(layout(1, 1), (std::array{0, 0}));
 }
 
-TEST(Page, BorderIndexIsOneToOne) {
-    std::vector<int> uses(gpu::border_posts, 0);
-    for (std::uint32_t row = 0; row <= gpu::page_quads; ++row) {
-        for (std::uint32_t column = 0; column <= gpu::page_quads; ++column) {
-            if (row % gpu::page_quads != 0 && column % gpu::page_quads != 0) continue;
-            ++uses.at(gpu::border_index_cpu(row, column));
-        }
+// All pages of all levels.
+template <class Visit>
+void for_each_page(const PostGrid& grid, const Visit& visit) {
+    for (int level = 0; level < level_count(grid); ++level) {
+        const PageLayout layout = level_grid(grid, level).pages();
+        for (int i = 0; i < layout.rows * layout.columns; ++i)
+            visit(PageIndex{i / layout.columns, i % layout.columns, level});
     }
-    for (const int count : uses) EXPECT_EQ(count, 1);
 }
 
-TEST(Page, RimPostsHaveTheSameBitsInEveryPage) {
-    for (const std::int64_t north : {47 * 1200, -20 * 1200 + 7, 90 * 1200 - 3}) {
+// What every page must hold at row and column -1 .. 129: the height of the region's post, by the rule as it
+// is said; nothing beyond the region but round the Earth.
+std::int32_t height_by_rule(const PostGrid& grid, const DrawnHeights& heights, PageIndex index, int row,
+                            int column) {
+    const LevelGrid level = level_grid(grid, index.level);
+    const int last = level.column.quads;
+    const int r = index.row * quads + row;
+    int c = index.column * quads + column;
+    const bool round = grid.goes_round();
+    if (round && c == -1) c = last - 1;
+    if (round && c == last + 1 && column == quads + 1) c = 1;
+    if (r < 0 || c < 0 || r > level.row.quads || c > last) return void_height_steps;
+    return heights.at(level.row.region_post(r), level.column.region_post(c));
+}
+
+TEST(Page, APostHasOneHeightInEveryPageAndLevel) {
+    static_assert(gpu::void_height == void_height_steps);
+    static_assert(static_cast<double>(gpu::height_step_m) == height_step_m);
+    for (const std::int64_t north : {47 * 1200, -20 * 1200 + 7, 90 * 1200 - 3, 90 * 1200}) {
         const HeightField field = rough_field(north, 179 * 1200 + 1100);
-        const PageLayout layout = page_layout(field.grid);
-        std::vector<BuiltPage> pages;
-        for (int i = 0; i < layout.rows * layout.columns; ++i)
-            pages.push_back(built(field, {i / layout.columns, i % layout.columns}, 1.5));
-        const auto page = [&](int row, int column) -> const BuiltPage& {
-            return pages[static_cast<std::size_t>(row * layout.columns + column)];
-        };
-        for (int row = 0; row < layout.rows; ++row) {
-            for (int column = 0; column < layout.columns; ++column) {
-                for (int i = 0; i <= quads; ++i) {
-                    const bool above = row == 0 || same_bits(rim(page(row, column), 0, i),
-                                                             rim(page(row - 1, column), quads, i));
-                    const bool left = column == 0 || same_bits(rim(page(row, column), i, 0),
-                                                               rim(page(row, column - 1), i, quads));
-                    ASSERT_TRUE(above && left) << row << " " << column << " " << i;
-                }
-                ASSERT_TRUE(
-                    row == 0 || column == 0 ||
-                    same_bits(rim(page(row, column), 0, 0), rim(page(row - 1, column - 1), quads, quads)));
+        const DrawnHeights heights = drawn_heights(field, 1.5, 1);
+        int pages = 0;
+        for_each_page(field.grid, [&](const PageIndex& index) {
+            const BuiltPage page = built(field, index, 1.5);
+            ++pages;
+            for (int row = -1; row <= quads + 1; ++row) {
+                for (int column = -1; column <= quads + 1; ++column)
+                    ASSERT_EQ(height(page, row, column),
+                              height_by_rule(field.grid, heights, index, row, column))
+                        << index.level << ": " << row << " " << column;
             }
-        }
+        });
+        EXPECT_EQ(pages, 9 + 4 + 1);
     }
 }
 
@@ -148,10 +150,10 @@ TEST(Page, TheWholeEarthCloses) {
     }
     // The apron goes round: west of the first column lies the last but one.
     const BuiltPage first = built(field, {0, 0});
-    EXPECT_NEAR(dh(first, 10, -1) + first.block->h0_m, field.h_at_post_m(10, 359), 1e-3);
+    EXPECT_EQ(height(first, 10, -1), height_steps(field.h_at_post_m(10, 359)));
     const BuiltPage last = built(field, {0, 2});
-    EXPECT_EQ(dh(last, 10, 360 - 2 * 128 + 1), gpu::void_dh_m) << "no triangle is drawn twice";
-    EXPECT_EQ(dh(first, -1, 10), gpu::void_dh_m) << "nothing beyond the pole";
+    EXPECT_EQ(height(last, 10, 360 - 2 * 128 + 1), gpu::void_height) << "no triangle is drawn twice";
+    EXPECT_EQ(height(first, -1, 10), gpu::void_height) << "nothing beyond the pole";
     std::uint32_t triangles = 0;
     for (int i = 0; i < 6; ++i) triangles += built(field, {i / 3, i % 3}).summary.triangles;
     EXPECT_EQ(triangles, 2U * 180U * 360U);
@@ -175,7 +177,7 @@ TEST(Page, TheWholeEarthClosesWhateverTheSourceSays) {
     }
     // The heights of the blocks follow: at the pole all columns of a page are one height.
     const BuiltPage page = built(field, {0, 3});
-    for (int column = 0; column <= quads; ++column) EXPECT_EQ(dh(page, 0, column), dh(page, 0, 0));
+    for (int column = 0; column <= quads; ++column) EXPECT_EQ(height(page, 0, column), height(page, 0, 0));
 }
 
 TEST(Page, TheApronOfAWholePageEarthGoesRoundInTheEast) {
@@ -183,15 +185,79 @@ TEST(Page, TheApronOfAWholePageEarthGoesRoundInTheEast) {
     const HeightField field = test::world_field(256.0 / 360.0, 20, -128, 30, 257,
                                                 [](double, double lon_deg) { return std::abs(lon_deg); });
     const BuiltPage last = built(field, {0, 1});
-    EXPECT_NEAR(dh(last, 3, 129) + last.block->h0_m, field.H_at_post_m(3, 1), 1e-3);
+    EXPECT_EQ(height(last, 3, 129), height_steps(field.H_at_post_m(3, 1)));
 }
 
-TEST(Page, HeightsAreRelativeToAWholeMetreInTheMiddle) {
+// The Earth in odd spacings with all that makes a post's height differ from its own column's: a pole's row
+// with different H and N in its columns, the first of them void; twins of which one is void, or both.
+HeightField difficult_earth() {
+    std::mt19937_64 random(23);
+    HeightField field = test::world_field(2.3, 207, -100, 415, 829, [&](double, double) {
+        return 0.01 * static_cast<double>(random() % 500000);
+    });
+    const auto H_m = [&](int row, int column) -> float& {
+        return field.H_m[static_cast<std::size_t>(row * 829 + column)];
+    };
+    for (int i = 0; i < 5000; ++i) field.H_m[random() % field.H_m.size()] = void_height_m;
+    for (int column = 0; column < 7; ++column) H_m(0, column) = H_m(414, column) = void_height_m;
+    for (const int row : {20, 21, 200}) H_m(row, 0) = void_height_m;
+    for (const int row : {21, 22, 201}) H_m(row, 828) = void_height_m;
+    field.undulation.lat = {1.0, 0.0, 90, -1, 181};
+    field.undulation.lon = {1.0, 0.0, -180, +1, 361};
+    for (int i = 0; i < 181 * 361; ++i)
+        field.undulation.N_m.push_back(static_cast<float>(i % 89) * 1.37F - 60.0F);
+    return field;
+}
+
+// Heights by way of H, as a file keeps them, are those by way of the whole region's heights, bit for bit.
+TEST(Page, HeightsComeFromElevationsAsFromDrawnHeights) {
+    HeightField at_pole = rough_field(90 * 1200, 179 * 1200 + 1100);
+    HeightField without_N = rough_field(-20 * 1200 + 7, 8 * 1200);
+    without_N.undulation = {};
+    const HeightField fields[] = {difficult_earth(), std::move(at_pole), std::move(without_N)};
+    std::size_t posts = 0, voids = 0;
+    for (const HeightField& field : fields) {
+        for (const double exaggeration : {0.0, 1.0, 1.7, 3.0e3}) {
+            const DrawnHeights heights = drawn_heights(field, exaggeration, 2);
+            for_each_page(field.grid, [&](const PageIndex& index) {
+                const PageHeights whole = page_heights(field.grid, heights, index);
+                const PageHeights from_H = page_heights(field.grid, field.undulation, exaggeration,
+                                                        page_elevations(field, index), index);
+                ASSERT_EQ(whole.steps, from_H.steps)
+                    << index.level << ": " << index.row << " " << index.column;
+                posts += whole.steps.size();
+                voids += static_cast<std::size_t>(
+                    std::count(whole.steps.begin(), whole.steps.end(), void_height_steps));
+            });
+        }
+    }
+    EXPECT_GT(posts, 4000000U);
+    EXPECT_GT(voids, 50000U);
+    EXPECT_LT(voids, posts / 2);
+}
+
+TEST(Page, ElevationsAreThoseOfTheCanonicalPost) {
+    const HeightField field = difficult_earth();
+    ASSERT_TRUE(field.grid.goes_round());
+    const PageElevations north_west = page_elevations(field, {0, 0, 0});
+    const PageElevations east = page_elevations(field, {0, 6, 0});  // columns 768 .. 828
+    const auto H_m = [](const PageElevations& page, int row, int column) {
+        return page.H_m[static_cast<std::size_t>((row + 1) * 131 + column + 1)];
+    };
+    EXPECT_EQ(H_m(north_west, 0, 3), void_height_m) << "a void stays one, at a pole, too";
+    EXPECT_EQ(H_m(north_west, 0, 100), field.H_at_post_m(0, 7)) << "the first that is not void";
+    EXPECT_EQ(H_m(north_west, -1, 5), void_height_m);
+    EXPECT_EQ(H_m(east, 5, 60), field.H_at_post_m(5, 0)) << "the last meridian is the first";
+    EXPECT_EQ(H_m(east, 20, 60), field.H_at_post_m(20, 828)) << "but where that has nothing";
+    EXPECT_EQ(H_m(east, 22, 60), void_height_m);
+    EXPECT_EQ(H_m(east, 5, 61), void_height_m);
+    EXPECT_EQ(H_m(north_west, 5, -1), field.H_at_post_m(5, 827));
+}
+
+TEST(Page, HeightsAreStepsAboveTheEllipsoid) {
     HeightField field = rough_field(47 * 1200, 8 * 1200);
     const BuiltPage page = built(field, {1, 1}, 2.0);
     EXPECT_EQ(page.summary.origin.h_m, std::round(page.summary.origin.h_m));
-    EXPECT_EQ(page.block->h0_m, static_cast<float>(page.summary.origin.h_m));
-    EXPECT_EQ(page.block->exaggeration, 2.0F);
     EXPECT_NEAR(page.summary.origin.h_m, 0.5 * (page.summary.lowest_h_m + page.summary.highest_h_m), 0.5);
     EXPECT_NEAR(page.summary.origin.lat_deg, 47.0 - 192.0 / 1200.0, 1e-12);
     EXPECT_NEAR(page.summary.origin.lon_deg, 8.0 + 192.0 / 1200.0, 1e-12);
@@ -199,24 +265,34 @@ TEST(Page, HeightsAreRelativeToAWholeMetreInTheMiddle) {
         for (int column = -1; column <= 129; ++column) {
             const float H_m = field.H_at_post_m(128 + row, 128 + column);
             const double N_m = field.h_at_post_m(128 + row, 128 + column) - static_cast<double>(H_m);
-            const double expected = static_cast<double>(H_m) * 2.0 + N_m - page.summary.origin.h_m;
             if (is_void(H_m)) {
-                ASSERT_EQ(dh(page, row, column), gpu::void_dh_m);
+                ASSERT_EQ(height(page, row, column), gpu::void_height);
             } else {
-                ASSERT_NEAR(dh(page, row, column), expected, 3e-4);
+                // Half a step, and the rounding of N_m above.
+                ASSERT_NEAR(height(page, row, column) / 2048.0, static_cast<double>(H_m) * 2.0 + N_m,
+                            0.5 / 2048.0 + 1e-9);
             }
         }
     }
-    const auto N_at = [&](int row, int column) {
-        return field.undulation.at_m(field.grid.lat.at_deg(row), field.grid.lon.at_deg(column));
-    };
-    EXPECT_NEAR(page.block->N_m[0], N_at(128, 128), 1e-5);
-    EXPECT_NEAR(page.block->N_m[1], N_at(128, 256), 1e-5);
-    EXPECT_NEAR(page.block->N_m[2], N_at(256, 128), 1e-5);
-    EXPECT_NEAR(page.block->N_m[3], N_at(256, 256), 1e-5);
-    // A 3" row at 46.84 N: the meridian's radius there is 6,369.3 km.
-    EXPECT_NEAR(page.block->row_spacing_m, meridian_radius_m(46.84) * 3.0 / 3600.0 * 0.0174532925, 0.1);
-    EXPECT_FLOAT_EQ(page.block->column_spacing_rad, 1.4544411e-5F);
+}
+
+// A page of two levels: its spacing is that of the region's posts, at its own middle's latitude and height.
+TEST(Page, SpacingIsThatOfTheRegionsPostsAtThePagesMiddle) {
+    const HeightField field =
+        test::world_field(1200.0, 47 * 1200, 8 * 1200, 300, 290, [](double, double) { return 3000.0; });
+    // Radii of curvature at 46.84 N: M = 6,369,441.2 m, N = 6,389,527.0 m; 3 km more, by 3 seconds. Source:
+    // Torge & Müller, Geodesy, 4th ed. 2012, eq. 4.13 and 4.14, by hand with the constants of TR8350.2.
+    const BuiltPage page = built(field, {1, 1});
+    EXPECT_NEAR(page.block->row_spacing_m, 92.683400, 1e-5);
+    EXPECT_NEAR(page.block->column_spacing_m, 92.975536, 1e-5);
+    // Per post of the region on coarse levels, too.
+    const BuiltPage coarse = built(field, {0, 0, 1});
+    EXPECT_NEAR(coarse.block->row_spacing_m, page.block->row_spacing_m, 0.01);
+    EXPECT_NEAR(coarse.block->column_spacing_m, page.block->column_spacing_m, 0.01);
+    gpu::PageBlock again;
+    set_spacing(field.grid, page.summary.origin, again);
+    EXPECT_EQ(again.row_spacing_m, page.block->row_spacing_m);
+    EXPECT_EQ(again.column_spacing_m, page.block->column_spacing_m);
 }
 
 // Brute force: every drawn triangle of the meshlet, its posts, from the field itself.
@@ -281,7 +357,7 @@ TEST(Page, AVoidPageDrawsNothing) {
     EXPECT_EQ(page.summary.triangles, 0U);
     EXPECT_EQ(page.summary.meshlets, 0U);
     for (const gpu::MeshletBounds& bounds : page.block->meshlets) EXPECT_LT(bounds.radius, 0.0F);
-    for (const float dh_m : page.block->dh) EXPECT_EQ(dh_m, gpu::void_dh_m);
+    for (const int steps : page.block->heights) EXPECT_EQ(steps, gpu::void_height);
 }
 
 TEST(Page, TheSameInputGivesTheSameBytes) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "shaders/shared.h"
+#include "spirv/live_pages_comp.h"
 #include "spirv/raster_comp.h"
 #include "spirv/raster_large_comp.h"
 #include "spirv/shade_comp.h"
@@ -45,6 +46,7 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
     for (const std::span<const std::uint32_t> words :
          {std::span<const std::uint32_t>(terrain_task_spirv),
           std::span<const std::uint32_t>(terrain_mesh_spirv),
+          std::span<const std::uint32_t>(live_pages_comp_spirv),
           std::span<const std::uint32_t>(raster_comp_spirv),
           std::span<const std::uint32_t>(raster_large_comp_spirv),
           std::span<const std::uint32_t>(shade_comp_spirv)}) {
@@ -68,8 +70,6 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(RowTerms, Z);
     ORO_MEMBER(ColumnTerms, V);
     ORO_MEMBER(ColumnTerms, W);
-    ORO_MEMBER(BorderPost, high);
-    ORO_MEMBER(BorderPost, low);
     ORO_MEMBER(MeshletBounds, centre);
     ORO_MEMBER(MeshletBounds, radius);
     ORO_MEMBER(MeshletBounds, horizon_offset);
@@ -77,28 +77,39 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(MeshletBounds, error_m);
     ORO_MEMBER(MeshletBounds, lod_radius);
     ORO_MEMBER(MeshletBounds, quads);
-    ORO_MEMBER(PageBlock, rows);
-    ORO_MEMBER(PageBlock, columns);
-    ORO_MEMBER(PageBlock, borders);
     ORO_MEMBER(PageBlock, meshlets);
-    ORO_MEMBER(PageBlock, h0_m);
     ORO_MEMBER(PageBlock, row_spacing_m);
-    ORO_MEMBER(PageBlock, column_spacing_rad);
-    ORO_MEMBER(PageBlock, exaggeration);
-    ORO_MEMBER(PageBlock, N_m);
-    ORO_MEMBER(PageBlock, dh);
+    ORO_MEMBER(PageBlock, column_spacing_m);
+    ORO_MEMBER(PageBlock, heights);
     ORO_MEMBER(FramePage, view_from_page);
     ORO_MEMBER(FramePage, origin_view);
     ORO_MEMBER(FramePage, planes);
     ORO_MEMBER(FramePage, horizon_direction);
     ORO_MEMBER(FramePage, block);
     ORO_MEMBER(FramePage, cull);
+    ORO_MEMBER(FramePage, level);
+    ORO_MEMBER(FramePage, first_row);
+    ORO_MEMBER(FramePage, first_column);
+    ORO_MEMBER(FramePage, row_terms);
+    ORO_MEMBER(FramePage, column_terms);
+    ORO_MEMBER(FramePage, quarter);
+    ORO_MEMBER(FramePage, parent);
+    ORO_MEMBER(FramePage, beside);
+    ORO_MEMBER(FramePage, children);
+    ORO_MEMBER(FramePage, last_column);
+    ORO_MEMBER(FramePage, west_column);
+    ORO_MEMBER(FramePage, stand_in);
+    ORO_MEMBER(FrameCounts, pages_live);
+    ORO_MEMBER(FrameCounts, nodes_chosen);
     ORO_MEMBER(FrameCounts, meshlets_beyond_frustum);
     ORO_MEMBER(FrameCounts, meshlets_beyond_horizon);
-    ORO_MEMBER(FrameCounts, meshlets_void);
     ORO_MEMBER(FrameCounts, meshlets_drawn);
     ORO_MEMBER(FrameCounts, triangles_drawn);
+    ORO_MEMBER(FrameCounts, mesh_groups);
     ORO_MEMBER(FrameCounts, triangles_not_clipped);
+    ORO_MEMBER(LivePages, count);
+    ORO_MEMBER(LivePages, task_groups);
+    ORO_MEMBER(LivePages, cull_groups);
     ORO_MEMBER(RasterLists, meshlets);
     ORO_MEMBER(RasterLists, meshlet_groups);
     ORO_MEMBER(RasterLists, clips);
@@ -130,9 +141,13 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(FrameStyle, zenith_colour);
     ORO_MEMBER(FrameStyle, no_data_colour);
     ORO_MEMBER(FrameStyle, sky_scale_height_m);
-    ORO_MEMBER(FrameConstants, view_from_ecef);
-    ORO_MEMBER(FrameConstants, eye_high);
-    ORO_MEMBER(FrameConstants, eye_low);
+    ORO_MEMBER(UndulationTable, N_m);
+    ORO_MEMBER(UndulationTable, rows);
+    ORO_MEMBER(UndulationTable, columns);
+    ORO_MEMBER(UndulationTable, first);
+    ORO_MEMBER(UndulationTable, per_post);
+    ORO_MEMBER(FrameConstants, view_from_eye);
+    ORO_MEMBER(FrameConstants, reference_steps);
     ORO_MEMBER(FrameConstants, projection_scale);
     ORO_MEMBER(FrameConstants, projection_shift);
     ORO_MEMBER(FrameConstants, near_m);
@@ -142,11 +157,24 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(FrameConstants, earth_radius_m);
     ORO_MEMBER(FrameConstants, width_px);
     ORO_MEMBER(FrameConstants, height_px);
+    ORO_MEMBER(FrameConstants, pixels_per_tangent);
+    ORO_MEMBER(FrameConstants, corner_tangent);
+    ORO_MEMBER(FrameConstants, tau_px);
+    ORO_MEMBER(FrameConstants, exaggeration);
+    ORO_MEMBER(FrameConstants, last_row);
+    ORO_MEMBER(FrameConstants, last_column);
     ORO_MEMBER(FrameConstants, page_count);
     ORO_MEMBER(FrameConstants, sample_index);
     ORO_MEMBER(FrameConstants, sample_count);
     ORO_MEMBER(FrameConstants, pages);
+    ORO_MEMBER(FrameConstants, row_terms);
+    ORO_MEMBER(FrameConstants, column_terms);
+    ORO_MEMBER(FrameConstants, accepted);
+    ORO_MEMBER(FrameConstants, edges);
+    ORO_MEMBER(FrameConstants, live);
+    ORO_MEMBER(FrameConstants, live_pages);
     ORO_MEMBER(FrameConstants, counts);
+    ORO_MEMBER(FrameConstants, depths);
     ORO_MEMBER(FrameConstants, recorded);
     ORO_MEMBER(FrameConstants, visibility);
     ORO_MEMBER(FrameConstants, lists);
@@ -154,15 +182,15 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(FrameConstants, clip_list);
     ORO_MEMBER(FrameConstants, large_list);
     ORO_MEMBER(FrameConstants, task_list);
+    ORO_MEMBER(FrameConstants, undulation);
     ORO_MEMBER(FrameConstants, style);
 #undef ORO_MEMBER
 }
 
 // The array strides: what follows an array must start where the C++ array ends.
 TEST(SharedLayout, StridesFollowFromOffsets) {
-    EXPECT_EQ(offsetof(gpu::PageBlock, columns), 129 * sizeof(gpu::RowTerms));
-    EXPECT_EQ(offsetof(gpu::PageBlock, dh) % 4, 0U);
-    EXPECT_EQ(sizeof(gpu::PageBlock), offsetof(gpu::PageBlock, dh) + 4 * gpu::page_heights);
+    EXPECT_EQ(offsetof(gpu::PageBlock, row_spacing_m), 256 * sizeof(gpu::MeshletBounds));
+    EXPECT_EQ(sizeof(gpu::PageBlock), offsetof(gpu::PageBlock, heights) + 4 * gpu::page_heights);
 }
 
 }  // namespace

@@ -1,0 +1,15 @@
+// From a region that was read to one that can be drawn.
+#pragma once
+
+#include "apps/options.h"
+#include "geo/region.h"
+#include "render/scene.h"
+
+namespace oro {
+
+// Builds the levels of a region and makes it ready for a GPU. Errors: nothing to draw in it (no_data), out of
+// device memory.
+Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
+                           const MemoryOptions& memory, const RenderProgress& progress = {});
+
+}  // namespace oro
