@@ -124,7 +124,7 @@ int thread_count() {
 // Triangles a second that a way of drawing reaches when all of them are visible and small.
 Result<double> peak_triangles_per_s(const Gpu& gpu, RasterPath path, BenchOptions options) {
     const HeightField field = made_region(512);
-    ORO_TRY(Scene scene, Scene::create(gpu, pages_in_memory(field, 1.0, thread_count()), 0));
+    ORO_TRY(Scene scene, Scene::create(gpu, pages_in_memory(field, 1.0, thread_count())));
     ORO_TRY(FrameRenderer renderer, renderer_for(gpu, path, options));
     options.tau_px = 0.0;
     const Camera camera = eye_above(field, options.width_px, options.height_px);
@@ -196,7 +196,7 @@ Result<void> run_bench(const BenchOptions& options) {
     const double open_s = seconds_since(opening);
     ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, *pages, made));
     ORO_TRY(Scene scene, Scene::create(*gpu, std::move(pages),
-                                       static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U));
+                                       {static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0}));
     ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, path, options));
     ordered_json json;
     json["device"] = gpu->report().name;

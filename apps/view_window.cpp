@@ -30,7 +30,8 @@ struct Viewer {
     FrameRenderer& renderer;
     bool asking_place{false};
     std::string place_text;
-    std::string message;  // shown in the title until the eye moves
+    std::string message;             // shown in the title until the eye moves
+    std::vector<PageIndex> missing;  // what the last frame should have had
 };
 
 std::string title_of(const Viewer& viewer) {
@@ -127,7 +128,8 @@ void take_picture(Viewer& viewer) {
 // One turn of the loop: input, then a frame where something has changed. False when the user leaves.
 Result<bool> turn(Viewer& viewer, bool& changed) {
     const bool can_draw = viewer.window.extent().width > 0;  // not so while minimised
-    const WindowInput input = viewer.window.poll(changed && can_draw ? 0.0 : 0.05);
+    const double wait_s = changed && can_draw ? 0.0 : viewer.missing.empty() ? 0.05 : 0.005;
+    const WindowInput input = viewer.window.poll(wait_s);
     if (input.closed) return false;
     const std::string title_before = title_of(viewer);
     if (viewer.asking_place) {
@@ -158,6 +160,7 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
     return true;
 }
 
+// Draws with what is on the GPU; what is missing comes in the background and is drawn when it is there.
 Result<void> draw_frame(Viewer& viewer, bool& changed) {
     const VkExtent2D extent = viewer.window.extent();
     Camera& camera = viewer.view.camera;
@@ -166,11 +169,16 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         ORO_CHECK(viewer.renderer.resize(extent));
         changed = true;
     }
+    if (!viewer.missing.empty()) {
+        ORO_TRY(const bool better, viewer.scene.advance(viewer.missing));
+        changed = changed || better;
+    }
     if (!changed) return {};
     camera.width_px = static_cast<int>(extent.width);
     camera.height_px = static_cast<int>(extent.height);
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    ORO_TRY(FramePlan plan, viewer.scene.settled_plan(camera, tile, viewer.view.tau_px));
+    ORO_TRY(FramePlan plan, viewer.scene.plan(camera, tile, viewer.view.tau_px));
+    viewer.missing = plan.missing;
     ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown;
@@ -199,6 +207,9 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_CHECK(open_view(
         options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    // Each of two levels is within tau of the full resolution: where one takes the other's place nothing
+    // moves by more than twice that.
+    if (!options.view.tau_px && options.view_file.empty()) view.tau_px = 0.5;
     view.camera = above_ground(view.camera, region.field, view.exaggeration);
     ORO_TRY(const Style style, load_style(view.style, view.sun));
     GpuOptions gpu_options = gpu_options_from_environment();
@@ -219,9 +230,18 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_TRY(renderer_options.path, raster_path_for(view.pipeline, gpu->report()));
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
-    Viewer viewer{options, std::move(view), std::move(region), style.frame, *gpu,
-                  scene,   *window,         renderer,          false,       "",
-                  ""};
+    Viewer viewer{options,
+                  std::move(view),
+                  std::move(region),
+                  style.frame,
+                  *gpu,
+                  scene,
+                  *window,
+                  renderer,
+                  false,
+                  "",
+                  "",
+                  {}};
     return run_loop(viewer);
 }
 

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 #include <thread>
-
-#include "core/parallel.h"
 
 namespace oro {
 namespace {
 
-constexpr std::size_t pages_at_a_time = 64;  // 5 MB on their way
+constexpr std::uint64_t default_main_bytes = 64'000'000;
 
 int thread_count() {
     return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
@@ -28,13 +25,14 @@ Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
 
 }  // namespace
 
-Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
-                            std::uint64_t gpu_memory_bytes) {
+Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory) {
     constexpr std::uint64_t most = std::uint64_t{2} << 30U;
-    const std::uint64_t bytes =
-        gpu_memory_bytes > 0 ? gpu_memory_bytes : std::min(gpu.report().memory_bytes / 2, most);
+    const std::uint64_t bytes = memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most);
     ORO_TRY(PageStore store, PageStore::create(gpu, bytes / sizeof(gpu::PageBlock)));
     Scene scene(std::move(pages), std::move(store));
+    const std::uint64_t under_way = memory.main > 0 ? memory.main : default_main_bytes;
+    scene.stream_ =
+        std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / sizeof(gpu::PageBlock));
     const UndulationField& undulation = scene.pages_->facts().undulation;
     if (!undulation.N_m.empty()) {
         ORO_TRY(scene.undulation_, create_undulation(gpu, undulation));
@@ -44,6 +42,7 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
 
 Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau_px) {
     store_.begin_frame();
+    full_ = false;
     ORO_TRY(FramePlan plan,
             plan_frame(
                 *pages_, [&](const PageIndex& page) { return store_.address(page); }, camera, tile, tau_px));
@@ -51,36 +50,38 @@ Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau
     return plan;
 }
 
-// Builds pages and sends them; how many there was room for.
-Result<std::size_t> Scene::load(std::span<const PageIndex> wanted) {
-    std::size_t sent = 0;
-    while (sent < wanted.size()) {
-        const auto some = wanted.subspan(sent, std::min(pages_at_a_time, wanted.size() - sent));
-        std::vector<LoadedPage> loaded(some.size());
-        std::vector<std::optional<Error>> failed(some.size());
-        in_parallel(static_cast<int>(some.size()), thread_count(), [&](int number) {
-            const auto i = static_cast<std::size_t>(number);
-            loaded[i] = {some[i], std::make_unique<gpu::PageBlock>()};
-            const Result<void> done = pages_->load(some[i], *loaded[i].block);
-            if (!done.ok()) failed[i] = done.error();
-        });
-        for (const std::optional<Error>& error : failed) {
-            if (error) return *error;
-        }
-        ORO_TRY(const std::size_t count, store_.send(loaded));
-        bytes_sent_ += count * sizeof(gpu::PageBlock);
-        sent += count;
-        if (count < some.size()) break;
-    }
+Result<std::size_t> Scene::send_ready(bool wait, bool& all) {
+    ORO_TRY(const std::vector<LoadedPage> ready, stream_->take(wait));
+    ORO_TRY(const std::size_t sent, store_.send(ready));
+    bytes_sent_ += sent * sizeof(gpu::PageBlock);
+    all = sent == ready.size();
     return sent;
+}
+
+Result<bool> Scene::advance(std::span<const PageIndex> missing) {
+    if (full_) return false;
+    stream_->want(missing);
+    bool all = true;
+    ORO_TRY(const std::size_t sent, send_ready(false, all));
+    full_ = !all;
+    if (full_) stream_->want({});
+    return sent > 0;
 }
 
 Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, double tau_px) {
     for (;;) {
         ORO_TRY(FramePlan frame, plan(camera, tile, tau_px));
         if (frame.missing.empty()) return frame;
-        ORO_TRY(const std::size_t sent, load(frame.missing));
-        if (sent < frame.missing.size()) return plan(camera, tile, tau_px);
+        stream_->want(frame.missing);
+        for (std::size_t sent = 0; sent < frame.missing.size();) {
+            bool all = true;
+            ORO_TRY(const std::size_t some, send_ready(true, all));
+            sent += some;
+            if (all && some > 0) continue;
+            if (all) break;
+            stream_->want({});
+            return plan(camera, tile, tau_px);
+        }
     }
 }
 

@@ -1,29 +1,41 @@
 // A region that is being drawn: its pages, and those of them that are on the GPU.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "core/frame_plan.h"
 #include "core/region_pages.h"
 #include "render/page_store.h"
+#include "render/page_stream.h"
 
 namespace oro {
 
 // Told how far a long step is, 0..1.
 using RenderProgress = std::function<void(double share)>;
 
+// How much memory pages may take, bytes.
+struct SceneMemory {
+    std::uint64_t gpu{};   // pages on the GPU; 0: half of what the device has, at most 2 GiB
+    std::uint64_t main{};  // pages on their way there; 0: 64 MB
+};
+
 class Scene {
   public:
-    // At most gpu_memory_bytes of pages on the GPU; 0: half of what the device has, at most 2 GiB. Errors:
-    // out of memory.
+    // Errors: out of memory.
     static Result<Scene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
-                                std::uint64_t gpu_memory_bytes);
+                                const SceneMemory& memory = {});
 
     // What a frame draws with the pages that are on the GPU now.
     Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px);
-    // The same once all that tau asks for is there: reads, builds and sends it on `threads()` threads. Where
-    // a frame needs more than the GPU may hold, `missing` names the rest.
+    // Lets the background read what a plan misses, and sends what is ready: true when the next plan may be
+    // better. Does not wait for pages that are not ready; asks for none once the frame's own fill the GPU.
+    // Errors: a page that cannot be read, the device.
+    Result<bool> advance(std::span<const PageIndex> missing);
+    // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
+    // hold, `missing` names the rest.
     Result<FramePlan> settled_plan(const Camera& camera, const Tile& tile, double tau_px);
 
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
@@ -33,12 +45,15 @@ class Scene {
   private:
     Scene(std::unique_ptr<RegionPages> pages, PageStore store)
         : pages_(std::move(pages)), store_(std::move(store)) {}
-    Result<std::size_t> load(std::span<const PageIndex> wanted);
+    // Number of pages that there was room for; `all`: for every one that was ready.
+    Result<std::size_t> send_ready(bool wait, bool& all);
 
     std::unique_ptr<RegionPages> pages_;
+    std::unique_ptr<PageStream> stream_;
     PageStore store_;
     Buffer undulation_;
     std::uint64_t bytes_sent_{};
+    bool full_{false};  // of the last frame's pages
 };
 
 }  // namespace oro

@@ -9,7 +9,7 @@
 
 #include "core/levels.h"
 #include "tests/core/pyramid_region.h"
-#include "tests/render/drawn_scene.h"
+#include "tests/support/drawn_scene.h"
 
 namespace oro {
 namespace {

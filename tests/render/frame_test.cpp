@@ -52,11 +52,11 @@ class Frame : public test::GpuTest, public ::testing::WithParamInterface<RasterP
     void SetUp() override {
         GpuTest::SetUp();
         field_ = test::rough_field(46.9, 8.1, 400, 400);
-        auto scene = Scene::create(*gpu_, pages_in_memory(field_, 1.0, 2), 0);
+        auto scene = Scene::create(*gpu_, pages_in_memory(field_, 1.0, 2));
         ASSERT_TRUE(scene.ok()) << scene.error().line();
         scene_.emplace(std::move(scene).value());
         auto unhidden = Scene::create(*gpu_, std::make_unique<UnhiddenPages>(pages_in_memory(field_, 1.0, 2)),
-                                      std::uint64_t{64} << 20U);
+                                      SceneMemory{std::uint64_t{64} << 20U, 0});
         ASSERT_TRUE(unhidden.ok()) << unhidden.error().line();
         unhidden_.emplace(std::move(unhidden).value());
         FrameRendererOptions options;

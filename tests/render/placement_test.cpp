@@ -50,7 +50,7 @@ class PlacementOnGpu : public test::GpuTest {
             for (int column = 0; column < 129; ++column) field.H_m.push_back(at_pole ? one : height(random));
         }
 
-        auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), 0);
+        auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2));
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         FrameRendererOptions options;
         options.extent = {64, 64};

@@ -26,7 +26,7 @@ class DrawnScene {
   public:
     DrawnScene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, RasterPath path, int width_px,
                int height_px, std::uint64_t gpu_memory_bytes = std::uint64_t{256} << 20U) {
-        auto scene = Scene::create(gpu, std::move(pages), gpu_memory_bytes);
+        auto scene = Scene::create(gpu, std::move(pages), {gpu_memory_bytes, 0});
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         scene_.emplace(std::move(scene).value());
         FrameRendererOptions options;

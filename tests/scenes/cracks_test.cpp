@@ -8,7 +8,7 @@
 
 #include "core/ground.h"
 #include "geo/region.h"
-#include "tests/render/drawn_scene.h"
+#include "tests/support/drawn_scene.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
 

@@ -1,0 +1,53 @@
+// Pages on their way from their source to the GPU: read, decoded and built by threads in the background.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "core/region_pages.h"
+#include "render/page_store.h"
+
+namespace oro {
+
+class PageStream {
+  public:
+    // `capacity`: pages that may be under way or ready at a time, at least 1; 80 KB each. `pages` outlives
+    // the stream.
+    PageStream(const RegionPages& pages, int threads, std::size_t capacity);
+    ~PageStream();
+    PageStream(const PageStream&) = delete;
+    PageStream& operator=(const PageStream&) = delete;
+
+    // What is needed now, most wanted first. What was wanted before and is not any more is dropped.
+    void want(std::span<const PageIndex> pages);
+    // Pages that are ready, in the order in which they became so; with `wait` at least one, unless nothing is
+    // wanted or under way. Errors: a page that could not be read (told once).
+    Result<std::vector<LoadedPage>> take(bool wait);
+    // Nothing is wanted, under way or ready.
+    [[nodiscard]] bool idle() const;
+
+  private:
+    using Key = std::tuple<int, int, int>;
+    static Key key(const PageIndex& page) { return {page.level, page.row, page.column}; }
+    void work(const std::stop_token& stop);
+
+    const RegionPages& pages_;
+    std::size_t capacity_;
+    mutable std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::deque<PageIndex> wanted_;
+    std::set<Key> under_way_;
+    std::deque<LoadedPage> ready_;
+    std::optional<Error> failed_;
+    std::vector<std::jthread> threads_;  // last: they end before what they use
+};
+
+}  // namespace oro
