@@ -4,6 +4,7 @@
 #include "apps/commands.h"
 #include "apps/data_folder.h"
 #include "apps/json_text.h"
+#include "apps/pipeline_choice.h"
 #include "geo/library_report.h"
 #include "render/gpu.h"
 
@@ -23,7 +24,53 @@ std::string joined(const std::vector<std::string>& words) {
     return all;
 }
 
-ordered_json device_json(const DeviceReport& d) {
+// A device, and what --pipeline auto chooses on it: nothing where it cannot draw or does not let itself be
+// measured.
+struct Finding {
+    DeviceReport device;
+    std::optional<PipelineChoice> choice;
+    std::string no_choice;  // why there is none
+
+    [[nodiscard]] std::string choice_text() const { return choice ? text_of(*choice) : no_choice; }
+};
+
+// Number `number` of the survey, which may have to be measured first.
+Finding finding_of(const DeviceReport& device, std::size_t number, GpuOptions options) {
+    if (!device.lacks.empty()) return {device, {}, "the device cannot draw"};
+    if (const auto known = known_choice(device)) return {device, known, ""};
+    std::string problem = "the device cannot be told from another";
+    // Its name may be a part of another's, and its number, too.
+    for (const std::string& name : {device.name, std::to_string(number)}) {
+        options.device_name = name;
+        const auto gpu = Gpu::create(options);
+        if (!gpu.ok()) {
+            problem = gpu.error().line();
+            continue;
+        }
+        if ((*gpu)->report().name != device.name || (*gpu)->report().driver != device.driver) continue;
+        const auto choice = choose_pipeline(**gpu);
+        if (choice.ok()) return {device, *choice, ""};
+        return {device, {}, choice.error().line()};
+    }
+    return {device, {}, problem};
+}
+
+ordered_json choice_json(const Finding& finding) {
+    ordered_json json{{"pipeline", nullptr},   {"why", finding.choice_text()}, {"mesh_ms", nullptr},
+                      {"compute_ms", nullptr}, {"measured", nullptr},          {"measured_now", false}};
+    if (!finding.choice) return json;
+    json["pipeline"] = name_of(finding.choice->path);
+    json["measured_now"] = finding.choice->measured_now;
+    if (const auto& times = finding.choice->times) {
+        json["mesh_ms"] = 1e3 * times->mesh_s;
+        json["compute_ms"] = 1e3 * times->compute_s;
+        json["measured"] = time_text(times->measured_utc_s);
+    }
+    return json;
+}
+
+ordered_json device_json(const Finding& finding) {
+    const DeviceReport& d = finding.device;
     return {{"name", d.name},
             {"type", d.type},
             {"driver", d.driver},
@@ -40,17 +87,18 @@ ordered_json device_json(const DeviceReport& d) {
               {"max_output_primitives", d.mesh.max_output_primitives},
               {"max_task_groups_total", d.mesh.max_task_groups_total}}},
             {"pipelines", {{"mesh", d.mesh_shader}, {"compute", d.compute_raster}}},
+            {"auto", choice_json(finding)},
             {"subgroup_size", d.subgroup_size},
             {"max_picture_side_px", d.max_picture_side_px},
             {"memory_bytes", d.memory_bytes}};
 }
 
-ordered_json doctor_json(const std::vector<DeviceReport>& devices, const std::string& no_device,
+ordered_json doctor_json(const std::vector<Finding>& devices, const std::string& no_device,
                          const LibraryReport& libraries) {
     ordered_json json;
     json["version"] = OROGRAPH_VERSION;
     json["devices"] = ordered_json::array();
-    for (const DeviceReport& device : devices) json["devices"].push_back(device_json(device));
+    for (const Finding& device : devices) json["devices"].push_back(device_json(device));
     json["device_problem"] = no_device.empty() ? ordered_json() : ordered_json(no_device);
     json["libraries"] = {
         {"gdal", libraries.gdal}, {"proj", libraries.proj}, {"geographiclib", libraries.geographiclib}};
@@ -62,7 +110,8 @@ ordered_json doctor_json(const std::vector<DeviceReport>& devices, const std::st
     return json;
 }
 
-void print_device(std::size_t number, const DeviceReport& d) {
+void print_device(std::size_t number, const Finding& finding) {
+    const DeviceReport& d = finding.device;
     std::printf("GPU %zu        %s (%s), %s, Vulkan %s\n", number, d.name.c_str(), d.type.c_str(),
                 d.driver.c_str(), d.api.c_str());
     if (!d.lacks.empty()) {
@@ -85,12 +134,13 @@ void print_device(std::size_t number, const DeviceReport& d) {
     }
     std::printf("             compute path: %s\n",
                 d.compute_raster ? "here" : "not here (64-bit atomics are missing)");
+    std::printf("             auto: %s\n", finding.choice_text().c_str());
     std::printf("             subgroups of %u, pictures up to %u px a tile, %llu MiB\n", d.subgroup_size,
                 d.max_picture_side_px, static_cast<unsigned long long>(d.memory_bytes >> 20U));
     if (d.type == "software") std::printf("             draws on the processor: right, but slow\n");
 }
 
-void print_doctor(const std::vector<DeviceReport>& devices, const std::string& no_device,
+void print_doctor(const std::vector<Finding>& devices, const std::string& no_device,
                   const LibraryReport& libraries) {
     std::printf("orograph     %s\n", OROGRAPH_VERSION);
     for (std::size_t i = 0; i < devices.size(); ++i) print_device(i, devices[i]);
@@ -107,9 +157,12 @@ void print_doctor(const std::vector<DeviceReport>& devices, const std::string& n
 }  // namespace
 
 Result<void> run_doctor(const DoctorOptions& options) {
-    const auto devices = Gpu::survey(gpu_options_from_environment());
+    const GpuOptions gpu_options = gpu_options_from_environment();
+    const auto devices = Gpu::survey(gpu_options);
     const std::string no_device = devices.ok() ? "" : devices.error().line();
-    const std::vector<DeviceReport> found = devices.ok() ? *devices : std::vector<DeviceReport>{};
+    std::vector<Finding> found;
+    for (std::size_t i = 0; devices.ok() && i < devices->size(); ++i)
+        found.push_back(finding_of((*devices)[i], i, gpu_options));
     const LibraryReport libraries = report_libraries();
     if (options.json) {
         std::printf("%s\n", json_text(doctor_json(found, no_device, libraries), true).c_str());

@@ -14,5 +14,7 @@ inline std::string json_text(const nlohmann::ordered_json& json, bool pretty) {
 
 // "2026-11-21T09:00:00Z"
 std::string time_text(std::int64_t time_utc_s);
+// The clock, or SOURCE_DATE_EPOCH for builds that must repeat; seconds since 1970, UTC.
+std::int64_t time_now_s();
 
 }  // namespace oro

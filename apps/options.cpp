@@ -55,7 +55,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
     command
         .add_option(
             "--pipeline", options.pipeline,
-            "How triangles are drawn: mesh shaders, compute, or auto (default: mesh where the device has it)")
+            "How triangles are drawn: mesh shaders, compute, or auto (default: the faster, measured once)")
         ->check(CLI::IsMember({"auto", "mesh", "compute"}));
     command.add_option("--tau", options.tau_px,
                        "Largest error of what is drawn, pixels (default 1; 0: every post that there is)");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "apps/pipeline_choice.h"
 #include "apps/region_json.h"
 #include "core/ground.h"
 #include "geo/geodesic.h"
@@ -53,13 +54,16 @@ Geotags geotags_of(const View& view, const Region& region) {
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
                                     const Region& region, const Gpu& gpu, Scene& scene,
                                     const gpu::FrameStyle& style, const RenderProgress& progress) {
-    ORO_TRY(const std::unique_ptr<PictureWriter> writer,
-            create_picture(files.picture, geotags_of(view, region), overwrite));
-    ORO_TRY(WholeFile view_file, WholeFile::create(files.view, overwrite));
     PictureOptions options;
+    ORO_TRY(options.path, choose_path(view.pipeline, gpu));
+    // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
+    View drawn = view;
+    drawn.pipeline = name_of(options.path);
+    ORO_TRY(const std::unique_ptr<PictureWriter> writer,
+            create_picture(files.picture, geotags_of(drawn, region), overwrite));
+    ORO_TRY(WholeFile view_file, WholeFile::create(files.view, overwrite));
     options.samples = view.samples;
     options.tau_px = view.tau_px;
-    ORO_TRY(options.path, raster_path_for(view.pipeline, gpu.report()));
     ORO_TRY(PictureReport report,
             render_picture(
                 gpu, scene, view.camera, style, options,
@@ -72,7 +76,7 @@ Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, c
                          " pages of terrain; this view needs more (a larger --tau needs fewer)"};
     // The view is on the disk before the picture gets its name, and gets its own name after: when the disk is
     // full, neither changes.
-    const std::string text = view_to_json(view, true) + "\n";
+    const std::string text = view_to_json(drawn, true) + "\n";
     ORO_CHECK(view_file.write(text.data(), text.size()));
     ORO_CHECK(view_file.settle());
     ORO_CHECK(writer->finish());

@@ -20,7 +20,8 @@ std::optional<DestinationTag> destination_of(const View& view, const Region& reg
 // All that a picture of a view says of itself.
 Geotags geotags_of(const View& view, const Region& region);
 
-// Draws and writes both files, each whole or not at all. Errors: those of the files and of the device; any
+// Draws and writes both files, each whole or not at all. The written view names the way of drawing that
+// --pipeline auto came to. Errors: those of the files and of the device; any
 // message of the validation layer, where it is on.
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
                                     const Region& region, const Gpu& gpu, Scene& scene,

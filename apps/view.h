@@ -25,7 +25,7 @@ struct View {
     int samples{1};
     std::optional<SunDirection> sun;  // nothing: the style's
     std::string style{"default"};
-    std::string pipeline{"auto"};  // or "mesh", "compute"
+    std::string pipeline{"auto"};  // or "mesh", "compute": written views name the one that drew them
     double tau_px{1.0};            // largest error of what is drawn; 0: full resolution
     std::int64_t time_utc_s{};
 };

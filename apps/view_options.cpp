@@ -61,17 +61,6 @@ Result<std::int64_t> parse_time(const std::string& text) {
     return time_utc_s;
 }
 
-// The clock, or SOURCE_DATE_EPOCH for builds that must repeat.
-std::int64_t time_now_s() {
-    std::int64_t fixed = 0;
-    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
-        epoch && read_whole(std::string_view(epoch), fixed))
-        return fixed;
-    return std::chrono::duration_cast<std::chrono::seconds>(
-               std::chrono::system_clock::now().time_since_epoch())
-        .count();
-}
-
 Result<double> within(const char* option, double value, double low, double high) {
     if (value >= low && value <= high) return value;
     char text[120];
@@ -105,6 +94,16 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
 }
 
 }  // namespace
+
+std::int64_t time_now_s() {
+    std::int64_t fixed = 0;
+    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
+        epoch && read_whole(std::string_view(epoch), fixed))
+        return fixed;
+    return std::chrono::duration_cast<std::chrono::seconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
 
 Result<RegionRequest> region_request(const RegionOptions& options) {
     if (options.paths.empty()) return usage("PATH", "no elevation data given: name a file or a folder");

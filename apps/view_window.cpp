@@ -8,6 +8,7 @@
 #include "apps/flight.h"
 #include "apps/json_text.h"
 #include "apps/picture_file.h"
+#include "apps/pipeline_choice.h"
 #include "apps/progress_bar.h"
 #include "apps/region_scene.h"
 #include "apps/style.h"
@@ -227,7 +228,7 @@ Result<void> run_view(const WindowOptions& options) {
             Window::create(*gpu, view.camera.width_px, view.camera.height_px, "Orograph"));
     FrameRendererOptions renderer_options;
     renderer_options.extent = window->extent();
-    ORO_TRY(renderer_options.path, raster_path_for(view.pipeline, gpu->report()));
+    ORO_TRY(renderer_options.path, choose_path(view.pipeline, *gpu));
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
     Viewer viewer{options,

@@ -66,7 +66,7 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     assert(options.extent.height > 0 && options.extent.height <= gpu.report().max_picture_side_px);
     FrameRenderer renderer(gpu);
     renderer.options_ = options;
-    ORO_TRY(renderer.pipelines_, create_pipelines(gpu, options.path, options.record_positions));
+    ORO_TRY(renderer.pipelines_, create_pipelines(gpu, options.path, options.record_positions, options.shades));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -337,7 +337,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) cons
         record_raster(commands, plan);
     }
     stamp(2);
-    record_shade(commands, plan);
+    if (options_.shades) record_shade(commands, plan);
     stamp(3);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,

@@ -29,6 +29,7 @@ struct FrameRendererOptions {
     bool several_samples{false};   // will be asked for sample_count > 1
     bool record_positions{false};  // mesh path only
     bool keep_depths{false};       // for read_depths()
+    bool shades{true};             // false: for times alone, there is nothing to be read
     RasterPath path{RasterPath::mesh};
 };
 

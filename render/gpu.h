@@ -53,7 +53,7 @@ GpuOptions gpu_options_from_environment();
 enum class RasterPath { mesh, compute };
 
 // The way that a request ("auto", "mesh", "compute") means on a device; auto takes mesh shaders where there
-// are any. Errors (no_device): the device lacks what the request names.
+// are any, without measuring (render/calibration.h does). Errors (no_device): the device lacks what the request names.
 Result<RasterPath> raster_path_for(const std::string& request, const DeviceReport& device);
 // "mesh" or "compute".
 std::string name_of(RasterPath path);

@@ -210,13 +210,14 @@ Result<void> create_compute_path(const Gpu& gpu, Pipelines& pipelines) {
 
 }  // namespace
 
-Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions) {
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions, bool shades) {
     const bool by_mesh = path == RasterPath::mesh;
     Pipelines pipelines;
     ORO_CHECK(create_layouts(gpu, path, pipelines));
     ORO_CHECK(by_mesh ? create_mesh_path(gpu, record_positions, pipelines)
                       : create_compute_path(gpu, pipelines));
     ORO_CHECK(create_choice(gpu, pipelines));
+    if (!shades) return pipelines;
     const VkBool32 from_compute = by_mesh ? VK_FALSE : VK_TRUE;
     const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
     const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};

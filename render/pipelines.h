@@ -22,7 +22,7 @@ struct Pipelines {
 };
 
 // Sizes of workgroups follow the device's preferred limits. record_positions: the mesh shader also writes
-// each placed post to FrameConstants.recorded (for tests).
-Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions);
+// each placed post to FrameConstants.recorded (for tests). Without `shades`, `shade` is left out.
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions, bool shades);
 
 }  // namespace oro

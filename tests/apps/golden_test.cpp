@@ -38,16 +38,28 @@ struct Golden {
     std::vector<std::string> view;
 };
 
-class GoldenPicture : public ::testing::TestWithParam<Golden> {};
+class GoldenPicture : public ::testing::TestWithParam<Golden> {
+  protected:
+    void draw(const char* pipeline);
+};
 
+// By both ways of drawing: auto may choose either.
 TEST_P(GoldenPicture, IsDrawnAsItWas) {
+    draw("mesh");
+}
+TEST_P(GoldenPicture, IsDrawnAsItWasByCompute) {
+    if (std::getenv("OROGRAPH_WRITE_GOLDENS")) GTEST_SKIP() << "goldens are drawn by mesh shaders";
+    draw("compute");
+}
+
+void GoldenPicture::draw(const char* pipeline) {
     const fs::path golden =
         oro::test::bundled_data() / ".." / "tests" / "goldens" / (std::string(GetParam().name) + ".png");
     const bool write = std::getenv("OROGRAPH_WRITE_GOLDENS") != nullptr;
     const fs::path drawn = write ? golden : oro::test::scratch_folder() / "drawn.png";
     std::vector<std::string> words{"shot",   "jacksboro.tif",        "--size",      "320x180",
                                    "--time", "2026-01-01T00:00:00Z", "--overwrite", "-q",
-                                   "--out",  drawn.string()};
+                                   "--out",  drawn.string(),         "--pipeline",  pipeline};
     words.insert(words.end(), GetParam().view.begin(), GetParam().view.end());
     // Named as seen from its folder: a picture carries the names of its sources, and a golden must not carry
     // a machine's.

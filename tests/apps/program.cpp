@@ -56,11 +56,13 @@ std::vector<std::string> Outcome::err_lines() const {
 
 Outcome run_program(const std::vector<std::string>& words, const Circumstances& circumstances) {
     const fs::path said = scratch_folder();
+    static const fs::path cache = scratch_folder();
     const pid_t child = fork();
     if (child == 0) {
         redirect("/dev/null", STDIN_FILENO, O_RDONLY);
         redirect(said / "out", STDOUT_FILENO, O_WRONLY | O_CREAT);
         redirect(said / "err", STDERR_FILENO, O_WRONLY | O_CREAT);
+        setenv("OROGRAPH_CACHE", cache.c_str(), 1);
         take_on(circumstances);
         std::vector<char*> arguments;
         for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
