@@ -64,7 +64,7 @@ struct BenchTimes {
     double shade_s{};
     double gpu_s{};
     double plan_s{};     // processor: pages chosen
-    double frame_s{};    // processor: the whole frame, the wait for the GPU included
+    double frame_s{};    // processor: a frame that is planned, the wait for the GPU included
     double settled_s{};  // the first frame, with all that had to be read
     std::size_t pages_on_gpu{};
     std::uint64_t bytes_on_gpu{};
@@ -76,27 +76,28 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
     const gpu::FrameStyle style = plain_style();
     std::vector<double> choose, raster, shade, whole, planned, frame;
     BenchTimes times;
-    // Until clocks are up: at least so many frames, and so long.
-    constexpr int least_warm_up = 3;
-    constexpr double warm_up_s = 0.3;
     const auto beginning = Clock::now();
-    for (int i = 0, counted = 0; counted < options.frames; ++i) {
+    ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px));
+    if (!plan.missing.empty()) return Error{ErrorKind::failed, "--gpu-memory", "is too small for this view"};
+    ORO_TRY(times.last, renderer.draw(plan, style));
+    times.settled_s = seconds_since(beginning);
+    // Frames without a pause, until clocks are up, and then those that count.
+    constexpr double warm_up_s = 1.0;
+    for (const auto start = Clock::now(); seconds_since(start) < warm_up_s;)
+        ORO_CHECK(renderer.draw(plan, style));
+    for (int i = 0; i < options.frames; ++i) {
         const auto start = Clock::now();
-        ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px));
-        if (!plan.missing.empty())
-            return Error{ErrorKind::failed, "--gpu-memory", "is too small for this view"};
-        const double plan_s = seconds_since(start);
-        ORO_TRY(times.last, renderer.draw(std::move(plan), style));
-        const double frame_s = seconds_since(start);
-        if (i == 0) times.settled_s = frame_s;
-        if (i < least_warm_up || seconds_since(beginning) < warm_up_s) continue;
-        ++counted;
+        ORO_TRY(times.last, renderer.draw(plan, style));
+        frame.push_back(seconds_since(start));
         choose.push_back(times.last.choose_s);
         raster.push_back(times.last.raster_s);
         shade.push_back(times.last.shade_s);
         whole.push_back(times.last.gpu_s());
-        planned.push_back(plan_s);
-        frame.push_back(frame_s);
+    }
+    for (int i = 0; i < options.frames; ++i) {
+        const auto start = Clock::now();
+        ORO_CHECK(scene.settled_plan(camera, tile, options.tau_px));
+        planned.push_back(seconds_since(start));
     }
     times.choose_s = median(choose);
     times.raster_s = median(raster);
@@ -257,7 +258,7 @@ int main(int argc, char** argv) {
     app.add_option("--tau", options.tau_px, "Largest error, pixels; 0: full resolution")
         ->check(CLI::Range(0.0, 1000.0));
     app.add_option("--size", size, "Picture size, WIDTHxHEIGHT pixels");
-    app.add_option("--frames", options.frames, "Frames that count, after some that do not")
+    app.add_option("--frames", options.frames, "Frames that count, after a second of frames that do not")
         ->check(CLI::Range(1, 10000));
     app.add_option("--pipeline", options.pipeline, "mesh, compute or auto")
         ->check(CLI::IsMember({"auto", "mesh", "compute"}));

@@ -109,7 +109,11 @@ class Bake {
 
 Result<BakeReport> bake_region(const HeightField& field, const BakeOptions& options,
                                const BakeProgress& progress) {
-    const RegionOutline outline = outline_of(field, options);
+    return bake_region(field, outline_of(field, options), options, progress);
+}
+
+Result<BakeReport> bake_region(const HeightField& field, const RegionOutline& outline,
+                               const BakeOptions& options, const BakeProgress& progress) {
     if (outline.triangles == 0)
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
     ORO_TRY(RegionFileWriter writer,

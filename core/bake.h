@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/post_grid.h"
+#include "core/region_file.h"
 #include "core/result.h"
 
 namespace oro {
@@ -33,5 +34,8 @@ using BakeProgress = std::function<bool(double share)>;
 // memory. Errors: no triangle in the region (no_data), those of RegionFileWriter, broken off.
 Result<BakeReport> bake_region(const HeightField& field, const BakeOptions& options,
                                const BakeProgress& progress = {});
+// The same with an outline that is known: it must be the field's own.
+Result<BakeReport> bake_region(const HeightField& field, const RegionOutline& outline,
+                               const BakeOptions& options, const BakeProgress& progress = {});
 
 }  // namespace oro

@@ -68,7 +68,7 @@ DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int th
         const bool pole = at_pole(grid, row);
         for (int column = 0; column < grid.columns(); ++column) {
             const std::size_t i = static_cast<std::size_t>(column);
-            const float H_m = field.H_m[first + i];
+            const float H_m = field.posts ? field.posts->H_m(row, column) : field.H_m[first + i];
             if (is_void(H_m)) {
                 heights.steps[first + i] = void_height_steps;
             } else if (pole || column == grid.columns() - 1) {

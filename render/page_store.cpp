@@ -6,7 +6,7 @@
 namespace oro {
 namespace {
 
-constexpr std::size_t largest_chunk = 512;  // pages; 40 MB: far below every device's limit on one buffer
+constexpr std::size_t pages_per_chunk = 128;  // 10 MB: far below every device's limit on one buffer
 constexpr std::size_t pages_in_staging = 64;
 
 }  // namespace
@@ -14,7 +14,6 @@ constexpr std::size_t pages_in_staging = 64;
 Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity) {
     PageStore store(gpu);
     store.capacity_ = std::max<std::size_t>(1, capacity);
-    store.pages_per_chunk_ = std::min(store.capacity_, largest_chunk);
     ORO_TRY(store.commands_, Commands::create(gpu, "page upload"));
     ORO_TRY(store.staging_,
             create_buffer(gpu, pages_in_staging * sizeof(gpu::PageBlock), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
@@ -23,7 +22,9 @@ Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity) {
 }
 
 std::uint64_t PageStore::bytes() const {
-    return chunks_.size() * pages_per_chunk_ * sizeof(gpu::PageBlock);
+    std::uint64_t bytes = 0;
+    for (const Buffer& chunk : chunks_) bytes += chunk.size;
+    return bytes;
 }
 
 std::uint64_t PageStore::address(const PageIndex& page) {
@@ -31,20 +32,21 @@ std::uint64_t PageStore::address(const PageIndex& page) {
     if (found == slots_of_.end()) return 0;
     const std::size_t slot = found->second;
     slots_[slot].used = frame_;
-    return chunks_[slot / pages_per_chunk_].address + slot % pages_per_chunk_ * sizeof(gpu::PageBlock);
+    return chunks_[slot / pages_per_chunk].address + slot % pages_per_chunk * sizeof(gpu::PageBlock);
 }
 
 // A slot that is free, or was not used for longest and not by this frame; false when there is none.
 Result<bool> PageStore::find_slot(std::size_t& slot) {
     if (slots_.size() < capacity_) {
         slot = slots_.size();
-        if (slot / pages_per_chunk_ == chunks_.size()) {
+        if (slot / pages_per_chunk == chunks_.size()) {
             constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+            const std::size_t count = std::min(pages_per_chunk, capacity_ - slot);
             ORO_TRY(Buffer chunk,
-                    create_buffer(*gpu_, pages_per_chunk_ * sizeof(gpu::PageBlock), usage,
-                                  BufferPlace::device, "pages " + std::to_string(chunks_.size())));
+                    create_buffer(*gpu_, count * sizeof(gpu::PageBlock), usage, BufferPlace::device,
+                                  "pages " + std::to_string(chunks_.size())));
             chunks_.push_back(std::move(chunk));
         }
         slots_.push_back({{}, frame_});
@@ -90,10 +92,10 @@ Result<void> PageStore::copy(std::span<const std::size_t> slots) {
     return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         for (std::size_t i = 0; i < slots.size(); ++i) {
             const VkBufferCopy copy{i * sizeof(gpu::PageBlock),
-                                    slots[i] % pages_per_chunk_ * sizeof(gpu::PageBlock),
+                                    slots[i] % pages_per_chunk * sizeof(gpu::PageBlock),
                                     sizeof(gpu::PageBlock)};
-            vkCmdCopyBuffer(commands, staging_.handle.get(),
-                            chunks_[slots[i] / pages_per_chunk_].handle.get(), 1, &copy);
+            vkCmdCopyBuffer(commands, staging_.handle.get(), chunks_[slots[i] / pages_per_chunk].handle.get(),
+                            1, &copy);
         }
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);

@@ -53,7 +53,6 @@ class PageStore {
     Buffer staging_;
     std::vector<Buffer> chunks_;
     std::size_t capacity_{};
-    std::size_t pages_per_chunk_{};
     std::vector<Slot> slots_;  // those ever used
     std::map<Key, std::size_t> slots_of_;
     std::uint64_t frame_{1};

@@ -7,8 +7,6 @@
 #include <chrono>
 #include <set>
 
-#include "tests/support/rough_terrain.h"
-
 namespace oro {
 namespace {
 
@@ -16,7 +14,7 @@ namespace {
 class CountingPages : public RegionPages {
   public:
     explicit CountingPages(int unreadable_row)
-        : RegionPages({test::rough_field(47.0, 8.0, 2000, 2000).grid, {}, {}, 1}),
+        : RegionPages({{{1200.0, 47.0, 0, -1, 2000}, {1200.0, 8.0, 0, 1, 2000}}, {}, {}, 1}),
           unreadable_row_(unreadable_row) {}
     [[nodiscard]] Result<PageRecord> record(const PageIndex&) const override { return PageRecord{}; }
     Result<void> load(const PageIndex& page, gpu::PageBlock& block) const override {
