@@ -1,37 +1,21 @@
 // Golden pictures of the bundled region on the software driver: what a change of code must not change unseen.
 // To make them anew after a wanted change, run with OROGRAPH_WRITE_GOLDENS=1 and look at every one.
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <cstdlib>
 #include <vector>
 
+#include "tests/apps/picture_pixels.h"
 #include "tests/apps/program.h"
 #include "tests/support/test_data.h"
 
 namespace {
 namespace fs = std::filesystem;
+using oro::test::Pixels;
+using oro::test::pixels_of;
 
 constexpr int largest_difference = 3;              // of 255, in any channel, for a pixel to count as the same
 constexpr double largest_share_differing = 0.002;  // of all pixels
-
-struct Pixels {
-    png_uint_32 width{}, height{};
-    std::vector<png_byte> rgb;
-};
-
-Pixels pixels_of(const fs::path& file) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    Pixels pixels;
-    if (!png_image_begin_read_from_file(&image, file.c_str())) return pixels;
-    image.format = PNG_FORMAT_RGB;
-    pixels.rgb.resize(PNG_IMAGE_SIZE(image));
-    if (!png_image_finish_read(&image, nullptr, pixels.rgb.data(), 0, nullptr)) return {};
-    pixels.width = image.width;
-    pixels.height = image.height;
-    return pixels;
-}
 
 struct Golden {
     const char* name;
@@ -91,14 +75,21 @@ void GoldenPicture::draw(const char* pipeline) {
 INSTANTIATE_TEST_SUITE_P(
     Jacksboro, GoldenPicture,
     ::testing::Values(
-        Golden{"overview", {"--tau", "0"}},
+        Golden{"levels_overview", {}},
+        Golden{"levels_valley",
+               {"--at", "36.47,-84.27", "--above", "300", "--heading", "50", "--pitch", "-8"}},
+        Golden{"levels_coarse", {"--tau", "6"}}, Golden{"overview", {"--tau", "0"}},
         Golden{"overview_samples", {"--tau", "0", "--samples", "8", "--exaggeration", "2"}},
-        Golden{"valley", {"--tau", "0", "--at", "36.47,-84.27", "--above", "300", "--heading", "50", "--pitch", "-8"}},
+        Golden{"valley",
+               {"--tau", "0", "--at", "36.47,-84.27", "--above", "300", "--heading", "50", "--pitch", "-8"}},
+        Golden{"edge",
+               {"--tau", "0", "--at", "36.6,-84.38", "--above", "1500", "--heading", "250", "--pitch", "-15",
+                "--roll", "10"}},
+        Golden{"from_space",
+               {"--tau", "0", "--at", "36.5,-84.2", "--altitude", "2000000", "--pitch", "-89", "--fov", "4"}},
         Golden{
-            "edge",
-            {"--tau", "0", "--at", "36.6,-84.38", "--above", "1500", "--heading", "250", "--pitch", "-15", "--roll", "10"}},
-        Golden{"from_space", {"--tau", "0", "--at", "36.5,-84.2", "--altitude", "2000000", "--pitch", "-89", "--fov", "4"}},
-        Golden{"nadir", {"--tau", "0", "--at", "36.5,-84.2", "--altitude", "30000", "--pitch", "-90", "--sun", "90,20"}}),
+            "nadir",
+            {"--tau", "0", "--at", "36.5,-84.2", "--altitude", "30000", "--pitch", "-90", "--sun", "90,20"}}),
     [](const auto& golden) { return std::string(golden.param.name); });
 
 }  // namespace

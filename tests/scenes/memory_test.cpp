@@ -1,0 +1,69 @@
+// Must hold: 68 tiles with 64 MB of terrain on the GPU, from 300 km to the ground and back: within the
+// budget, settled, and the same picture as with no limit.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/bake.h"
+#include "core/file_pages.h"
+#include "core/ground.h"
+#include "geo/region.h"
+#include "tests/support/drawn_scene.h"
+#include "tests/support/test_data.h"
+
+namespace oro {
+namespace {
+
+class Memory : public test::GpuTest {};
+
+TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForSixtyEightTiles) {
+    const auto data = test::real_data("poland");
+    if (!data) GTEST_SKIP() << "needs poland";
+    RegionRequest request;
+    request.paths = {data->string()};
+    request.box = *parse_tile_range("N50E012:N55E023");
+    auto region = open_region(request);
+    ASSERT_TRUE(region.ok()) << region.error().line();
+    const std::filesystem::path file = test::scratch_folder() / "poland.oro";
+    BakeOptions options;
+    options.path = file.string();
+    options.overwrite = true;
+    options.threads = 2;
+    const auto baked = bake_region(region->field, options);
+    ASSERT_TRUE(baked.ok()) << baked.error().line();
+    auto opened = RegionFile::open(file.string());
+    ASSERT_TRUE(opened.ok()) << opened.error().line();
+    const auto shared = std::make_shared<const RegionFile>(std::move(opened).value());
+
+    constexpr int width_px = 640, height_px = 360;
+    constexpr std::uint64_t budget = 64'000'000;
+    test::DrawnScene all(*gpu_, pages_of_file(shared), RasterPath::compute, width_px, height_px,
+                         std::uint64_t{1} << 30U);
+    test::DrawnScene few(*gpu_, pages_of_file(shared), RasterPath::compute, width_px, height_px, budget);
+    constexpr int steps = 24;
+    for (int i = 0; i <= steps; ++i) {
+        const double share = std::abs(1.0 - 2.0 * i / steps);  // 1 .. 0 .. 1
+        Camera camera;
+        camera.width_px = width_px;
+        camera.height_px = height_px;
+        camera.eye = {51.2 + 2.6 * i / steps, 13.5 + 8.5 * i / steps, 0.0};
+        const double ground_m =
+            ground_h_m(region->field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
+        camera.eye.h_m = ground_m + 2.0 * std::pow(1.5e5, share);
+        camera.attitude = {15.0 * i, -2.0 - 50.0 * share, 0.0};
+        const test::DrawnFrame free = all.draw(camera, 1.0), bound = few.draw(camera, 1.0);
+        ASSERT_TRUE(bound.plan.missing.empty()) << "frame " << i << " is not settled";
+        ASSERT_EQ(free.ids, bound.ids) << "frame " << i;
+        ASSERT_LE(few.scene().store().bytes(), budget);
+    }
+    std::printf(
+        "68 tiles, %d frames from 300 km to 2 m and back: %.1f MB on the GPU with a budget of 64, %.1f "
+        "without\n",
+        steps + 1, static_cast<double>(few.scene().store().bytes()) * 1e-6,
+        static_cast<double>(all.scene().store().bytes()) * 1e-6);
+    EXPECT_GT(all.scene().store().size(), few.scene().store().capacity()) << "or the test is too easy";
+    std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace oro
