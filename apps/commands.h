@@ -10,6 +10,8 @@ namespace oro {
 Result<void> run_shot(const ShotOptions& options);
 // Opens a window to fly over a region.
 Result<void> run_view(const WindowOptions& options);
+// Writes a region with all its levels into a file, or goes on with one that was broken off.
+Result<void> run_bake(const BakingOptions& options);
 // Tells what the sources of a region are and what is missing.
 Result<void> run_info(const InfoOptions& options);
 // Tells what the machine has and what each lack means.

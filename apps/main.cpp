@@ -49,9 +49,24 @@ void add_view(CLI::App& app, oro::WindowOptions& options) {
     command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
 }
 
+void add_bake(CLI::App& app, oro::BakingOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "bake", "Write a region with all its levels into one file (.oro) that opens at once");
+    command.footer(
+        "One that was broken off leaves FILE.oro.partial and FILE.oro.partial-stitched; the same command "
+        "goes on "
+        "from there.");
+    oro::add_region_options(command, options.region);
+    command.add_option("--out", options.out, "The file to write (.oro)");
+    command.add_flag("--overwrite", options.overwrite, "Replace a file that is there");
+    command.add_flag("--json", options.json, "Print one JSON object about the file on standard output");
+    command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
+}
+
 void add_info(CLI::App& app, oro::InfoOptions& options) {
     CLI::App& command = *app.add_subcommand("info", "Tell what elevation data are and what is missing");
     oro::add_region_options(command, options.region);
+    command.add_flag("--check", options.check, "Read every page of a .oro and tell the first damage");
     command.add_flag("--json", options.json, "Print one JSON object on standard output");
     command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
 }
@@ -90,7 +105,7 @@ void fill_standard_streams() {
 oro::Error usage_error(const CLI::App& app, int argc, char** argv, const CLI::ParseError& error) {
     const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
     if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty())
-        return {oro::ErrorKind::usage, argv[1], "is no command; these are shot, view, info and doctor"};
+        return {oro::ErrorKind::usage, argv[1], "is no command; these are shot, view, bake, info and doctor"};
     return {oro::ErrorKind::usage, "", std::string(error.what()) + " (orograph --help tells more)"};
 }
 
@@ -107,10 +122,12 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "orograph " OROGRAPH_VERSION);
     oro::ShotOptions shot;
     oro::WindowOptions view;
+    oro::BakingOptions bake;
     oro::InfoOptions info;
     oro::DoctorOptions doctor;
     add_shot(app, shot);
     add_view(app, view);
+    add_bake(app, bake);
     add_info(app, info);
     add_doctor(app, doctor);
     try {
@@ -124,6 +141,7 @@ int main(int argc, char** argv) {
     try {
         if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
         if (app.got_subcommand("view")) return exit_code(oro::run_view(view));
+        if (app.got_subcommand("bake")) return exit_code(oro::run_bake(bake));
         if (app.got_subcommand("info")) return exit_code(oro::run_info(info));
         return exit_code(oro::run_doctor(doctor));
     } catch (const std::bad_alloc&) {

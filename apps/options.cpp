@@ -14,7 +14,7 @@ std::string fault_if_empty(const std::string& text) {
 
 void add_region_options(CLI::App& command, RegionOptions& options) {
     command.add_option("PATH", options.paths,
-                       "Elevation data: files, folders, .zip, .gz; what GDAL opens and .hgt");
+                       "Elevation data: files, folders, .zip, .gz; what GDAL opens and .hgt; or one .oro");
     CLI::Option* bbox = command.add_option(
         "--bbox", options.bbox, "Region as west,south,east,north in degrees; west > east crosses 180");
     bbox->check(fault_if_empty);
@@ -58,7 +58,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
             "How triangles are drawn: mesh shaders, compute, or auto (default: the faster, measured once)")
         ->check(CLI::IsMember({"auto", "mesh", "compute"}));
     command.add_option("--tau", options.tau_px,
-                       "Largest error of what is drawn, pixels (default 1; 0: every post that there is)");
+                       "Largest error of what is drawn, pixels (default 1, in a window 0.5; 0: every post that there is)");
     command.add_option("--time", options.time,
                        "The picture's time, e.g. 2026-11-21T09:00:00Z (default: now)");
 }
@@ -67,6 +67,12 @@ void add_memory_options(CLI::App& command, MemoryOptions& options) {
     command
         .add_option("--gpu-memory", options.gpu_memory_mb,
                     "Megabytes of terrain on the GPU at most (default: half of its memory, at most 2 GiB)")
+        ->check(CLI::Range(16, 1000000));
+    command
+        .add_option(
+            "--memory", options.memory_mb,
+            "Megabytes of terrain on its way to the GPU at most (default 64); a baked region needs no more, "
+            "tiles are held in memory besides")
         ->check(CLI::Range(16, 1000000));
 }
 

@@ -44,6 +44,7 @@ struct ViewOptions {
 // How much memory drawing may take, MB of 10^6 bytes; nothing: as much as is reasonable here.
 struct MemoryOptions {
     std::optional<int> gpu_memory_mb;
+    std::optional<int> memory_mb;
 };
 
 struct ShotOptions {
@@ -65,8 +66,17 @@ struct WindowOptions {
     bool quiet{false};
 };
 
+struct BakingOptions {
+    RegionOptions region;
+    std::string out;
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
 struct InfoOptions {
     RegionOptions region;
+    bool check{false};
     bool json{false};
     bool quiet{false};
 };

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "core/region_format.h"
+
 namespace oro {
 namespace {
 
@@ -58,6 +60,26 @@ ordered_json region_json(const Region& region) {
             {"seam_rule", "the finer spacing wins; among equals the first in the byte order of file names"},
             {"missing_cells", region.missing_cells},
             {"notes", region.notes}};
+}
+
+ordered_json file_json(const Region& region) {
+    if (!region.file) return nullptr;
+    const RegionFile& file = *region.file;
+    return {{"path", file.path()},
+            {"format", "baked region"},
+            {"version", region_format::version},
+            {"levels", file.order().levels()},
+            {"pages", file.order().count()},
+            {"triangles", file.outline().triangles},
+            {"bytes", file.bytes()},
+            {"bytes_per_post",
+             static_cast<double>(file.bytes()) / static_cast<double>(region.field.grid.post_count())}};
+}
+
+std::string note_of_voids(const Region& region) {
+    if (region.voids == 0) return "";
+    return std::to_string(region.voids) + " void posts are holes (" + (region.file ? "baking with " : "") +
+           "--fill-voids fills what is near others)";
 }
 
 std::string attribution_of(const Region& region) {

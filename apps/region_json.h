@@ -9,6 +9,11 @@ namespace oro {
 
 nlohmann::ordered_json sources_json(const std::vector<SourceReport>& sources);
 nlohmann::ordered_json region_json(const Region& region);
+// The file of a baked region that is one whole; null for all others.
+nlohmann::ordered_json file_json(const Region& region);
+
+// A line about the region's void posts, if it has any.
+std::string note_of_voids(const Region& region);
 
 // All attributions of a region, each once, joined by "; ".
 std::string attribution_of(const Region& region);

@@ -2,17 +2,35 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
+
+#include "core/file_pages.h"
 
 namespace oro {
+namespace {
+
+// A baked region's levels are those of its own heights; exaggerated ones need levels of their own, and to
+// measure these, all posts in memory.
+Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exaggeration,
+                                              const RenderProgress& progress) {
+    if (region.file && exaggeration == 1.0) return pages_of_file(region.file);
+    const int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+    if (!region.file) return pages_in_memory(region.field, exaggeration, threads, progress);
+    ORO_TRY(const HeightField field, field_in_memory(*region.file));
+    return pages_in_memory(field, exaggeration, threads, progress);
+}
+
+}  // namespace
 
 Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
                            const MemoryOptions& memory, const RenderProgress& progress) {
-    const int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
-    std::unique_ptr<RegionPages> pages = pages_in_memory(region.field, exaggeration, threads, progress);
+    ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(region, exaggeration, progress));
     if (pages->facts().triangles == 0)
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
-    const auto bytes = static_cast<std::uint64_t>(memory.gpu_memory_mb.value_or(0)) * 1000000U;
-    return Scene::create(gpu, std::move(pages), bytes);
+    const auto bytes = [](const std::optional<int>& mb) {
+        return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
+    };
+    return Scene::create(gpu, std::move(pages), {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb)});
 }
 
 }  // namespace oro

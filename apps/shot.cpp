@@ -42,6 +42,7 @@ struct ShotResult {
     Region region;
     PictureReport picture;
     std::uint64_t pages{};
+    std::uint64_t pages_on_gpu{};
     std::uint64_t page_bytes{};
     std::uint64_t triangles_at_full_resolution{};
     ShotTimes times;
@@ -116,6 +117,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                      {"drawn", counts.pages_drawn},
                      {"culled_by_frustum", shot.picture.pages_beyond_frustum},
                      {"culled_by_horizon", shot.picture.pages_beyond_horizon},
+                     {"on_gpu", shot.pages_on_gpu},
                      {"bytes_on_gpu", shot.page_bytes}};
     json["tau_px"] = shot.view.tau_px;
     json["settled"] = counts.settled;
@@ -133,9 +135,8 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
 
 void say_notes(const ShotOptions& options, const ShotResult& shot) {
     for (const std::string& note : shot.region.notes) say(options.quiet, "note: " + note);
-    if (shot.region.voids > 0)
-        say(options.quiet, "note: " + std::to_string(shot.region.voids) +
-                               " void posts are holes (--fill-voids fills what is near others)");
+    if (const std::string holes = note_of_voids(shot.region); !holes.empty())
+        say(options.quiet, "note: " + holes);
     const Geodetic& eye = shot.view.camera.eye;
     const auto ground = ground_h_m(shot.region.field, eye.lat_deg, eye.lon_deg, shot.view.exaggeration);
     if (ground && eye.h_m < *ground) {
@@ -159,6 +160,7 @@ Result<void> check_out(const ShotOptions& options, const PictureFiles& files) {
 // it.
 Result<void> spare_inputs(const PictureFiles& files, const ShotResult& shot) {
     std::vector<std::string> inputs{shot.view.style};
+    for (const std::string& path : shot.view.region.paths) inputs.push_back(path);
     for (const SourceReport& source : shot.region.sources) inputs.push_back(source.path);
     for (const std::string& file : {files.picture, files.view}) {
         for (const std::string& input : inputs) {
@@ -199,6 +201,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     ORO_TRY(shot.picture, write_picture(files, options.overwrite, shot.view, shot.region, *gpu, scene,
                                         style.frame, [&](double share) { bar.show(share, "drawing"); }));
     shot.times.draw_s = seconds_since(drawing);
+    shot.pages_on_gpu = scene.store().size();
     shot.page_bytes = scene.store().bytes();
     bar.clear();
     say(options.quiet || files.picture != told.picture, "wrote " + files.picture + " and " + files.view);

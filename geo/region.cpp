@@ -6,6 +6,7 @@
 #include <new>
 #include <set>
 
+#include "geo/baked_region.h"
 #include "geo/hgt_source.h"
 #include "geo/raster_library.h"
 #include "geo/raster_source.h"
@@ -280,8 +281,9 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
 }  // namespace
 
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
-    start_gdal();
     try {
+        if (baked_path(request.paths)) return open_baked_region(request, progress);
+        start_gdal();
         return open_checked(request, progress);
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::failed, "region too large",

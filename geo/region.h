@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/post_grid.h"
+#include "core/region_file.h"
 #include "core/result.h"
 
 namespace oro {
@@ -30,7 +32,7 @@ Result<BoundingBox> parse_tile_range(const std::string& text);
 
 struct RegionRequest {
     std::vector<std::string>
-        paths;  // files, folders (recursive), .zip, .gz, VRT: what GDAL or the .hgt reader opens
+        paths;  // files, folders (recursive), .zip, .gz, VRT: what GDAL or the .hgt reader opens; or one .oro
     std::optional<BoundingBox> box;  // nothing: all that the sources cover
     bool strict_datum{false};        // refuse instead of letting another geoid stand in
     bool fill_voids{
@@ -66,11 +68,13 @@ struct SourceReport {
     std::uint64_t voids{};
     std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
     std::string placement;        // "posts copied", "cubic resampling from EPSG:2056", ...
-    SeamReport seams;  // with the sources that win over it: its posts that one of them has, too
+    SeamReport seams;             // with the sources that win over it: its posts that one of them has, too
 };
 
 struct Region {
     HeightField field;
+    // The baked region that the field is, whole; null when it comes from other sources or is a part of one.
+    std::shared_ptr<const RegionFile> file;
     std::vector<SourceReport> sources;  // those that the region uses
     SeamReport seams;
     std::string geoid;  // "EGM96 (egm96_15.gtx)": what N in the field is
@@ -85,9 +89,10 @@ struct Region {
 // Told how far reading is, 0..1, from the calling thread.
 using Progress = std::function<void(double share, const std::string& what)>;
 
-// Reads a region. Errors: a path that is not there or unreadable, a source that is damaged (file, place,
-// value, reason), no data in the region (ErrorKind::no_data), a datum that cannot be honoured with
-// strict_datum.
+// Reads a region, or opens a baked one. Errors: a path that is not there or unreadable, a source that is
+// damaged (file, place, value, reason), no data in the region (ErrorKind::no_data), a datum that cannot be
+// honoured with strict_datum, a baked region beside other paths or with an option that was decided when it
+// was baked (ErrorKind::usage).
 Result<Region> open_region(const RegionRequest& request, const Progress& progress = {});
 
 }  // namespace oro

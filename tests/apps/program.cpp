@@ -8,9 +8,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "tests/support/test_data.h"
 
@@ -72,6 +75,10 @@ Outcome run_program(const std::vector<std::string>& words, const Circumstances& 
     }
     int status = 0;
     EXPECT_GT(child, 0);
+    if (circumstances.signal != 0 && child > 0) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(circumstances.signal_after_s));
+        kill(child, circumstances.signal);  // one that has ended waits to be asked how: its number is its own
+    }
     EXPECT_EQ(waitpid(child, &status, 0), child);
     Outcome outcome;
     outcome.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);

@@ -12,6 +12,8 @@ struct Circumstances {
     std::vector<std::string> environment;  // "NAME=VALUE" sets, "NAME" removes
     bool bound_by_permissions{false};      // root, too, heeds the permissions of files
     std::filesystem::path folder;          // the working folder, if not the test's
+    int signal{0};                         // is sent to it so long after its start, if it still runs then
+    double signal_after_s{0.0};
 };
 
 struct Outcome {

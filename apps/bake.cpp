@@ -1,0 +1,151 @@
+// orograph bake: from sources to one file with all levels, which opens at once and is read page by page.
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <span>
+#include <thread>
+
+#include "apps/commands.h"
+#include "apps/json_text.h"
+#include "apps/progress_bar.h"
+#include "apps/view.h"
+#include "core/bake.h"
+#include "core/checksum.h"
+#include "core/file_pages.h"
+#include "geo/letter_case.h"
+#include "geo/region_description.h"
+#include "geo/source_paths.h"
+#include "geo/whole_file.h"
+
+namespace oro {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Files that the paths name or hold: for an archive the archive itself.
+Result<std::vector<std::string>> input_files(const std::vector<std::string>& paths) {
+    std::vector<std::string> files = paths;
+    ORO_TRY(const std::vector<SourcePath> sources, find_sources(paths));
+    for (const SourcePath& source : sources) files.push_back(source.shown);
+    return files;
+}
+
+// Before anything takes time: that the file can be written where it shall be, and is none that is read.
+Result<void> check_out(const BakingOptions& options) {
+    const std::string& out = options.out;
+    if (out.empty()) return Error{ErrorKind::usage, "--out", "is missing: name the file to write (.oro)"};
+    if (!lower_case(out).ends_with(".oro"))
+        return Error{ErrorKind::usage, "--out", "'" + out + "' does not end in .oro, as baked regions do"};
+    if (access(out.c_str(), F_OK) == 0) {
+        ORO_TRY(const std::vector<std::string> inputs, input_files(options.region.paths));
+        for (const std::string& input : inputs) {
+            std::error_code not_there;
+            if (fs::equivalent(out, input, not_there))
+                return Error{ErrorKind::usage, "--out", "would replace " + input + ", which is to be baked"};
+        }
+        if (!options.overwrite && !fs::is_directory(out))
+            return Error{ErrorKind::failed, out, "is there already (--overwrite replaces it)"};
+    }
+    if (const auto trial = WholeFile::create(out, options.overwrite); !trial.ok()) return trial.error();
+    return {};
+}
+
+// Tells what is baked from all else: heights, their place (the description and the undulation are compared by
+// the writer), and the program that measures the levels. Not when files were changed or where they lie: the
+// same heights give the same file.
+std::uint64_t fingerprint_of(const HeightField& field) {
+    std::uint64_t sum = xxh64(std::as_bytes(std::span(std::string_view(OROGRAPH_VERSION))));
+    for (const GridAxis& axis : {field.grid.lat, field.grid.lon}) {
+        sum = xxh64(std::as_bytes(std::span(&axis.posts_per_deg, 1)), sum);
+        sum = xxh64(std::as_bytes(std::span(&axis.phase_deg, 1)), sum);
+        sum = xxh64(std::as_bytes(std::span(&axis.first, 1)), sum);
+        sum = xxh64(std::as_bytes(std::span(&axis.count, 1)), sum);
+    }
+    return xxh64(std::as_bytes(std::span(field.H_m)), sum);
+}
+
+struct BakeResult {
+    std::string file;
+    std::uint64_t bytes{};
+    std::uint64_t posts{};
+    BakeReport report;
+    double read_s{};
+    double build_s{};
+
+    [[nodiscard]] double bytes_per_post() const {
+        return static_cast<double>(bytes) / static_cast<double>(posts);
+    }
+};
+
+void tell(const BakingOptions& options, const BakeResult& baked) {
+    const BakeReport& report = baked.report;
+    char size[80];
+    std::snprintf(size, sizeof size, "%.1f MB, %.2f bytes a post", static_cast<double>(baked.bytes) / 1e6,
+                  baked.bytes_per_post());
+    if (report.pages_found > 0)
+        say(options.quiet, "went on from page " + std::to_string(report.pages_found) + " of " +
+                               std::to_string(report.pages) + ", where a bake was broken off");
+    say(options.quiet, "wrote " + baked.file + ": " + std::to_string(report.pages) + " pages, " + size);
+    if (!options.json) return;
+    const nlohmann::ordered_json json = {
+        {"file", baked.file},
+        {"bytes", baked.bytes},
+        {"posts", baked.posts},
+        {"bytes_per_post", baked.bytes_per_post()},
+        {"pages", {{"all", report.pages}, {"of_a_bake_broken_off", report.pages_found}}},
+        {"triangles", report.triangles},
+        {"times_s", {{"read", baked.read_s}, {"build_and_write", baked.build_s}}}};
+    std::printf("%s\n", json_text(json, true).c_str());
+}
+
+}  // namespace
+
+Result<void> run_bake(const BakingOptions& options) {
+    ORO_TRY(const RegionRequest request, region_request(options.region));
+    ORO_CHECK(check_out(options));
+    ProgressBar bar(options.quiet);
+    BakeResult baked;
+    baked.file = options.out;
+    const auto reading = Clock::now();
+    ORO_TRY(Region region, open_region(request, [&](double share, const std::string& what) {
+                bar.show(share, "reading " + what);
+            }));
+    if (region.file) {
+        ORO_TRY(region.field, field_in_memory(*region.file));
+    }
+    baked.read_s = seconds_since(reading);
+    bar.clear();
+    for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
+    const auto building = Clock::now();
+    BakeOptions how;
+    how.path = options.out;
+    how.overwrite = options.overwrite;
+    how.fingerprint = fingerprint_of(region.field);
+    how.description = region_description(region);
+    how.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+    // Not to find out when the file is opened.
+    ORO_CHECK(region_from_description(how.description, options.out));
+    ORO_TRY(baked.report, bake_region(region.field, how, [&](double share) {
+                bar.show(share, "baking");
+                return true;
+            }));
+    baked.build_s = seconds_since(building);
+    bar.clear();
+    baked.posts = region.field.grid.post_count();
+    std::error_code fault;
+    baked.bytes = fs::file_size(options.out, fault);
+    if (fault)
+        return Error{ErrorKind::failed, options.out, "cannot be asked for its size: " + fault.message()};
+    tell(options, baked);
+    return {};
+}
+
+}  // namespace oro
