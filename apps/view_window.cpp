@@ -10,6 +10,7 @@
 #include "apps/picture_file.h"
 #include "apps/pipeline_choice.h"
 #include "apps/progress_bar.h"
+#include "apps/region_json.h"
 #include "apps/region_scene.h"
 #include "apps/style.h"
 #include "core/ground.h"
@@ -221,9 +222,7 @@ Result<void> run_view(const WindowOptions& options) {
                                       [&](double share) { bar.show(share, "measuring levels"); }));
     bar.clear();
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
-    if (region.voids > 0)
-        say(options.quiet, "note: " + std::to_string(region.voids) +
-                               " void posts are holes (--fill-voids fills what is near others)");
+    if (const std::string holes = note_of_voids(region); !holes.empty()) say(options.quiet, "note: " + holes);
     ORO_TRY(const std::unique_ptr<Window> window,
             Window::create(*gpu, view.camera.width_px, view.camera.height_px, "Orograph"));
     FrameRendererOptions renderer_options;

@@ -71,10 +71,6 @@ struct EncodedPage {
 // Numbers of the payload must be finite. Safe to call from several threads.
 [[nodiscard]] EncodedPage encode_page(const PageRecord& record, const PagePayload& payload);
 
-// What the building of a level needs to know of the nodes of the level below: for each node of a page the
-// errors of its triangles along the four edges, as in NodeError::stitched_m.
-using StitchedErrors = std::array<std::array<float, 4>, gpu::meshlets_per_page>;
-
 // Writes a region file, page after page, so that it can be stopped at any moment, by a kill or a power cut,
 // and go on from there: it grows as PATH.partial and takes its real name, whole, in finish(). Beside it grows
 // PATH.partial-stitched, which the finished file does not have. The same pages make the same bytes, however
