@@ -1,4 +1,3 @@
-#include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -6,13 +5,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <utility>
 
 #include "core/checksum.h"
+#include "core/file_target.h"
 #include "core/little_endian.h"
 #include "core/region_format.h"
 
@@ -29,42 +25,6 @@ constexpr std::uint64_t at_file_bytes = 16;
 
 Error fault(const std::string& path, const std::string& what) {
     return {ErrorKind::failed, path, what};
-}
-
-// A write past the file size limit (ulimit -f) must come back as an error; the signal's default is to end the
-// program. A handler that the program has set itself stays.
-void ignore_size_limit_signal() {
-    [[maybe_unused]] static const bool once = [] {
-        struct sigaction current {};
-        if (sigaction(SIGXFSZ, nullptr, &current) == 0 && current.sa_handler == SIG_DFL)
-            std::signal(SIGXFSZ, SIG_IGN);
-        return true;
-    }();
-}
-
-// The name must be free, or that of a plain file that may be replaced; the rights of that one, 0 when there
-// is none. A link is followed, so that it stays one.
-Result<unsigned> check_target(std::string& path, bool overwrite) {
-    if (path.empty()) return Error{ErrorKind::usage, "", "the name of the file to write is empty"};
-    if (path.find('\0') != std::string::npos)
-        return Error{ErrorKind::usage, path.c_str(), "a file name cannot hold a zero byte"};
-    if (path.back() == '/') return Error{ErrorKind::usage, path, "names a folder, not a file"};
-    struct stat found {};
-    if (lstat(path.c_str(), &found) != 0) {
-        if (errno == ENOENT) return 0U;
-        return fault(path, "cannot be written: " + system_reason(errno));
-    }
-    if (S_ISLNK(found.st_mode)) {
-        char* const target = realpath(path.c_str(), nullptr);
-        if (!target) return fault(path, "is a link that leads nowhere: " + system_reason(errno));
-        path = target;
-        std::free(target);
-        if (stat(path.c_str(), &found) != 0) return fault(path, "cannot be written: " + system_reason(errno));
-    }
-    if (S_ISDIR(found.st_mode)) return fault(path, "is a folder");
-    if (!S_ISREG(found.st_mode)) return fault(path, "is a device or pipe; only files can be written");
-    if (!overwrite) return fault(path, "exists already; allow overwriting, or choose another name");
-    return static_cast<unsigned>(found.st_mode & 0777U);
 }
 
 // Opens the .partial and keeps other writers out for as long as it is open. One that finishes while this one
@@ -84,27 +44,6 @@ Result<OpenFile> open_alone(const std::string& path) {
             return file;
     }
     return fault(path, "cannot be written: it is taken away again and again");
-}
-
-// Gives `from` the name `to` unless something has that name. Where a file system knows neither way to do this
-// in one step, looking and renaming are two, and a file that appears between them is lost.
-int rename_without_replacing(const char* from, const char* to) {
-    if (renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) return 0;
-    if (errno != EINVAL && errno != ENOSYS) return -1;
-    if (link(from, to) == 0) return unlink(from);
-    if (errno == EEXIST) return -1;
-    struct stat found {};
-    if (lstat(to, &found) == 0) return errno = EEXIST, -1;
-    return rename(from, to);
-}
-
-// The name is on the disk once the folder is; some file systems cannot sync a folder, and that is no failure.
-void sync_folder_of(const std::string& path) {
-    const std::string folder = std::filesystem::path(path).parent_path().string();
-    const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    (void)fsync(descriptor);
-    close(descriptor);
 }
 
 // The header that was given, with the file's size in it.
@@ -271,14 +210,11 @@ Result<void> RegionFileWriter::finish() {
 
 Result<void> RegionFileWriter::take_name() {
     const std::string& partial = partial_.path();
-    const int renamed = overwrite_ ? rename(partial.c_str(), path_.c_str())
-                                   : rename_without_replacing(partial.c_str(), path_.c_str());
-    const int why = renamed == 0 ? 0 : errno;
+    const int why = take_file_name(partial, path_, overwrite_);
     if (why == EEXIST && !overwrite_)
         return fault(path_,
                      "appeared while it was being written, and is left as it is; the new one is " + partial);
     if (why != 0) return fault(path_, "cannot be written: " + system_reason(why));
-    sync_folder_of(path_);
     return {};
 }
 
