@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <span>
-#include <thread>
 
 #include "apps/commands.h"
 #include "apps/json_text.h"
@@ -15,6 +14,7 @@
 #include "core/bake.h"
 #include "core/checksum.h"
 #include "core/file_pages.h"
+#include "core/parallel.h"
 #include "geo/letter_case.h"
 #include "geo/region_description.h"
 #include "geo/source_paths.h"
@@ -130,7 +130,7 @@ Result<void> run_bake(const BakingOptions& options) {
     how.overwrite = options.overwrite;
     how.fingerprint = fingerprint_of(region.field);
     how.description = region_description(region);
-    how.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+    how.threads = thread_count();
     // Not to find out when the file is opened.
     ORO_CHECK(region_from_description(how.description, options.out));
     ORO_TRY(baked.report, bake_region(region.field, how, [&](double share) {

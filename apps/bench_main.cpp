@@ -5,12 +5,12 @@
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <vector>
 
 #include "apps/bench_path.h"
 #include "apps/bench_terrain.h"
 #include "core/file_pages.h"
+#include "core/parallel.h"
 #include "render/picture_renderer.h"
 
 namespace oro {
@@ -116,10 +116,6 @@ Result<FrameRenderer> renderer_for(const Gpu& gpu, RasterPath path, const BenchO
                                static_cast<std::uint32_t>(options.height_px)};
     renderer_options.path = path;
     return FrameRenderer::create(gpu, renderer_options);
-}
-
-int thread_count() {
-    return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
 }
 
 // Triangles a second that a way of drawing reaches when all of them are visible and small.

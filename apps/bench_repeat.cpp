@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "core/bake.h"
 #include "core/file_pages.h"
+#include "core/parallel.h"
 
 namespace oro {
 namespace {
@@ -80,7 +80,7 @@ Result<void> run(const std::string& from, int down, int across, int every, const
     BakeOptions options;
     options.path = to;
     options.overwrite = true;
-    options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
+    options.threads = thread_count(64);
     ORO_TRY(const BakeReport report, bake_region(field, outline, options));
     std::printf("%s: %d x %d tiles, %llu posts, %llu pages\n", to.c_str(), down, across,
                 static_cast<unsigned long long>(field.grid.post_count()),

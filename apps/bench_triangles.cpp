@@ -7,13 +7,13 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "apps/bench_blocks.h"
 #include "apps/bench_rtin.h"
 #include "apps/bench_tin.h"
 #include "core/file_pages.h"
+#include "core/parallel.h"
 
 namespace oro {
 namespace {
@@ -91,7 +91,7 @@ Result<TrianglesReport> count_triangles(const TrianglesOptions& options) {
     ORO_TRY(const RegionFile file, RegionFile::open(options.region));
     ORO_CHECK(check_region(options.region, file.outline()));
     ORO_TRY(const HeightField field, field_in_memory(file));
-    const int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+    const int threads = thread_count();
     const DrawnHeights heights = drawn_heights(field, 1.0, threads);
     const LevelPyramid pyramid = build_pyramid(field.grid, file.outline().shape, heights, threads);
     const DrawnHeights square = north_west_square(heights);

@@ -1,10 +1,9 @@
 #include "apps/region_scene.h"
 
-#include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "core/file_pages.h"
+#include "core/parallel.h"
 
 namespace oro {
 namespace {
@@ -14,10 +13,9 @@ namespace {
 Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exaggeration,
                                               const RenderProgress& progress) {
     if (region.file && exaggeration == 1.0) return pages_of_file(region.file);
-    const int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
-    if (!region.file) return pages_in_memory(region.field, exaggeration, threads, progress);
+    if (!region.file) return pages_in_memory(region.field, exaggeration, thread_count(), progress);
     ORO_TRY(const HeightField field, field_in_memory(*region.file));
-    return pages_in_memory(field, exaggeration, threads, progress);
+    return pages_in_memory(field, exaggeration, thread_count(), progress);
 }
 
 }  // namespace

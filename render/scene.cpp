@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <thread>
+
+#include "core/parallel.h"
 
 namespace oro {
 namespace {
 
 constexpr std::uint64_t default_main_bytes = 64'000'000;
-
-int thread_count() {
-    return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
-}
 
 Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
     const std::size_t size = field.N_m.size() * sizeof(float);
