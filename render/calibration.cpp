@@ -7,14 +7,14 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/frame_plan.h"
+#include "core/parallel.h"
 #include "core/region_pages.h"
 #include "render/frame_renderer.h"
-#include "render/page_store.h"
+#include "render/scene.h"
 
 namespace oro {
 namespace {
@@ -39,10 +39,6 @@ struct FrameSize {
 constexpr FrameSize small_frame{1, 256, 144};
 constexpr FrameSize large_frame{4, 1024, 576};
 constexpr double fast_s = 1e-3;  // a small frame by both ways: the device is to draw the large one
-
-int thread_count() {
-    return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
-}
 
 // Hills on all scales down to the post spacing. A page is some 12 km x 8 km at 46 degrees north.
 HeightField made_field(int pages) {
@@ -79,33 +75,22 @@ Camera eye_over(const PostGrid& grid, const FrameSize& size) {
     return camera;
 }
 
-// What both ways draw.
+// What both ways draw, ready on the GPU: the plan's pages are the scene's.
 struct Terrain {
-    std::unique_ptr<RegionPages> pages;
-    PageStore store;
+    Scene scene;
     FramePlan plan;
 };
 
 Result<Terrain> made_terrain(const Gpu& gpu, const FrameSize& size) {
     const HeightField field = made_field(size.pages);
-    std::unique_ptr<RegionPages> pages = pages_in_memory(field, 1.0, thread_count());
-    ORO_TRY(PageStore store, PageStore::create(gpu, static_cast<std::size_t>(2 * size.pages * size.pages)));
+    const auto most_pages = static_cast<std::uint64_t>(2 * size.pages * size.pages);
+    ORO_TRY(Scene scene, Scene::create(gpu, pages_in_memory(field, 1.0, thread_count()),
+                                       {most_pages * sizeof(gpu::PageBlock), 0}));
     const Camera camera = eye_over(field.grid, size);
-    const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    const auto address = [&](const PageIndex& page) { return store.address(page); };
-    for (;;) {
-        store.begin_frame();
-        ORO_TRY(FramePlan plan, plan_frame(*pages, address, camera, tile, 0.0));
-        if (plan.missing.empty()) return Terrain{std::move(pages), std::move(store), std::move(plan)};
-        std::vector<LoadedPage> loaded;
-        for (const PageIndex& page : plan.missing) {
-            loaded.push_back({page, std::make_unique<gpu::PageBlock>()});
-            ORO_CHECK(pages->load(page, *loaded.back().block));
-        }
-        ORO_TRY(const std::size_t sent, store.send(loaded));
-        assert(sent == loaded.size());
-        static_cast<void>(sent);
-    }
+    ORO_TRY(FramePlan plan,
+            scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, 0.0));
+    assert(plan.missing.empty());
+    return Terrain{std::move(scene), std::move(plan)};
 }
 
 // Both ways of drawing.
