@@ -236,12 +236,7 @@ Sphere sphere_around(std::span<const glm::dvec3> points) {
 
 void Draft::bound_meshlet(int number) {
     gpu::MeshletBounds& bounds = block_.meshlets[number];
-    bounds = {gpu::vec3(0.0F), -1.0F, gpu::vec3(0.0F), 0.0F, 0.0F, -1.0F, 0U};
-    const int rows =
-        posts_.level().row.quads_of_node(posts_.first_row() / meshlet_quads + number / meshlets_per_side);
-    const int columns = posts_.level().column.quads_of_node(posts_.first_column() / meshlet_quads +
-                                                            number % meshlets_per_side);
-    bounds.quads = static_cast<gpu::uint>(rows) | static_cast<gpu::uint>(columns) << 4U;
+    bounds = {gpu::vec3(0.0F), -1.0F, gpu::vec3(0.0F), 0.0F, 0.0F, -1.0F};
     // A post may belong to a neighbour's triangle alone: keeping it costs a little and loses nothing.
     const int triangles = mark_triangles(number);
     if (triangles == 0) return;

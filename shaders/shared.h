@@ -67,7 +67,6 @@ struct MeshletBounds {
     float horizon_angle_rad;
     float error_m;     // unfit_error_m (levels.glsl): cannot stand for anything
     float lod_radius;
-    uint quads;        // rows | columns << 4 of quads within the region: 8 each, or fewer where it ends
 };
 // One page as the GPU holds it.
 struct PageBlock {

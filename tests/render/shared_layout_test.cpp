@@ -76,7 +76,6 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(MeshletBounds, horizon_angle_rad);
     ORO_MEMBER(MeshletBounds, error_m);
     ORO_MEMBER(MeshletBounds, lod_radius);
-    ORO_MEMBER(MeshletBounds, quads);
     ORO_MEMBER(PageBlock, meshlets);
     ORO_MEMBER(PageBlock, row_spacing_m);
     ORO_MEMBER(PageBlock, column_spacing_m);
