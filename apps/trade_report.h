@@ -1,0 +1,74 @@
+// What a trade has measured: each view drawn with each setting, and each effect predicted and measured.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/picture_error.h"
+#include "core/result.h"
+
+namespace oro {
+
+// One view drawn with one setting.
+struct TradeShot {
+    std::string view;     // "far over the Alps"
+    std::string setting;  // "tau 2", "earth sphere", "balanced"
+    double gpu_ms{};      // timestamps: levels, triangles and shading of one sample, median of the repeats
+    std::uint64_t triangles{};
+    std::uint64_t bytes{};  // of the pages that the frame reads, on the GPU
+    ErrorSummary interior_m, interior_px, skyline_px;
+    std::uint64_t skyline_in_one_only{};
+};
+
+// All views with one setting.
+struct TradeSetting {
+    std::string name;
+    std::string options;        // "--tau 2 --heights i16": how a user asks for it
+    double gpu_ms{};            // median over the views
+    std::uint64_t triangles{};  // sums over the views
+    std::uint64_t bytes{};
+    double interior_m{}, interior_px{}, interior_p99_px{}, interior_mean_px{},
+        skyline_px{};  // worst (mean of means) over the views
+    bool on_front{};   // no other setting is both faster and closer (Pareto)
+};
+
+// One effect in one view.
+struct TradeEffect {
+    std::string view;
+    std::string effect;                             // "sphere for ellipsoid"
+    double predicted_m{}, predicted_px{};           // bounds
+    std::optional<double> measured_m, measured_px;  // worst; nothing where it cannot be measured
+    std::string remark;                             // why it is not, or why the bound is far off
+};
+
+struct TradePicture {
+    std::string title;
+    std::string caption;
+    std::vector<std::uint8_t> png;
+};
+
+struct TradeReport {
+    std::string region;   // "N46E008.hgt, N46E007.hgt"
+    std::string command;  // that made it
+    std::string machine, gpu, driver, pipeline, version, time;
+    int width_px{}, height_px{};
+    std::vector<TradeShot> shots;
+    std::vector<TradeSetting> settings;
+    std::vector<TradeEffect> effects;
+    std::vector<TradePicture> pictures;
+};
+
+// Fills `settings` from the shots: the settings in the order in which they first occur, `options` kept by
+// name from those that are there already.
+void sum_up(TradeReport& report);
+
+// One line a shot, with a header; RFC 4180, numbers with all their digits.
+std::string trade_csv(const TradeReport& report);
+// A page that needs nothing but itself: inline SVG plots, pictures as data, no script needed to read it.
+std::string trade_html(const TradeReport& report);
+// For a terminal: settings, then effects.
+std::string trade_text(const TradeReport& report);
+
+}  // namespace oro

@@ -1,0 +1,61 @@
+// How far a drawn picture is from the truth: height and pixels at each drawn point, and where the skyline
+// lies.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/oracle.h"
+#include "core/true_surface.h"
+
+namespace oro {
+
+// Of absolute values. 0 everywhere when there are none.
+struct ErrorSummary {
+    double largest{};
+    double p9999{};  // 99.99 % are not larger (nearest rank)
+    double p99{};
+    double mean{};
+    std::uint64_t count{};
+};
+ErrorSummary summary_of(std::vector<double> values);
+
+// A drawn picture's depths: reversed (near_plane_m / distance along the view axis), 0 for the background, row
+// by row, each at the sample's place in its pixel.
+struct DrawnDepths {
+    std::span<const float> depths;
+    glm::dvec2 sample_px{0.5, 0.5};
+};
+
+// The interior: at each drawn point, taken relative to the true eye, how far it lies above the true surface
+// (metres along the ellipsoid's normal), and how far apart the two points at that latitude and longitude are
+// on the picture.
+struct InteriorError {
+    std::vector<float>
+        height_m;  // of each pixel, signed; not_measured where nothing is drawn or nothing true lies below
+    std::vector<float> px;
+    ErrorSummary summary_m;
+    ErrorSummary summary_px;
+    std::uint64_t drawn{};        // pixels with ground
+    std::uint64_t beyond_data{};  // of them those whose point lies over no data
+};
+inline constexpr float not_measured = -1.0e30F;
+// `sight` is the true one: where the eye really is, and the air really bends light.
+InteriorError interior_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+                             const DrawnDepths& drawn, int threads);
+
+// The skyline: for each column of pixels the highest ground. The truth's is found by bisection to 1/64 px;
+// the drawn one's is known to half the distance of its samples.
+struct SkylineError {
+    std::vector<double>
+        px;  // of each column with a skyline in both: how far the drawn one is off, less what is not known
+    ErrorSummary summary_px;
+    std::uint64_t in_one_only{};  // columns with ground in one of the two only
+};
+// samples: pictures of the same view, sampled at several heights in their pixels.
+SkylineError skyline_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+                           std::span<const DrawnDepths> samples, int threads);
+
+}  // namespace oro
