@@ -21,6 +21,8 @@ struct ErrorSummary {
     std::uint64_t count{};
 };
 ErrorSummary summary_of(std::vector<double> values);
+// The same of floats, those that are not_measured left out.
+ErrorSummary summary_of(std::span<const float> values);
 
 // A drawn picture's depths: reversed (near_plane_m / distance along the view axis), 0 for the background, row
 // by row, each at the sample's place in its pixel.
@@ -31,10 +33,11 @@ struct DrawnDepths {
 
 // The interior: at each drawn point, taken relative to the true eye, how far it lies above the true surface
 // (metres along the ellipsoid's normal), and how far apart the two points at that latitude and longitude are
-// on the picture.
+// on the picture. Where the true one lies behind the picture's plane: at least as far as the metres would
+// reach at the drawn one's distance, if they lay across.
 struct InteriorError {
-    std::vector<float>
-        height_m;  // of each pixel, signed; not_measured where nothing is drawn or nothing true lies below
+    std::vector<float> height_m;  // of each pixel, signed; not_measured where nothing is drawn or nothing
+                                  // true lies below
     std::vector<float> px;
     ErrorSummary summary_m;
     ErrorSummary summary_px;
@@ -42,19 +45,30 @@ struct InteriorError {
     std::uint64_t beyond_data{};  // of them those whose point lies over no data
 };
 inline constexpr float not_measured = -1.0e30F;
-// `sight` is the true one: where the eye really is, and the air really bends light.
+// `sight` is the true one: where the eye really is, and the air really bends light. Error: that of the
+// depths, which are floats: 6e-8 of the distance, along the ray.
 InteriorError interior_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
                              const DrawnDepths& drawn, int threads);
 
-// The skyline: for each column of pixels the highest ground. The truth's is found by bisection to 1/64 px;
-// the drawn one's is known to half the distance of its samples.
+// The true skyline: for each column of pixels, where its highest ground begins, in pixels from the picture's
+// top.
+struct Skyline {
+    std::vector<float> y_px;  // not_measured: no ground. 0: ground at the picture's very top
+};
+// Along the middles of the columns; by bisection to 1/64 px between the first ray with ground, of those
+// through the pixels' centres, and the ray above it. Ground that no such ray meets is not found.
+Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads);
+
+// The skyline: how far the drawn one lies from the truth's, in pixels along the column. The drawn one is
+// known to lie between two samples; what is not known is not counted as an error.
 struct SkylineError {
-    std::vector<double>
-        px;  // of each column with a skyline in both: how far the drawn one is off, less what is not known
+    std::vector<float> px;  // of each column; not_measured where it has no skyline in either, or in one only,
+                            // or ground reaches the picture's top in both
     ErrorSummary summary_px;
     std::uint64_t in_one_only{};  // columns with ground in one of the two only
 };
-// samples: pictures of the same view, sampled at several heights in their pixels.
+// samples: pictures of the same view, sampled at several heights in the middle of their pixels.
+SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span<const DrawnDepths> samples);
 SkylineError skyline_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
                            std::span<const DrawnDepths> samples, int threads);
 

@@ -1,0 +1,234 @@
+#include "core/picture_error.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "core/parallel.h"
+
+namespace oro {
+namespace {
+
+// Number, from 1, of the value that a share of all are not larger than.
+std::size_t nearest_rank(std::size_t count, std::size_t of_ten_thousand) {
+    return (count * of_ten_thousand + 9999) / 10000;
+}
+
+// Of absolute values; reorders them.
+template <class Value>
+ErrorSummary summary_of_sizes(std::vector<Value>& sizes) {
+    ErrorSummary summary;
+    summary.count = sizes.size();
+    if (sizes.empty()) return summary;
+    const auto ranked = [&](std::size_t rank) {
+        const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+        std::nth_element(sizes.begin(), place, sizes.end());
+        return static_cast<double>(*place);
+    };
+    summary.mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size());
+    summary.p99 = ranked(nearest_rank(sizes.size(), 9900));
+    summary.p9999 = ranked(nearest_rank(sizes.size(), 9999));
+    summary.largest = static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
+    return summary;
+}
+
+// The part of a cell by which a point may lie outside and still be on the edge.
+constexpr double edge_slack = 1.0e-7;
+
+// Height of the surface at a place that may lie beside the region's edge by rounding.
+std::optional<double> h_below_m(const TrueSurface& surface, double lat_deg, double lon_deg) {
+    if (const std::optional<double> h_m = surface.h_m(lat_deg, lon_deg)) return h_m;
+    const PostGrid& grid = surface.field().grid;
+    const double row = grid.lat.index_at(lat_deg), column = grid.column_at(lon_deg);
+    const auto outside = [](double index, int count) {
+        return index < 0.5 * count ? std::max(-index, 0.0) : std::max(index - (count - 1), 0.0);
+    };
+    const double above = outside(row, grid.rows()), beside = outside(column, grid.columns());
+    if (above > edge_slack || beside > edge_slack || (above == 0.0 && beside == 0.0)) return std::nullopt;
+    // Twice as far back as it lay outside at most.
+    const double south = above == 0.0 ? 0.0 : row < 0.5 * grid.rows() ? -1.0 : 1.0;
+    const double west = beside == 0.0 ? 0.0 : column < 0.5 * grid.columns() ? 1.0 : -1.0;
+    return surface.h_m(lat_deg + 2.0 * edge_slack * south * grid.lat.spacing_deg(),
+                       lon_deg + 2.0 * edge_slack * west * grid.lon.spacing_deg());
+}
+
+// What is asked of each drawn point of a picture.
+class DrawnPoints {
+  public:
+    DrawnPoints(const TrueSurface& surface, const Sight& sight, const Camera& camera)
+        : surface_(surface),
+          sight_(sight),
+          view_from_ecef_(camera.view_from_ecef()),
+          ecef_from_view_(glm::transpose(view_from_ecef_)),
+          tangent_(camera.half_fov_tangent()),
+          size_px_(camera.width_px, camera.height_px),
+          pixels_per_tangent_(0.5 * camera.height_px / tangent_.y) {}
+
+    struct Measured {
+        double height_m;
+        double px;
+    };
+    // Of the drawn point on the ray through a place of the picture; nothing where nothing true lies below.
+    [[nodiscard]] std::optional<Measured> at(const glm::dvec2& point_px, float depth) const {
+        const double z_m = near_plane_m / static_cast<double>(depth);
+        const glm::dvec2 drawn_tangent = (2.0 * point_px / size_px_ - 1.0) * tangent_ * glm::dvec2(1.0, -1.0);
+        const glm::dvec3 apparent_m = ecef_from_view_ * (z_m * glm::dvec3(drawn_tangent, -1.0));
+        const Geodetic point = geodetic_from_ecef({sight_.eye.m + sight_.refraction.true_m(apparent_m)});
+        const std::optional<double> true_h_m = h_below_m(surface_, point.lat_deg, point.lon_deg);
+        if (!true_h_m) return std::nullopt;
+        const double height_m = point.h_m - *true_h_m;
+        const glm::dvec3 truth_m =
+            ecef_from_geodetic({point.lat_deg, point.lon_deg, *true_h_m}).m - sight_.eye.m;
+        const glm::dvec3 seen_m = view_from_ecef_ * sight_.refraction.apparent_m(truth_m);
+        if (seen_m.z >= 0.0) return Measured{height_m, std::abs(height_m) * pixels_per_tangent_ / z_m};
+        const glm::dvec2 apart = glm::dvec2(seen_m) / -seen_m.z - drawn_tangent;
+        return Measured{height_m, glm::length(apart) * pixels_per_tangent_};
+    }
+
+  private:
+    const TrueSurface& surface_;
+    const Sight& sight_;
+    glm::dmat3 view_from_ecef_;
+    glm::dmat3 ecef_from_view_;
+    glm::dvec2 tangent_;
+    glm::dvec2 size_px_;
+    double pixels_per_tangent_;
+};
+
+constexpr double skyline_step_px = 1.0 / 64.0;
+
+// Where the highest ground of a column begins: 0 when it is at the top, nothing where there is none.
+std::optional<double> column_skyline_px(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+                                        int column, double reach_m) {
+    const auto is_ground = [&](double y_px) {
+        const glm::dvec3 ray = camera.ecef_direction_at({column + 0.5, y_px});
+        return first_hit(surface, sight, ray, reach_m).has_value();
+    };
+    if (is_ground(0.0)) return 0.0;
+    double sky_px = 0.0, ground_px = 0.5;
+    while (!is_ground(ground_px)) {
+        sky_px = ground_px;
+        ground_px += 1.0;
+        if (ground_px > camera.height_px) return std::nullopt;
+    }
+    while (ground_px - sky_px > skyline_step_px) {
+        const double middle_px = 0.5 * (sky_px + ground_px);
+        (is_ground(middle_px) ? ground_px : sky_px) = middle_px;
+    }
+    return 0.5 * (sky_px + ground_px);
+}
+
+// Between which heights a column's drawn skyline lies; from minus infinity where the first sample has ground.
+struct DrawnSkyline {
+    double sky_px;
+    double ground_px;
+};
+std::optional<DrawnSkyline> drawn_skyline(const Camera& camera, std::span<const DrawnDepths> samples,
+                                          int column) {
+    double sky_px = -std::numeric_limits<double>::infinity();
+    for (int row = 0; row < camera.height_px; ++row) {
+        const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width_px) +
+                                  static_cast<std::size_t>(column);
+        for (const DrawnDepths& sample : samples) {
+            const double y_px = row + sample.sample_px.y;
+            if (sample.depths[pixel] > 0.0F) return DrawnSkyline{sky_px, y_px};
+            sky_px = y_px;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+ErrorSummary summary_of(std::vector<double> values) {
+    for (double& value : values) value = std::abs(value);
+    return summary_of_sizes(values);
+}
+
+ErrorSummary summary_of(std::span<const float> values) {
+    std::vector<float> sizes;
+    sizes.reserve(values.size());
+    for (const float value : values) {
+        if (value != not_measured) sizes.push_back(std::abs(value));
+    }
+    return summary_of_sizes(sizes);
+}
+
+InteriorError interior_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+                             const DrawnDepths& drawn, int threads) {
+    const std::size_t width = static_cast<std::size_t>(camera.width_px);
+    const std::size_t height = static_cast<std::size_t>(camera.height_px);
+    assert(drawn.depths.size() == width * height);
+    InteriorError error;
+    error.height_m.assign(width * height, not_measured);
+    error.px.assign(width * height, not_measured);
+    const DrawnPoints points(surface, sight, camera);
+    std::vector<std::uint64_t> drawn_in_row(height), beyond_in_row(height);
+    in_parallel(camera.height_px, threads, [&](int row) {
+        const std::size_t r = static_cast<std::size_t>(row);
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::size_t pixel = r * width + column;
+            if (!(drawn.depths[pixel] > 0.0F)) continue;
+            ++drawn_in_row[r];
+            const glm::dvec2 corner(static_cast<double>(column), row);
+            const auto measured = points.at(corner + drawn.sample_px, drawn.depths[pixel]);
+            if (!measured) {
+                ++beyond_in_row[r];
+                continue;
+            }
+            error.height_m[pixel] = static_cast<float>(measured->height_m);
+            error.px[pixel] = static_cast<float>(measured->px);
+        }
+    });
+    error.drawn = std::accumulate(drawn_in_row.begin(), drawn_in_row.end(), std::uint64_t{0});
+    error.beyond_data = std::accumulate(beyond_in_row.begin(), beyond_in_row.end(), std::uint64_t{0});
+    error.summary_m = summary_of(error.height_m);
+    error.summary_px = summary_of(error.px);
+    return error;
+}
+
+Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads) {
+    Skyline skyline;
+    skyline.y_px.assign(static_cast<std::size_t>(camera.width_px), not_measured);
+    const double reach_m = sight_reach_m(geodetic_from_ecef(sight.eye).h_m);
+    in_parallel(camera.width_px, threads, [&](int column) {
+        if (const auto y_px = column_skyline_px(surface, sight, camera, column, reach_m))
+            skyline.y_px[static_cast<std::size_t>(column)] = static_cast<float>(*y_px);
+    });
+    return skyline;
+}
+
+SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span<const DrawnDepths> samples) {
+    assert(truth.y_px.size() == static_cast<std::size_t>(camera.width_px) && !samples.empty());
+    std::vector<DrawnDepths> from_top(samples.begin(), samples.end());
+    std::sort(from_top.begin(), from_top.end(),
+              [](const DrawnDepths& a, const DrawnDepths& b) { return a.sample_px.y < b.sample_px.y; });
+    SkylineError error;
+    error.px.assign(truth.y_px.size(), not_measured);
+    for (std::size_t column = 0; column < truth.y_px.size(); ++column) {
+        const float true_px = truth.y_px[column];
+        const auto drawn = drawn_skyline(camera, from_top, static_cast<int>(column));
+        if (drawn.has_value() != (true_px != not_measured)) {
+            ++error.in_one_only;
+            continue;
+        }
+        // Ground at the top in both: the skyline is not in the picture.
+        if (!drawn || (true_px <= 0.0F && std::isinf(drawn->sky_px))) continue;
+        const double y_px = static_cast<double>(true_px);
+        error.px[column] = static_cast<float>(std::max({drawn->sky_px - y_px, y_px - drawn->ground_px, 0.0}));
+    }
+    error.summary_px = summary_of(error.px);
+    return error;
+}
+
+SkylineError skyline_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+                           std::span<const DrawnDepths> samples, int threads) {
+    return skyline_error(true_skyline(surface, sight, camera, threads), camera, samples);
+}
+
+}  // namespace oro
