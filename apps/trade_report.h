@@ -25,13 +25,19 @@ struct TradeShot {
 // All views with one setting.
 struct TradeSetting {
     std::string name;
-    std::string options;        // "--tau 2 --heights i16": how a user asks for it
+    std::string options;  // "--tau 2 --heights i16": how a user asks for it
+    std::optional<double>
+        promised_px;            // the interior error that it must not exceed (tau), if it promises one
     double gpu_ms{};            // median over the views
     std::uint64_t triangles{};  // sums over the views
     std::uint64_t bytes{};
     double interior_m{}, interior_px{}, interior_p99_px{}, interior_mean_px{},
-        skyline_px{};  // worst (mean of means) over the views
-    bool on_front{};   // no other setting is both faster and closer (Pareto)
+        skyline_px{};                 // worst (mean of means) over the views
+    std::uint64_t interior_pixels{};  // sums over the views of what was measured; 0: the errors mean nothing
+    std::uint64_t skyline_columns{};
+    // Pareto: no other setting is at least as good in gpu_ms and interior_px, and better in one; equals are
+    // on it together. Settings where nothing was measured, or a number is not finite, are not.
+    bool on_front{};
 };
 
 // One effect in one view.
@@ -60,15 +66,18 @@ struct TradeReport {
     std::vector<TradePicture> pictures;
 };
 
-// Fills `settings` from the shots: the settings in the order in which they first occur, `options` kept by
-// name from those that are there already.
+// Fills `settings` from the shots: the settings in the order in which they first occur, `options` and
+// `promised_px` kept by name from those that are there already. An error that is no number stays the worst.
 void sum_up(TradeReport& report);
 
-// One line a shot, with a header; RFC 4180, numbers with all their digits.
+// One line a shot, with a header; RFC 4180, numbers with all their digits ("nan", "inf" for what is none).
 std::string trade_csv(const TradeReport& report);
-// A page that needs nothing but itself: inline SVG plots, pictures as data, no script needed to read it.
+// A page that needs nothing but itself: inline SVG plots, pictures as data, no script. Its <main> states
+// data-plots, data-settings, data-shots and data-effects; each plot is an <svg> with data-plot (its name) and
+// data-points, and has as many <g class="point">, each with data-setting, data-view or data-effect: plot
+// "views" has one for each shot. Needs sum_up first.
 std::string trade_html(const TradeReport& report);
-// For a terminal: settings, then effects.
+// For a terminal of 120 columns: settings, then effects (worst over the views). Needs sum_up first.
 std::string trade_text(const TradeReport& report);
 
 }  // namespace oro

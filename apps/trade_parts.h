@@ -1,0 +1,67 @@
+// What the forms of a trade's report share: how numbers and names are written, and the worst of each effect.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/trade_report.h"
+
+namespace oro {
+
+// For people: "0", "0.012", "1.3", "12.4", "316", "4.2e-5"; "n/a" for what is no number, "inf" beyond all.
+std::string figure(double value);
+// The same, "n/a" for nothing.
+std::string figure(const std::optional<double>& value);
+// The fewest digits that read back as the same number.
+std::string all_digits(double value);
+// "12,345,678"
+std::string grouped(std::uint64_t count);
+// 10^6 bytes.
+double megabytes(std::uint64_t bytes);
+// The largest error, or nothing where no place was measured: then the summary's 0 means nothing.
+std::optional<double> largest_of(const ErrorSummary& summary);
+
+// UTF-8 without control characters; U+FFFD for each byte that is none.
+std::string valid_text(std::string_view text);
+// valid_text for the text and the quoted attributes of HTML.
+std::string escaped(std::string_view text);
+// RFC 4648, with padding.
+std::string base64(std::span<const std::uint8_t> bytes);
+
+// Larger of two; no number if one of them is none, so that a fault is never hidden by a smaller error.
+double worse(double a, double b);
+
+// How many times the measured worst a bound is; over the views with something measured above 0.
+struct RatioRange {
+    double least{};
+    double most{};
+};
+
+// A bound that is more than this many times the measured worst tells a user nothing.
+inline constexpr double loose_ratio = 10.0;
+
+// One effect over all views.
+struct EffectWorst {
+    std::string effect;
+    double predicted_m{}, predicted_px{};
+    std::optional<double> measured_m, measured_px;  // of the views where it was measured
+    std::optional<RatioRange> ratio_m, ratio_px;
+    std::string remark;                  // the views' different ones, joined
+    std::vector<std::string> broken_in;  // views where more was measured than predicted, in m or px
+    int views{}, measured_views{};
+};
+// In the order in which they first occur.
+std::vector<EffectWorst> worst_effects(const TradeReport& report);
+// More was measured than predicted, in m or in px.
+bool bound_broken(const TradeEffect& effect);
+// predicted / measured; nothing where nothing, or nothing above 0, was measured.
+std::optional<double> bound_ratio(double predicted, const std::optional<double>& measured);
+
+// The report's views, in the order in which they first occur in its shots.
+std::vector<std::string> views_of(const TradeReport& report);
+
+}  // namespace oro

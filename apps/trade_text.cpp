@@ -1,0 +1,150 @@
+#include <algorithm>
+
+#include "apps/trade_parts.h"
+
+namespace oro {
+namespace {
+
+constexpr std::size_t terminal_columns = 120;
+constexpr std::size_t least_last_column = 16;
+constexpr std::size_t most_name_columns = 30;
+
+// Characters, not bytes; combining and double-width ones count as one.
+std::size_t width_of(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+// At most `columns` characters, the last of them "~" where something is left out.
+std::string cut(const std::string& text, std::size_t columns) {
+    if (width_of(text) <= columns) return text;
+    std::string kept;
+    for (std::size_t i = 0, width = 0; i < text.size(); ++i) {
+        if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U && ++width == columns) break;
+        kept += text[i];
+    }
+    return kept + "~";
+}
+
+// Lines of at most `columns` characters, broken at spaces; a longer word has a line of its own.
+std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
+    std::vector<std::string> lines(1);
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t to = std::min(text.find(' ', from), text.size());
+        const std::string word = text.substr(from, to - from);
+        if (!lines.back().empty() && width_of(lines.back()) + 1 + width_of(word) > columns)
+            lines.emplace_back();
+        if (!word.empty()) lines.back() += (lines.back().empty() ? "" : " ") + word;
+        from = to + 1;
+    }
+    return lines;
+}
+
+// A table whose first column is a name, the next are numbers, and the last, if `text_last`, is text that may
+// take several lines.
+class Table {
+  public:
+    Table(std::vector<std::vector<std::string>> headers, bool text_last)
+        : rows_(std::move(headers)), headers_(rows_.size()), text_last_(text_last) {}
+    void add(std::vector<std::string> row) {
+        row[0] = cut(row[0], most_name_columns);
+        rows_.push_back(std::move(row));
+    }
+    [[nodiscard]] std::string text() const {
+        std::vector<std::size_t> widths(rows_[0].size());
+        for (const auto& row : rows_)
+            for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
+        std::size_t before = 0;
+        for (std::size_t i = 0; i + 1 < widths.size(); ++i) before += widths[i] + 2;
+        const std::size_t room = terminal_columns - std::min(before, terminal_columns);
+        std::string text;
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            text += line(rows_[i], widths, before, std::max(room, least_last_column));
+            if (i + 1 == headers_) text += std::string(std::min(rule(widths), terminal_columns), '-') + "\n";
+        }
+        return text;
+    }
+
+  private:
+    static std::size_t rule(const std::vector<std::size_t>& widths) {
+        std::size_t sum = 2 * (widths.size() - 1);
+        for (const std::size_t width : widths) sum += width;
+        return sum;
+    }
+    [[nodiscard]] std::string line(const std::vector<std::string>& row,
+                                   const std::vector<std::size_t>& widths, std::size_t before,
+                                   std::size_t room) const {
+        std::string text;
+        const std::size_t numbers = text_last_ ? row.size() - 1 : row.size();
+        for (std::size_t i = 0; i < numbers; ++i) {
+            const std::string fill(widths[i] - width_of(row[i]), ' ');
+            text += (i > 0 ? "  " : "") + (i == 0 ? row[i] + fill : fill + row[i]);
+        }
+        if (text_last_) {
+            const std::vector<std::string> lines = wrapped(row.back(), room);
+            text += "  " + lines[0];
+            for (std::size_t i = 1; i < lines.size(); ++i) text += "\n" + std::string(before, ' ') + lines[i];
+        }
+        text.erase(text.find_last_not_of(' ') + 1);
+        return text + "\n";
+    }
+
+    std::vector<std::vector<std::string>> rows_;
+    std::size_t headers_;
+    bool text_last_;
+};
+
+std::string settings_text(const TradeReport& report) {
+    Table table(
+        {{"  setting", "time", "triangles", "read", "interior", "", "", "", "promised", "skyline", ""},
+         {"", "median ms", "all views", "MB", "worst m", "worst px", "p99 px", "mean px", "px", "worst px",
+          "options"}},
+        true);
+    for (const TradeSetting& setting : report.settings) {
+        const bool measured = setting.interior_pixels > 0;
+        const auto interior = [&](double value) { return measured ? figure(value) : std::string("n/a"); };
+        table.add(
+            {(setting.on_front ? "* " : "  ") + valid_text(setting.name), figure(setting.gpu_ms),
+             grouped(setting.triangles), figure(megabytes(setting.bytes)), interior(setting.interior_m),
+             interior(setting.interior_px), interior(setting.interior_p99_px),
+             interior(setting.interior_mean_px), setting.promised_px ? figure(*setting.promised_px) : "",
+             setting.skyline_columns > 0 ? figure(setting.skyline_px) : "n/a", valid_text(setting.options)});
+    }
+    return table.text() + "* no other setting is as fast and as close, and better in one of the two\n";
+}
+
+std::string ratio_text(const std::optional<RatioRange>& ratio) {
+    if (!ratio) return "";
+    const std::string least = figure(ratio->least);
+    const std::string most = figure(ratio->most);
+    return least == most ? least : least + "-" + most;
+}
+
+std::string effects_text(const TradeReport& report) {
+    Table table({{"effect", "predicted", "measured", "ratio", "predicted", "measured", "ratio", "remark"},
+                 {"(worst over the views)", "m", "m", "", "px", "px", "", ""}},
+                true);
+    for (const EffectWorst& effect : worst_effects(report)) {
+        std::string remark = valid_text(effect.remark);
+        if (!effect.broken_in.empty())
+            remark = "MORE THAN PREDICTED in " + std::to_string(effect.broken_in.size()) + " of " +
+                     std::to_string(effect.measured_views) + " views" + (remark.empty() ? "" : "; ") + remark;
+        table.add({valid_text(effect.effect), figure(effect.predicted_m), figure(effect.measured_m),
+                   ratio_text(effect.ratio_m), figure(effect.predicted_px), figure(effect.measured_px),
+                   ratio_text(effect.ratio_px), remark});
+    }
+    return table.text() + "ratio: predicted / measured, least and most of the views\n";
+}
+
+}  // namespace
+
+std::string trade_text(const TradeReport& report) {
+    std::string text = "Settings, over " + std::to_string(views_of(report).size()) + " views of " +
+                       std::to_string(report.width_px) + " x " + std::to_string(report.height_px) + " px\n\n";
+    text += report.settings.empty() ? "none\n" : settings_text(report);
+    text += "\nEffects\n\n";
+    text += report.effects.empty() ? "none\n" : effects_text(report);
+    return text;
+}
+
+}  // namespace oro
