@@ -1,11 +1,11 @@
 #include "apps/picture_file.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "apps/pipeline_choice.h"
 #include "apps/region_json.h"
-#include "core/ground.h"
+#include "core/oracle.h"
+#include "core/parallel.h"
 #include "geo/geodesic.h"
 #include "geo/whole_file.h"
 
@@ -18,10 +18,9 @@ PictureFiles picture_files(const std::string& picture) {
 std::optional<DestinationTag> destination_of(const View& view, const Region& region) {
     const Camera& camera = view.camera;
     const glm::dvec3 ray = camera.ecef_direction_at({0.5 * camera.width_px, 0.5 * camera.height_px});
-    constexpr double reach_m =
-        1.5e6;  // farther than any sight line over the Earth, and than most orbits are high
-    const auto hit = first_ground_hit(region.field, camera.eye_ecef(), ray,
-                                      std::max(reach_m, 2.0 * camera.eye.h_m), view.exaggeration);
+    const TrueSurface surface(region.field, view.exaggeration, thread_count());
+    const auto hit =
+        first_hit(surface, sight_from(camera.eye), ray, sight_reach_m(camera.eye.h_m));
     if (!hit) return std::nullopt;
     const GeodesicPath path =
         geodesic_between(camera.eye.lat_deg, camera.eye.lon_deg, hit->point.lat_deg, hit->point.lon_deg);

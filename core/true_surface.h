@@ -2,13 +2,10 @@
 // GPU.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
-#include <glm/vec3.hpp>
-#include <memory>
-#include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/ellipsoid.h"
@@ -22,56 +19,58 @@ namespace oro {
 class TrueSurface {
   public:
     // `field` outlives the surface. Reads every post once where they are in memory, shared between `threads`;
-    // posts of a file are read when they are asked for.
+    // posts of a file are read when they are asked for. Keeps 0.7 byte for each post that was looked at.
     TrueSurface(const HeightField& field, double exaggeration, int threads);
     ~TrueSurface();
     TrueSurface(const TrueSurface&) = delete;
     TrueSurface& operator=(const TrueSurface&) = delete;
 
     // Height of the surface above the ellipsoid at a place; nothing outside the region and on triangles with
-    // a void post. Error: rounding, below 1e-8 m for slopes up to 45 degrees and posts 1 m apart or more.
+    // a void post. Error: rounding, below 1e-8 m for slopes up to 45 degrees.
     [[nodiscard]] std::optional<double> h_m(double lat_deg, double lon_deg) const;
 
-    // Height above the ellipsoid of a post; nothing where it is void. Posts that are one point have one
-    // height.
+    // Height above the ellipsoid of a post; nothing where it is void. Posts that are one point (a meridian's
+    // two columns, a pole) have one height.
     [[nodiscard]] std::optional<double> post_h_m(int row, int column) const;
 
-    // Heights between which a part of the surface lies; lowest > highest where there is no surface.
+    // Heights between which a part of the surface lies; lowest > highest where there is none.
     struct Layer {
         double lowest_h_m;
         double highest_h_m;
         [[nodiscard]] bool empty() const { return lowest_h_m > highest_h_m; }
     };
-    // A square of cells: 4 * 2^level of them along each side, numbered from the north-west, fewer where the
-    // grid ends.
+    // A square of cells, 4 * 2^level along each side, fewer where the grid ends. Numbered from the
+    // north-west.
     struct Block {
         int level;
         int row;
         int column;
     };
     static constexpr int block_cells = 4;
-    // The level with one block only.
+    // Levels of blocks; the last has one block. 0 when there is no cell.
     [[nodiscard]] int levels() const { return levels_; }
     [[nodiscard]] Layer layer(const Block& block) const;
-    [[nodiscard]] int blocks_down(int level) const;
-    [[nodiscard]] int blocks_across(int level) const;
+    // Number of blocks of a level, (rows, columns).
+    [[nodiscard]] std::pair<int, int> blocks(int level) const;
 
     [[nodiscard]] const HeightField& field() const { return field_; }
     [[nodiscard]] double exaggeration() const { return exaggeration_; }
 
   private:
-    struct Chunk;
+    struct Chunk;  // what is known of 128 x 128 cells, once they were looked at
     [[nodiscard]] const Chunk& chunk(int row, int column) const;
-    void read_chunk(int row, int column, Chunk& chunk) const;
+    [[nodiscard]] Chunk* new_chunk(int row, int column) const;
+    [[nodiscard]] Layer scanned_layer(int chunk_row, int chunk_column) const;
+    void measure_above(int threads);
 
     const HeightField& field_;
     double exaggeration_;
-    int levels_;
-    bool goes_round_;
-    std::vector<UndulationField::Between> N_row_;
-    std::vector<UndulationField::Between> N_column_;
-    mutable std::vector<std::unique_ptr<Chunk>> chunks_;
-    std::vector<std::vector<Layer>> above_;  // layers of the levels above the chunks'
+    int levels_{0};
+    Layer N_range_m_{0.0, 0.0};
+    std::vector<UndulationField::Between> N_rows_;
+    std::vector<UndulationField::Between> N_columns_;
+    std::vector<std::vector<Layer>> above_;  // of the chunks' level and those above it
+    mutable std::vector<std::atomic<Chunk*>> chunks_;
 };
 
 }  // namespace oro

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/ground.h"
+#include "core/oracle.h"
 #include "render/picture_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/rough_terrain.h"
@@ -125,6 +126,7 @@ class Frame : public test::GpuTest, public ::testing::WithParamInterface<RasterP
 TEST_P(Frame, DistancesAgreeWithRaysOnTheCpu) {
     constexpr unsigned seed = 41;
     std::mt19937 random(seed);
+    const TrueSurface surface(field_, 1.0, 1);
     int compared = 0, far_off = 0, missed = 0;
     double worst_share = 0.0;
     for (int i = 0; i < 12; ++i) {
@@ -134,7 +136,7 @@ TEST_P(Frame, DistancesAgreeWithRaysOnTheCpu) {
         for (int y = 3; y < side_px; y += 7) {
             for (int x = 3; x < side_px; x += 7) {
                 const glm::dvec3 ray = camera.ecef_direction_at({x + 0.5, y + 0.5});
-                const auto hit = first_ground_hit(field_, camera.eye_ecef(), ray, 1e5);
+                const auto hit = first_hit(surface, sight_from(camera.eye), ray, 1e5);
                 const std::size_t at = static_cast<std::size_t>(y * side_px + x);
                 if (!hit || ids[at] == 0) {
                     missed += hit.has_value() != (ids[at] != 0) ? 1 : 0;
