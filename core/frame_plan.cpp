@@ -13,6 +13,7 @@
 #include "core/frame_tables.h"
 #include "core/levels.h"
 #include "core/levels_gpu.h"
+#include "core/model_view.h"
 
 namespace oro {
 namespace {
@@ -34,16 +35,18 @@ using WantedLevel = std::map<Place, WantedPage>;
 class PageChoice {
   public:
     PageChoice(const RegionPages& pages, const Residency& residency, const Camera& camera, const Tile& tile,
-               double tau_px)
+               double tau_px, const ModelView& model)
         : pages_(pages),
           residency_(residency),
           view_(level_view(camera, tau_px)),
+          model_(model),
           view_from_ecef_(camera.view_from_ecef()),
-          eye_(camera.eye_ecef()),
           planes_(frustum_planes_view(projection_of_tile(camera, tile))),
-          horizon_(horizon_eye(pages.facts().shape.occluder, eye_)),
+          horizon_(model.horizon(pages.facts().shape.occluder)),
           post_spacing_m_(wgs84_a_m * radians_from_deg(pages.facts().grid.lat.spacing_deg()).rad),
-          levels_(static_cast<std::size_t>(pages.levels())) {}
+          levels_(static_cast<std::size_t>(pages.levels())) {
+        for (Plane& plane : planes_) plane.w += model.rounding_m();
+    }
 
     Result<void> choose();
     void number_pages(FramePlan& plan);
@@ -54,12 +57,9 @@ class PageChoice {
     [[nodiscard]] const WantedLevel& level(int number) const {
         return levels_[static_cast<std::size_t>(number)];
     }
-    [[nodiscard]] glm::dvec3 in_view(const PageSummary& page, const glm::dvec3& in_page_m) const {
-        return view_from_ecef_ * (page.origin_ecef.m + page.ecef_from_page * in_page_m - eye_.m);
-    }
     [[nodiscard]] bool good_enough(const PageSummary& page, const PageQuarter& quarter) const;
     [[nodiscard]] bool fine_enough_to_shade(const PageSummary& page, const PageQuarter& quarter) const;
-    bool hidden(const PageRecord& page);
+    bool hidden(const PageRecord& page, const ViewSphere& seen);
     Result<void> want(const PageIndex& index);
     Result<void> descend(WantedPage& page);
     void open_level(int number);
@@ -72,10 +72,10 @@ class PageChoice {
     const RegionPages& pages_;
     const Residency& residency_;
     LevelView view_;
+    const ModelView& model_;
     glm::dmat3 view_from_ecef_;
-    Ecef eye_;
     std::array<Plane, 5> planes_;
-    HorizonEye horizon_;
+    SeenHorizon horizon_;
     double post_spacing_m_;  // of level 0, along the meridian
     std::vector<WantedLevel> levels_;
     std::size_t beyond_frustum_{};
@@ -85,26 +85,28 @@ class PageChoice {
 bool PageChoice::good_enough(const PageSummary& page, const PageQuarter& quarter) const {
     if (quarter.largest_error_m >= gpu::unfit_error_m) return false;
     if (quarter.lod_radius_m < 0.0) return true;  // nothing there, on any level
-    return gpu::projected_error_px(gpu::vec3(in_view(page, quarter.centre_m)),
-                                   static_cast<float>(quarter.lod_radius_m), quarter.largest_error_m,
+    const ViewSphere seen = model_.seen(page, quarter.centre_m, quarter.lod_radius_m);
+    const double stretch = model_.stretch(page, quarter.centre_m, quarter.lod_radius_m);
+    return gpu::projected_error_px(gpu::vec3(seen.centre_m), static_cast<float>(seen.radius_m),
+                                   quarter.largest_error_m * static_cast<float>(stretch),
                                    view_.pixels_per_tangent, view_.corner_tangent) <= view_.tau_px;
 }
 
 // Are the page's posts close enough on the screen, all over a quarter, to shade slopes from?
 bool PageChoice::fine_enough_to_shade(const PageSummary& page, const PageQuarter& quarter) const {
     if (quarter.lod_radius_m < 0.0) return true;
-    const double distance_m = glm::length(in_view(page, quarter.centre_m)) - quarter.lod_radius_m;
+    const ViewSphere seen = model_.seen(page, quarter.centre_m, quarter.lod_radius_m);
+    const double distance_m = glm::length(seen.centre_m) - seen.radius_m;
     const double spacing_m = std::ldexp(post_spacing_m_, page.index.level);
     return spacing_m * static_cast<double>(view_.pixels_per_tangent) <= gpu::shading_spacing_px * distance_m;
 }
 
-bool PageChoice::hidden(const PageRecord& page) {
-    if (page.reach_m < 0.0) return true;
-    if (beyond_frustum(planes_, in_view(page.summary, page.summary.centre_m), page.reach_m)) {
+bool PageChoice::hidden(const PageRecord& page, const ViewSphere& seen) {
+    if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
         ++beyond_frustum_;
         return true;
     }
-    if (beyond_horizon(horizon_, page.horizon)) {
+    if (beyond_horizon(horizon_.eye, {page.horizon.direction, page.horizon.angle_rad * horizon_.stretch})) {
         ++beyond_horizon_;
         return true;
     }
@@ -113,10 +115,11 @@ bool PageChoice::hidden(const PageRecord& page) {
 
 Result<void> PageChoice::want(const PageIndex& index) {
     ORO_TRY(PageRecord record, pages_.record(index));
-    if (hidden(record)) return {};
+    if (record.reach_m < 0.0) return {};
+    const ViewSphere seen = model_.seen_page(pages_.facts().grid, record);
+    if (hidden(record, seen)) return {};
     WantedPage page;
-    const glm::dvec3 centre = in_view(record.summary, record.summary.centre_m);
-    page.distance_m = std::max(0.0, glm::length(centre) - record.reach_m);
+    page.distance_m = std::max(0.0, glm::length(seen.centre_m) - seen.radius_m);
     page.address = residency_(index);
     page.record = std::move(record);
     level(index.level).emplace(Place{index.row, index.column}, std::move(page));
@@ -253,21 +256,23 @@ void PageChoice::set_neighbours(const PageIndex& index, gpu::FramePage& frame) c
 gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
     const PageSummary& summary = page.record.summary;
     const glm::dmat3 view_from_page = view_from_ecef_ * summary.ecef_from_page;
-    const glm::dvec3 origin_view = view_from_ecef_ * (summary.origin_ecef.m - eye_.m);
-    const glm::dvec3 centre = in_view(summary, summary.centre_m);
+    const glm::dvec3 origin_view = model_.origin_m(summary);
+    const ViewSphere seen = model_.seen(summary, summary.centre_m, summary.radius_m);
     gpu::FramePage frame{};
     frame.view_from_page = gpu::mat3(view_from_page);
     frame.origin_view = gpu::vec3(origin_view);
     bool inside_all = true;
     for (std::size_t i = 0; i < planes_.size(); ++i) {
         const glm::dvec3 normal(planes_[i]);
+        const Plane for_nodes = model_.plane_for_nodes(planes_[i], summary);
         frame.planes[i] = gpu::vec4(gpu::vec3(glm::transpose(view_from_page) * normal),
-                                    static_cast<float>(glm::dot(normal, origin_view) + planes_[i].w));
-        inside_all = inside_all && glm::dot(normal, centre) + planes_[i].w > summary.radius_m;
+                                    static_cast<float>(glm::dot(normal, origin_view) + for_nodes.w));
+        inside_all = inside_all && glm::dot(normal, seen.centre_m) + planes_[i].w > seen.radius_m;
     }
-    frame.horizon_direction = gpu::vec3(horizon_.direction - summary.horizon.direction);
+    frame.horizon_direction = gpu::vec3(horizon_.eye.direction - summary.horizon.direction);
     frame.cull = (inside_all ? 0U : gpu::cull_by_frustum) |
-                 (horizon_.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
+                 (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
+    if (!model_.culls_nodes()) frame.cull = 0;
     frame.block = {static_cast<gpu::uint>(page.address), static_cast<gpu::uint>(page.address >> 32U)};
     frame.level = static_cast<gpu::uint>(summary.index.level);
     frame.stand_in = page.stand_in;
@@ -286,8 +291,10 @@ void PageChoice::list_pages(FrameTables& tables, FramePlan& plan) const {
 }  // namespace
 
 Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residency, const Camera& camera,
-                             const Tile& tile, double tau_px) {
-    PageChoice choice(pages, residency, camera, tile, tau_px);
+                             const Tile& tile, double tau_px, const WorldModel& model,
+                             const HeightCoding& coding) {
+    const ModelView model_view(camera, model, coding);
+    PageChoice choice(pages, residency, camera, tile, tau_px, model_view);
     ORO_CHECK(choice.choose());
     FramePlan plan;
     choice.number_pages(plan);
@@ -295,11 +302,11 @@ Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residenc
         return Error{ErrorKind::failed, "frame",
                      std::to_string(plan.page_indices.size()) + " pages of terrain in one frame, at most " +
                          std::to_string(gpu::pages_max) + " can be drawn (a larger --tau needs fewer)"};
-    FrameTables tables(pages.facts().grid, camera.eye);
+    FrameTables tables(pages.facts().grid, camera.eye, model.earth);
     choice.list_pages(tables, plan);
     plan.row_terms = tables.take_rows();
     plan.column_terms = tables.take_columns();
-    plan.constants = frame_constants(pages, camera, tile, tau_px);
+    plan.constants = frame_constants(pages, camera, tile, tau_px, model, coding);
     plan.constants.page_count = static_cast<gpu::uint>(plan.pages.size());
     return plan;
 }

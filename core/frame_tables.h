@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/height_coding.h"
 #include "core/region_pages.h"
+#include "core/world_model.h"
 #include "shaders/shared.h"
 
 namespace oro {
@@ -18,7 +20,7 @@ namespace oro {
 class FrameTables {
   public:
     // The eye's longitude may be in any whole turn; its height anything from the Earth's centre to the Moon.
-    FrameTables(const PostGrid& grid, const Geodetic& eye);
+    FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth = Earth::ellipsoid);
 
     // Makes sure that a page's rows and columns are there, and tells the page where, and where it lies.
     void place(const PageIndex& index, gpu::FramePage& page);
@@ -29,9 +31,12 @@ class FrameTables {
   private:
     void add_row(std::int64_t row);
     void add_column(std::int64_t column);
+    [[nodiscard]] gpu::RowTerms round_row(double lat_deg) const;
+    [[nodiscard]] gpu::RowTerms flat_row(double lat_deg) const;
 
     const PostGrid& grid_;
     Geodetic eye_;
+    Earth earth_;
     double reference_m_;
     double rho_m_;
     double z_m_;
@@ -45,8 +50,9 @@ class FrameTables {
 // than 524,000 m.
 double reference_height_m(const Geodetic& eye);
 
-// All of a frame's constants that do not depend on buffers and style.
+// All of a frame's constants that do not depend on buffers and style. coding: of the heights on the GPU.
 gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& camera, const Tile& tile,
-                                    double tau_px);
+                                    double tau_px, const WorldModel& model = {},
+                                    const HeightCoding& coding = {});
 
 }  // namespace oro

@@ -55,11 +55,22 @@ class Refraction {
         return apparent_m - lift_m(apparent_m) * up_;
     }
 
-  private:
+    // How far `offset_m` is lifted.
     [[nodiscard]] double lift_m(const glm::dvec3& offset_m) const;
 
+  private:
     double curvature_per_m_{0.0};
     glm::dvec3 up_{0.0, 0.0, 1.0};
 };
+
+// Where the eye is on that model of the Earth, ECEF; the flat one touches WGS84 at the eye.
+Ecef model_eye_ecef(Earth earth, const Geodetic& eye);
+
+// From the eye to where that model of the Earth puts a point, light going straight: ECEF axes of the true
+// eye, metres. The eye is on the same model by its own latitude, longitude and height. Error: rounding of
+// doubles, 3e-9 m near the Earth. Flat: east and west part at the meridian opposite to the eye.
+glm::dvec3 model_offset_m(Earth earth, const Geodetic& eye, const Geodetic& point);
+// The same as it is seen through the model's air. Precision is left out.
+glm::dvec3 model_offset_m(const WorldModel& model, const Geodetic& eye, const Geodetic& point);
 
 }  // namespace oro

@@ -66,7 +66,8 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     assert(options.extent.height > 0 && options.extent.height <= gpu.report().max_picture_side_px);
     FrameRenderer renderer(gpu);
     renderer.options_ = options;
-    ORO_TRY(renderer.pipelines_, create_pipelines(gpu, options.path, options.record_positions, options.shades));
+    ORO_TRY(renderer.pipelines_,
+            create_pipelines(gpu, options.path, options.record_positions, options.shades));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -227,6 +228,7 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     constants.counts = address_words(counts_.address);
     if (options_.keep_depths) constants.depths = address_words(depths_.address);
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
+    constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = style;
     address_choice(constants);
     if (compute_) compute_->address(constants);

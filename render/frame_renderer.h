@@ -28,6 +28,7 @@ struct FrameRendererOptions {
     VkExtent2D extent{};           // largest tile, at most the device's limit
     bool several_samples{false};   // will be asked for sample_count > 1
     bool record_positions{false};  // mesh path only
+    bool record_view{false};       // with record_positions: positions in view coordinates, as they are drawn
     bool keep_depths{false};       // for read_depths()
     bool shades{true};             // false: for times alone, there is nothing to be read
     RasterPath path{RasterPath::mesh};
@@ -59,8 +60,8 @@ class FrameRenderer {
     // ... and 256 bits: the nodes that may stand for what they cover.
     Result<std::vector<std::uint32_t>> read_accepted(std::size_t pages);
     // With record_positions: of every page of the last frame, 129 x 129 positions relative to the eye, in its
-    // meridian frame, as the mesh shader placed them (those of void posts, and of posts that are not drawn,
-    // mean nothing).
+    // meridian frame (with record_view in view coordinates), as the mesh shader placed them (those of void
+    // posts, and of posts that are not drawn, mean nothing).
     [[nodiscard]] std::vector<gpu::vec3> recorded() const;
 
     [[nodiscard]] const Image& picture() const { return picture_; }

@@ -1,6 +1,8 @@
 #include "render/page_store.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstring>
 
 namespace oro {
@@ -11,12 +13,19 @@ constexpr std::size_t pages_in_staging = 64;
 
 }  // namespace
 
-Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity) {
+std::size_t page_bytes(const HeightCoding& coding) {
+    if (!coding.sixteen) return sizeof(gpu::PageBlock);
+    return offsetof(gpu::PageBlock, heights) + sizeof(std::uint32_t) * ((gpu::page_heights + 1) / 2);
+}
+
+Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity, const HeightCoding& coding) {
     PageStore store(gpu);
+    store.coding_ = coding;
+    store.page_bytes_ = page_bytes(coding);
     store.capacity_ = std::max<std::size_t>(1, capacity);
     ORO_TRY(store.commands_, Commands::create(gpu, "page upload"));
     ORO_TRY(store.staging_,
-            create_buffer(gpu, pages_in_staging * sizeof(gpu::PageBlock), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+            create_buffer(gpu, pages_in_staging * store.page_bytes_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                           BufferPlace::upload, "page staging"));
     return store;
 }
@@ -32,7 +41,7 @@ std::uint64_t PageStore::address(const PageIndex& page) {
     if (found == slots_of_.end()) return 0;
     const std::size_t slot = found->second;
     slots_[slot].used = frame_;
-    return chunks_[slot / pages_per_chunk].address + slot % pages_per_chunk * sizeof(gpu::PageBlock);
+    return chunks_[slot / pages_per_chunk].address + slot % pages_per_chunk * page_bytes_;
 }
 
 // A slot that is free, or was not used for longest and not by this frame; false when there is none.
@@ -44,9 +53,8 @@ Result<bool> PageStore::find_slot(std::size_t& slot) {
                                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
             const std::size_t count = std::min(pages_per_chunk, capacity_ - slot);
-            ORO_TRY(Buffer chunk,
-                    create_buffer(*gpu_, count * sizeof(gpu::PageBlock), usage, BufferPlace::device,
-                                  "pages " + std::to_string(chunks_.size())));
+            ORO_TRY(Buffer chunk, create_buffer(*gpu_, count * page_bytes_, usage, BufferPlace::device,
+                                                "pages " + std::to_string(chunks_.size())));
             chunks_.push_back(std::move(chunk));
         }
         slots_.push_back({{}, frame_});
@@ -58,6 +66,18 @@ Result<bool> PageStore::find_slot(std::size_t& slot) {
     slots_of_.erase(oldest->page);
     slot = static_cast<std::size_t>(oldest - slots_.begin());
     return true;
+}
+
+// A page as it lies on the GPU.
+void PageStore::stage(const gpu::PageBlock& block, std::byte* to) const {
+    if (!coding_.sixteen) {
+        std::memcpy(to, &block, sizeof(block));
+        return;
+    }
+    std::memcpy(to, &block, offsetof(gpu::PageBlock, heights));
+    std::array<std::int16_t, gpu::page_heights + 1> codes{};
+    for (std::size_t i = 0; i < gpu::page_heights; ++i) codes[i] = coding_.code(block.heights[i]);
+    std::memcpy(to + offsetof(gpu::PageBlock, heights), codes.data(), sizeof(codes));
 }
 
 Result<std::size_t> PageStore::send(std::span<const LoadedPage> pages) {
@@ -74,8 +94,7 @@ Result<std::size_t> PageStore::send(std::span<const LoadedPage> pages) {
         if (!found) break;
         slots_[slot] = {key, frame_};
         slots_of_[key] = slot;
-        std::memcpy(staging_.mapped + batch.size() * sizeof(gpu::PageBlock), page.block.get(),
-                    sizeof(gpu::PageBlock));
+        stage(*page.block, staging_.mapped + batch.size() * page_bytes_);
         batch.push_back(slot);
         ++sent;
         if (batch.size() == pages_in_staging) {
@@ -91,9 +110,7 @@ Result<void> PageStore::copy(std::span<const std::size_t> slots) {
     if (slots.empty()) return {};
     return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         for (std::size_t i = 0; i < slots.size(); ++i) {
-            const VkBufferCopy copy{i * sizeof(gpu::PageBlock),
-                                    slots[i] % pages_per_chunk * sizeof(gpu::PageBlock),
-                                    sizeof(gpu::PageBlock)};
+            const VkBufferCopy copy{i * page_bytes_, slots[i] % pages_per_chunk * page_bytes_, page_bytes_};
             vkCmdCopyBuffer(commands, staging_.handle.get(), chunks_[slots[i] / pages_per_chunk].handle.get(),
                             1, &copy);
         }

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/height_coding.h"
 #include "core/page.h"
 #include "render/resources.h"
 
@@ -19,11 +20,15 @@ struct LoadedPage {
     std::unique_ptr<gpu::PageBlock> block;
 };
 
+// Bytes that a page takes on the GPU.
+std::size_t page_bytes(const HeightCoding& coding);
+
 // The pages of one region that are on the GPU. What has not been used for longest makes room for what comes.
 class PageStore {
   public:
-    // At most `capacity` pages, at least 1. Buffers are made when they are needed.
-    static Result<PageStore> create(const Gpu& gpu, std::size_t capacity);
+    // At most `capacity` pages, at least 1; their heights lie there as `coding` says. Buffers are made when
+    // they are needed.
+    static Result<PageStore> create(const Gpu& gpu, std::size_t capacity, const HeightCoding& coding = {});
 
     // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame.
     std::uint64_t address(const PageIndex& page);
@@ -37,6 +42,7 @@ class PageStore {
     [[nodiscard]] std::size_t size() const { return slots_of_.size(); }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
     [[nodiscard]] std::uint64_t bytes() const;  // of the buffers
+    [[nodiscard]] const HeightCoding& coding() const { return coding_; }
 
   private:
     using Key = std::tuple<int, int, int>;  // level, row, column
@@ -47,8 +53,11 @@ class PageStore {
     explicit PageStore(const Gpu& gpu) : gpu_(&gpu) {}
     Result<bool> find_slot(std::size_t& slot);
     Result<void> copy(std::span<const std::size_t> slots);
+    void stage(const gpu::PageBlock& block, std::byte* to) const;
 
     const Gpu* gpu_;
+    HeightCoding coding_;
+    std::size_t page_bytes_{sizeof(gpu::PageBlock)};
     Commands commands_;
     Buffer staging_;
     std::vector<Buffer> chunks_;

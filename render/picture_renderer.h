@@ -16,6 +16,7 @@ struct PictureOptions {
     int largest_tile_px{0};  // 0: chosen from the device; tests make it small
     RasterPath path{RasterPath::mesh};
     double tau_px{1.0};  // 0: full resolution
+    WorldModel model{};
 };
 
 // What it took to draw a picture: times are sums over its tiles and samples, counts those of the first sample

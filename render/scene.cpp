@@ -22,10 +22,12 @@ Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
 
 }  // namespace
 
-Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory) {
+Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
+                            HeightStorage heights) {
     constexpr std::uint64_t most = std::uint64_t{2} << 30U;
     const std::uint64_t bytes = memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most);
-    ORO_TRY(PageStore store, PageStore::create(gpu, bytes / sizeof(gpu::PageBlock)));
+    ORO_TRY(const HeightCoding coding, height_coding(*pages, heights));
+    ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding), coding));
     Scene scene(std::move(pages), std::move(store));
     const std::uint64_t under_way = memory.main > 0 ? memory.main : default_main_bytes;
     scene.stream_ =
@@ -37,12 +39,13 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, 
     return scene;
 }
 
-Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau_px) {
+Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau_px,
+                              const WorldModel& model) {
     store_.begin_frame();
     full_ = false;
-    ORO_TRY(FramePlan plan,
-            plan_frame(
-                *pages_, [&](const PageIndex& page) { return store_.address(page); }, camera, tile, tau_px));
+    ORO_TRY(FramePlan plan, plan_frame(
+                                *pages_, [&](const PageIndex& page) { return store_.address(page); }, camera,
+                                tile, tau_px, model, store_.coding()));
     plan.constants.undulation.N_m = address_words(undulation_.address);
     return plan;
 }
@@ -50,7 +53,7 @@ Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau
 Result<std::size_t> Scene::send_ready(bool wait, bool& all) {
     ORO_TRY(const std::vector<LoadedPage> ready, stream_->take(wait));
     ORO_TRY(const std::size_t sent, store_.send(ready));
-    bytes_sent_ += sent * sizeof(gpu::PageBlock);
+    bytes_sent_ += sent * page_bytes(store_.coding());
     all = sent == ready.size();
     return sent;
 }
@@ -65,9 +68,10 @@ Result<bool> Scene::advance(std::span<const PageIndex> missing) {
     return sent > 0;
 }
 
-Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, double tau_px) {
+Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, double tau_px,
+                                      const WorldModel& model) {
     for (;;) {
-        ORO_TRY(FramePlan frame, plan(camera, tile, tau_px));
+        ORO_TRY(FramePlan frame, plan(camera, tile, tau_px, model));
         if (frame.missing.empty()) return frame;
         stream_->want(frame.missing);
         for (std::size_t sent = 0; sent < frame.missing.size();) {
@@ -77,7 +81,7 @@ Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, do
             if (all && some > 0) continue;
             if (all) break;
             stream_->want({});
-            return plan(camera, tile, tau_px);
+            return plan(camera, tile, tau_px, model);
         }
     }
 }

@@ -24,23 +24,27 @@ struct SceneMemory {
 
 class Scene {
   public:
-    // Errors: out of memory.
+    // heights: how they are kept on the GPU. Errors: out of memory; a file that cannot be read.
     static Result<Scene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
-                                const SceneMemory& memory = {});
+                                const SceneMemory& memory = {}, HeightStorage heights = HeightStorage::f32);
 
     // What a frame draws with the pages that are on the GPU now.
-    Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px);
+    Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px,
+                           const WorldModel& model = {});
     // Lets the background read what a plan misses, and sends what is ready: true when the next plan may be
     // better. Does not wait for pages that are not ready; asks for none once the frame's own fill the GPU.
     // Errors: a page that cannot be read, the device.
     Result<bool> advance(std::span<const PageIndex> missing);
     // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
     // hold, `missing` names the rest.
-    Result<FramePlan> settled_plan(const Camera& camera, const Tile& tile, double tau_px);
+    Result<FramePlan> settled_plan(const Camera& camera, const Tile& tile, double tau_px,
+                                   const WorldModel& model = {});
 
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
     [[nodiscard]] PageStore& store() { return store_; }
     [[nodiscard]] std::uint64_t bytes_sent() const { return bytes_sent_; }
+    // From one height that the GPU can keep to the next; posts are at most half of it from their own.
+    [[nodiscard]] double height_step_m() const { return store_.coding().step_m(); }
 
   private:
     Scene(std::unique_ptr<RegionPages> pages, PageStore store)

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
 #include "levels.glsl"
+#include "bend.glsl"
 
 layout(local_size_x = 256) in;
 
@@ -16,6 +17,7 @@ bool acceptable(FramePage page, uvec2 node) {
     uint quarter = node.x / (meshlets_per_side / 2u) * 2u + node.y / (meshlets_per_side / 2u);
     if ((page.stand_in >> quarter & 1u) != 0u) return bounds.radius >= 0.0;
     precise vec3 centre_view = page.view_from_page * bounds.centre + page.origin_view;
+    if (FRAME.refraction_per_m != 0.0) bend_node(bounds, centre_view);
     return node_acceptable(page.level, bounds, centre_view, FRAME.pixels_per_tangent, FRAME.corner_tangent, FRAME.tau_px);
 }
 

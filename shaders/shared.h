@@ -38,18 +38,23 @@ ORO_CONST uint page_heights = 17161u;  // height_stride squared
 // same number for a post.
 ORO_CONST float height_step_m = 1.0f / 2048.0f;
 ORO_CONST int void_height = -2147483647 - 1;
+ORO_CONST int void_code = -32768;  // of heights in 16 bits
 
 // Exact placement of posts relative to the eye, in the eye's meridian frame: x outward in the equatorial plane at the eye's
 // longitude, y east, z north along the axis. Each frame has tables for its pages' rows and columns, computed in double and
 // rounded once, that depend on the post's angle and the eye alone: a post gets the same bits from every page and level.
 // With N_e the prime-vertical radius, ha the frame's height of reference (FrameConstants.reference_steps), rho_eye and z_eye
-// the eye's cylinder coordinates, and dlon from the eye's longitude:
+// the eye's cylinder coordinates, and dlon from the eye's longitude, as they are on the ellipsoid. On the sphere N_e is its radius
+// and e2 is 0. On the plane that touches the ellipsoid at the eye (its normal N_e and M_e, n = M_e dlat): R = cos(eye) (ha - h_eye) -
+// sin(eye) n, C = cos(eye), S = sin(eye), P = N_e cos(eye), Z = sin(eye) (ha - h_eye) + cos(eye) n, Q = 0, V = 0, W = dlon in radians.
 struct RowTerms {
     float R;  // (N_e + ha) cos(lat) - rho_eye
     float C;  // cos(lat)
     float S;  // sin(lat)
     float P;  // (N_e + ha) cos(lat)
     float Z;  // (N_e (1 - e2) + ha) sin(lat) - z_eye
+    float Q;  // what a metre of height adds to P: cos(lat)
+    float cosine;  // of the latitude, on every Earth
 };
 struct ColumnTerms {
     float V;  // 2 sin^2(dlon / 2)
@@ -75,7 +80,9 @@ struct PageBlock {
     // the cosine of the latitude. At the page's middle.
     float row_spacing_m;
     float column_spacing_m;
-    int heights[17161];      // drawn heights row by row from post (-1, -1), in steps; void_height where there is none
+    // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With FrameConstants.height_bits 16 two
+    // codes a word, the first in the low bits, and so half as many words (core/height_coding.h).
+    int heights[17161];
 };
 
 // A page of this frame: one that is drawn, or one above such a page. Its number in the frame's list is in the triangle ids.
@@ -184,6 +191,11 @@ struct UndulationTable {
     vec2 per_post;           // nodes from one of the region's posts to the next
 };
 
+// As core/world_model.h, Precision.
+ORO_CONST uint placing_relative = 0u;
+ORO_CONST uint placing_rounded_posts = 1u;
+ORO_CONST uint placing_naive = 2u;
+
 struct FrameConstants {
     mat3 view_from_eye;      // rotation, from the eye's meridian frame
     int reference_steps;     // height that the row terms are for, a whole number of metres
@@ -191,6 +203,17 @@ struct FrameConstants {
     vec2 projection_shift;
     float near_m;
     float horizon_angle_rad; // of the eye: acos(1 / distance in scaled space); pi when the eye is below the occluder
+    float horizon_stretch;   // for the angles of what is seen: 1, more where light bends
+    float refraction_per_m;  // curvature of sight lines; 0: they are straight
+    uint placing;            // placing_... : how posts are placed
+    mat3 view_from_ecef;     // for the other two than placing_relative: rotation,
+    vec3 view_translation;   // ... minus the eye's ECEF turned by it,
+    vec3 eye_high;           // ... the eye's ECEF as float32
+    vec3 eye_low;            // ... and the rest,
+    vec2 eye_meridian;       // ... cosine and sine of its longitude
+    uint height_bits;        // 32 or 16, see PageBlock
+    uint height_shift;       // of 16: steps = code << shift + offset
+    int height_offset;
     vec3 up_view;            // the ellipsoid's normal at the eye, in view coordinates
     float eye_h_m;
     float earth_radius_m;    // Gaussian radius of curvature at the eye
@@ -215,6 +238,7 @@ struct FrameConstants {
     uvec2 counts;            // device address of FrameCounts
     uvec2 depths;            // float for each pixel, row by row: reversed depth of what is seen; 0 when not wanted
     uvec2 recorded;          // device address of recorded positions, or 0 (tests only)
+    uint record_view;        // 1: positions in view coordinates are recorded, not those in the eye's meridian frame
     uvec2 visibility;        // compute rasteriser: device address of depth << 32 | id for each pixel, row by row
     uvec2 lists;             // RasterLists
     uvec2 meshlet_list;      // frame page * 256 + meshlet, edges << 28

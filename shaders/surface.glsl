@@ -9,7 +9,7 @@ struct SurfacePoint {
 };
 
 int height_or(PageBlocks block, ivec2 post, int otherwise) {
-    int height = block.at[0].heights[uint(post.x + 1) * height_stride + uint(post.y + 1)];
+    int height = stored_height(block, uint(post.x + 1) * height_stride + uint(post.y + 1));
     return height == void_height ? otherwise : height;
 }
 
@@ -71,7 +71,7 @@ vec3 normal_at(PageBlocks block, FramePage page, vec2 post) {
     vec2 north = mix(slope_at_post(block, page, cell), slope_at_post(block, page, cell + ivec2(0, 1)), in_cell.y);
     vec2 south = mix(slope_at_post(block, page, cell + ivec2(1, 0)), slope_at_post(block, page, cell + ivec2(1, 1)), in_cell.y);
     vec2 slope = mix(north, south, in_cell.x);
-    float cosine = RowTable(FRAME.row_terms).at[page.row_terms + uint(cell.x)].C;
+    float cosine = RowTable(FRAME.row_terms).at[page.row_terms + uint(cell.x)].cosine;
     float column_spacing_m = max(abs(cosine) * block.at[0].column_spacing_m, 1.0e-3);
     return normalize(vec3(-slope.y / column_spacing_m, slope.x / block.at[0].row_spacing_m, 1.0));
 }

@@ -12,7 +12,7 @@ uint verdict_on(FramePage page, MeshletBounds bounds) {
     }
     if ((page.cull & cull_by_horizon) != 0u) {
         vec3 eye_offset = page.horizon_direction - bounds.horizon_offset;
-        if (beyond_horizon(eye_offset, FRAME.horizon_angle_rad, bounds.horizon_angle_rad)) return is_beyond_horizon;
+        if (beyond_horizon(eye_offset, FRAME.horizon_angle_rad, FRAME.horizon_stretch * bounds.horizon_angle_rad)) return is_beyond_horizon;
     }
     return is_kept;
 }

@@ -15,7 +15,7 @@ namespace oro::test {
 inline gpu::vec3 place_from_eye(const gpu::RowTerms& t, const gpu::ColumnTerms& u,
                                 std::int32_t reference_steps, std::int32_t steps) {
     const float dh = static_cast<float>(steps - reference_steps) * gpu::height_step_m;
-    const float r = t.P + dh * t.C;
+    const float r = t.P + dh * t.Q;
     return {(t.R + dh * t.C) - r * u.V, r * u.W, t.Z + dh * t.S};
 }
 

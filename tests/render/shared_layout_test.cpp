@@ -68,6 +68,8 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(RowTerms, S);
     ORO_MEMBER(RowTerms, P);
     ORO_MEMBER(RowTerms, Z);
+    ORO_MEMBER(RowTerms, Q);
+    ORO_MEMBER(RowTerms, cosine);
     ORO_MEMBER(ColumnTerms, V);
     ORO_MEMBER(ColumnTerms, W);
     ORO_MEMBER(MeshletBounds, centre);
@@ -151,6 +153,17 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(FrameConstants, projection_shift);
     ORO_MEMBER(FrameConstants, near_m);
     ORO_MEMBER(FrameConstants, horizon_angle_rad);
+    ORO_MEMBER(FrameConstants, horizon_stretch);
+    ORO_MEMBER(FrameConstants, refraction_per_m);
+    ORO_MEMBER(FrameConstants, placing);
+    ORO_MEMBER(FrameConstants, view_from_ecef);
+    ORO_MEMBER(FrameConstants, view_translation);
+    ORO_MEMBER(FrameConstants, eye_high);
+    ORO_MEMBER(FrameConstants, eye_low);
+    ORO_MEMBER(FrameConstants, eye_meridian);
+    ORO_MEMBER(FrameConstants, height_bits);
+    ORO_MEMBER(FrameConstants, height_shift);
+    ORO_MEMBER(FrameConstants, height_offset);
     ORO_MEMBER(FrameConstants, up_view);
     ORO_MEMBER(FrameConstants, eye_h_m);
     ORO_MEMBER(FrameConstants, earth_radius_m);
@@ -175,6 +188,7 @@ TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     ORO_MEMBER(FrameConstants, counts);
     ORO_MEMBER(FrameConstants, depths);
     ORO_MEMBER(FrameConstants, recorded);
+    ORO_MEMBER(FrameConstants, record_view);
     ORO_MEMBER(FrameConstants, visibility);
     ORO_MEMBER(FrameConstants, lists);
     ORO_MEMBER(FrameConstants, meshlet_list);

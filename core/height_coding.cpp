@@ -1,0 +1,31 @@
+#include "core/height_coding.h"
+
+#include <limits>
+
+#include "core/region_pages.h"
+
+namespace oro {
+
+HeightCoding sixteen_bits(std::int32_t lowest_steps, std::int32_t highest_steps) {
+    HeightCoding coding{true, 0, 0};
+    const std::int64_t range = std::int64_t{highest_steps} - lowest_steps;
+    while (range > std::int64_t{65534} << coding.shift) ++coding.shift;
+    coding.offset_steps = static_cast<std::int32_t>((std::int64_t{highest_steps} + lowest_steps) / 2);
+    return coding;
+}
+
+Result<HeightCoding> height_coding(const RegionPages& pages, HeightStorage storage) {
+    if (storage == HeightStorage::f32) return HeightCoding{};
+    double lowest_m = std::numeric_limits<double>::infinity(), highest_m = -lowest_m;
+    const PageLayout layout = pages.layout(0);
+    for (int i = 0; i < layout.rows * layout.columns; ++i) {
+        ORO_TRY(const PageRecord record, pages.record({i / layout.columns, i % layout.columns, 0}));
+        if (record.summary.triangles == 0) continue;
+        lowest_m = std::min(lowest_m, record.summary.lowest_h_m);
+        highest_m = std::max(highest_m, record.summary.highest_h_m);
+    }
+    if (!(lowest_m <= highest_m)) lowest_m = highest_m = 0.0;
+    return sixteen_bits(height_steps(lowest_m), height_steps(highest_m));
+}
+
+}  // namespace oro
