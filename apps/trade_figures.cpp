@@ -128,9 +128,8 @@ std::string settings_plots_html(const TradeReport& report) {
     std::string html =
         "<section>\n<h2>What each setting costs, and how close it is</h2>\n<h3>Time and error</h3>\n"
         "<p>One point a setting: the median GPU time of the views, and the worst error of any drawn point in "
-        "any "
-        "view. Down and left is better. The line joins the Pareto front: no other setting is as fast and as "
-        "close, and better in one of the two. Both axes are logarithmic.</p>\n";
+        "any view. Down and left is better. The line joins the Pareto front: those that no other setting "
+        "equals in both and beats in one. Both axes are logarithmic.</p>\n";
     html += settings_plot(
         report, {"time", "GPU time against worst interior error, one point a setting", full_width_px, 480},
         "GPU time (ms, median of the views)", [](const TradeSetting& setting) { return setting.gpu_ms; });

@@ -85,12 +85,13 @@ std::string bounds_finding(const TradeReport& report) {
         if (std::max(ratio_m.value_or(0.0), ratio_px.value_or(0.0)) > loose_ratio) ++loose;
     }
     if (measured == 0) return {};
-    std::string html = broken == 0 ? "<li>All " + std::to_string(measured) + " measured bounds held"
-                                   : "<li class=\"alarm\">" + std::to_string(broken) + " of " +
-                                         std::to_string(measured) + " measured bounds were exceeded";
-    return html + "; " + std::to_string(loose) + " of them " + (loose == 1 ? "is" : "are") +
-           " more than 10 times what was measured. " + std::to_string(report.effects.size() - measured) +
-           " more were not measured.</li>\n";
+    const std::string of_all = std::to_string(measured) + " bounds with something measured";
+    std::string html =
+        broken == 0 ? "<li>All " + of_all + " held; "
+                    : "<li class=\"alarm\">" + std::to_string(broken) + " of " + of_all + " were exceeded; ";
+    return html + std::to_string(loose) + (loose == 1 ? " is" : " are") +
+           " more than 10 times the measured worst; for " + std::to_string(report.effects.size() - measured) +
+           " nothing could be measured.</li>\n";
 }
 
 std::string findings_html(const TradeReport& report) {
@@ -130,8 +131,8 @@ std::string main_html(const TradeReport& report) {
            std::to_string(report.settings.size()) + "\" data-shots=\"" + std::to_string(report.shots.size()) +
            "\" data-effects=\"" + std::to_string(worst_effects(report).size()) +
            "\">\n<h1>Speed and accuracy, measured</h1>\n"
-           "<p class=\"lead\">Each setting draws the same views; every drawn point is compared with the full "
-           "surface, ray by ray in double precision.</p>\n" +
+           "<p class=\"lead\">Each setting draws the same views; every drawn point is compared with the "
+           "full-resolution surface in double precision.</p>\n" +
            facts_html(report) + findings_html(report) + settings_plots_html(report) +
            settings_table_html(report) + effects_plot_html(report) + views_plots_html(report) +
            pictures_html(report) + "</main>\n";

@@ -58,6 +58,7 @@ PointLabel label_at(const PlotPlace& point, double width_px, double angle, doubl
     const double left =
         right > 0.3 ? label.leader_end.x
                     : (right < -0.3 ? label.leader_end.x - width_px : label.leader_end.x - width_px / 2.0);
+    label.anchor = right > 0.3 ? "start" : (right < -0.3 ? "end" : "middle");
     const double top = label.leader_end.y - label_height_px * (0.5 - 0.5 * down);
     label.box = {left, top, left + width_px, top + label_height_px};
     label.leader = distance_px >= leader_from_px;
@@ -70,21 +71,8 @@ class Placing {
         : points_(points), room_(room), line_(line) {}
 
     std::optional<PointLabel> place(std::size_t index, double width_px) {
-        constexpr std::array distances_px{9.0, 16.0, 24.0, 34.0, 46.0, 60.0, 76.0, 94.0, 114.0};
-        constexpr int directions = 16;
-        std::optional<PointLabel> best;
-        double best_cost = 1e9;
-        for (const double distance_px : distances_px) {
-            for (int i = 0; i < directions; ++i) {
-                const double angle = 2.0 * std::numbers::pi * i / directions;
-                const PointLabel label = label_at(points_[index], width_px, angle, distance_px);
-                if (!fits(index, label)) continue;
-                const double cost = distance_px + cost_of(index, label) + (i == 0 ? 0.0 : 2.0);
-                if (cost >= best_cost) continue;
-                best_cost = cost;
-                best = label;
-            }
-        }
+        std::optional<PointLabel> best = best_place(index, width_px, true);
+        if (!best) best = best_place(index, width_px, false);
         if (best) placed_.push_back({points_[index], *best});
         return best;
     }
@@ -94,12 +82,33 @@ class Placing {
         PlotPlace point;
         PointLabel label;
     };
-    [[nodiscard]] bool fits(std::size_t index, const PointLabel& label) const {
+    // `clear`: leaders cross neither each other nor labels.
+    [[nodiscard]] std::optional<PointLabel> best_place(std::size_t index, double width_px, bool clear) const {
+        constexpr std::array distances_px{9.0,  16.0, 24.0,  34.0,  46.0,  60.0,
+                                          76.0, 94.0, 114.0, 138.0, 166.0, 200.0};
+        constexpr int directions = 32;
+        std::optional<PointLabel> best;
+        double best_cost = 1e9;
+        for (const double distance_px : distances_px) {
+            for (int i = 0; i < directions; ++i) {
+                const double angle = 2.0 * std::numbers::pi * i / directions;
+                const PointLabel label = label_at(points_[index], width_px, angle, distance_px);
+                if (!fits(index, label, clear)) continue;
+                const double cost = distance_px + cost_of(index, label) + (i == 0 ? 0.0 : 2.0);
+                if (cost >= best_cost) continue;
+                best_cost = cost;
+                best = label;
+            }
+        }
+        return best;
+    }
+    [[nodiscard]] bool fits(std::size_t index, const PointLabel& label, bool clear) const {
         if (!inside(label.box, room_)) return false;
         for (const PlotPlace& point : points_)
             if (overlap(label.box, around(point, point_radius_px))) return false;
         for (const Placed& other : placed_) {
             if (overlap(label.box, other.label.box)) return false;
+            if (!clear) continue;
             if (other.label.leader && crosses(label.box, other.point, other.label.leader_end)) return false;
             if (!label.leader) continue;
             if (crosses(other.label.box, points_[index], label.leader_end)) return false;

@@ -21,7 +21,8 @@ double text_width_px(const std::string& text, double size_px);
 
 struct PointLabel {
     PlotBox box;
-    bool leader{};  // so far from its point that a line must join them
+    std::string anchor;  // start, middle or end: which part of the text lies nearest to its point
+    bool leader{};       // so far from its point that a line must join them
     PlotPlace leader_end;
 };
 

@@ -41,11 +41,16 @@ std::string fixed(double value, int decimals) {
     return {text.data(), end.ptr};
 }
 
-// "4.2e-5"
+// "4.2e-5": to_chars writes two digits of the power at least, and a plus.
 std::string in_powers(double value) {
-    const auto power = static_cast<int>(std::floor(std::log10(std::abs(value))));
-    std::string mantissa = fixed(value / std::pow(10.0, power), 1);
-    return mantissa + "e" + std::to_string(power);
+    std::array<char, 32> text{};
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, 1);
+    std::string power(text.data(), end.ptr);
+    const std::size_t at = power.find('e') + 1;
+    const bool small = power[at] == '-';
+    power.erase(at, power[at + 1] == '0' ? 2 : 1);
+    return small ? power.insert(at, "-") : power;
 }
 
 void widen(std::optional<RatioRange>& range, const std::optional<double>& ratio) {

@@ -32,8 +32,11 @@ std::string point_svg(const ScatterPoint& point, const PlotPlace& place) {
 std::string label_svg(const ScatterPoint& point, const PlotPlace& place, const PointLabel& label) {
     std::string svg;
     if (label.leader) svg += svg_line(place.x, place.y, label.leader_end.x, label.leader_end.y, "leader");
-    return svg + svg_text((label.box.left + label.box.right) / 2.0, label.box.bottom - 3.5,
-                          point.on_front ? "name front" : "name", "middle", point.setting);
+    const double x = label.anchor == "start" ? label.box.left
+                     : label.anchor == "end" ? label.box.right
+                                             : (label.box.left + label.box.right) / 2.0;
+    return svg + svg_text(x, label.box.bottom - 3.5, point.on_front ? "name front" : "name", label.anchor,
+                          point.setting);
 }
 
 // The front's settings first: they are named first, and drawn last.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "apps/trade_parts.h"
@@ -11,19 +12,23 @@ namespace {
 constexpr double row_px = 28.0;
 constexpr double lane_px = 2.6;
 
-// Circle, square, triangle up, diamond, triangle down, plus, cross, bar: about equally large.
+// Bar, circle, triangle up, diamond, triangle down, plus, cross, square. The bar is seen behind a circle.
 constexpr std::array<std::string_view, row_marks> shapes{
+    "M-2,-9h4v18h-4z",
     "M-4.5,0a4.5,4.5 0 1,0 9,0a4.5,4.5 0 1,0 -9,0z",
-    "M-4,-4h8v8h-8z",
     "M0,-5L5,4H-5z",
     "M0,-5.5L5.5,0L0,5.5L-5.5,0z",
     "M0,5L5,-4H-5z",
     "M-1.5,-5h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5z",
     "M-4.5,-3L-3,-4.5L0,-1.5L3,-4.5L4.5,-3L1.5,0L4.5,3L3,4.5L0,1.5L-3,4.5L-4.5,3L-1.5,0z",
-    "M-2,-6h4v12h-4z"};
+    "M-4,-4h8v8h-8z"};
 
 std::string shape_svg(int mark) {
     return "<path d=\"" + std::string(shapes.at(static_cast<std::size_t>(mark % row_marks))) + "\"/>";
+}
+
+bool is_missing(double value) {
+    return !std::isfinite(value) || value < 0.0;
 }
 
 std::string row_svg(const PlotRow& row, const LogAxis& axis, const PlotBox& frame, double y, int lanes) {
@@ -39,9 +44,10 @@ std::string row_svg(const PlotRow& row, const LogAxis& axis, const PlotBox& fram
     }
     for (const RowPoint& point : row.points) {
         const double down = (point.lane - (lanes - 1) / 2.0) * std::min(lane_px, (row_px - 10.0) / lanes);
-        svg += "<g class=\"point mark" + std::to_string(point.mark % row_marks) + "\" " + point.data +
-               " transform=\"translate(" + svg_number(axis.at(point.value)) + "," + svg_number(y + down) +
-               ")\"><title>" + escaped(point.tip) + "</title>" + shape_svg(point.mark) + "</g>\n";
+        svg += "<g class=\"point mark" + std::to_string(point.mark % row_marks) +
+               (is_missing(point.value) ? " missing" : "") + "\" " + point.data + " transform=\"translate(" +
+               svg_number(axis.at(point.value)) + "," + svg_number(y + down) + ")\"><title>" +
+               escaped(point.tip) + "</title>" + shape_svg(point.mark) + "</g>\n";
     }
     return svg;
 }
@@ -49,7 +55,7 @@ std::string row_svg(const PlotRow& row, const LogAxis& axis, const PlotBox& fram
 }  // namespace
 
 std::string mark_svg(int mark) {
-    return "<svg class=\"key\" aria-hidden=\"true\" width=\"14\" height=\"14\" viewBox=\"-7 -7 14 14\"><g "
+    return "<svg class=\"key\" aria-hidden=\"true\" width=\"14\" height=\"14\" viewBox=\"-9 -9 18 18\"><g "
            "class=\"mark" +
            std::to_string(mark % row_marks) + "\">" + shape_svg(mark) + "</g></svg>";
 }

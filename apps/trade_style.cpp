@@ -32,6 +32,8 @@ dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; }
 dd.wide { grid-column: 2 / -1; }
 code { font: 12.5px/1.5 ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; }
+td code { white-space: nowrap; }
+sup { line-height: 0; font-size: 11px; }
 .findings { margin: 18px 0 0; padding-left: 20px; }
 .findings li { margin: 3px 0; max-width: 95ch; }
 .alarm, .alarm td, .alarm th { color: var(--alarm); }
@@ -64,6 +66,7 @@ g[class*="mark"] path { stroke: var(--paper); stroke-width: 0.8; }
 .mark0 path { fill: var(--c0); } .mark1 path { fill: var(--c1); } .mark2 path { fill: var(--c2); }
 .mark3 path { fill: var(--c3); } .mark4 path { fill: var(--c4); } .mark5 path { fill: var(--c5); }
 .mark6 path { fill: var(--c6); } .mark7 path { fill: var(--c7); }
+g.missing[class*="mark"] path { fill: var(--band); stroke: var(--soft); stroke-width: 1.4; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; width: 100%;
   margin: 8px 0 12px; }
 caption { text-align: left; font-size: 13px; padding-bottom: 6px; }

@@ -1,8 +1,34 @@
+#include <algorithm>
+
 #include "apps/trade_page.h"
 #include "apps/trade_parts.h"
 
 namespace oro {
 namespace {
+
+// "4.2e-5" as 4.2 x 10 to the -5th.
+std::string figure_html(double value) {
+    const std::string text = figure(value);
+    const std::size_t e = text.find('e');
+    if (e == std::string::npos) return text;
+    std::string power = text.substr(e + 1);
+    if (power[0] == '-') power.replace(0, 1, "\xE2\x88\x92");
+    return text.substr(0, e) +
+           "\xC2\xB7"
+           "10<sup>" +
+           power + "</sup>";
+}
+
+// `--earth flat --geoid none`, each option unbroken.
+std::string options_html(const std::string& options) {
+    std::string html;
+    for (std::size_t from = 0; from < options.size();) {
+        const std::size_t to = std::min(options.find(" --", from + 1), options.size());
+        html += (from > 0 ? " <code>" : "<code>") + escaped(options.substr(from, to - from)) + "</code>";
+        from = to + 1;
+    }
+    return html;
+}
 
 std::string cell(const std::string& html) {
     return "<td>" + html + "</td>";
@@ -11,7 +37,7 @@ std::string text_cell(const std::string& text) {
     return "<td class=\"text\">" + escaped(text) + "</td>";
 }
 std::string number_cell(const std::optional<double>& value) {
-    return value ? cell(figure(*value)) : "<td class=\"none\">n/a</td>";
+    return value ? cell(figure_html(*value)) : "<td class=\"none\">n/a</td>";
 }
 std::string measured_cell(bool measured, double value) {
     return number_cell(measured ? std::optional(value) : std::nullopt);
@@ -25,8 +51,8 @@ constexpr const char* table_end = "</tbody>\n</table></div>\n";
 
 std::string ratio_html(const std::optional<RatioRange>& ratio) {
     if (!ratio) return "<td class=\"none\">n/a</td>";
-    const std::string least = figure(ratio->least);
-    const std::string most = figure(ratio->most);
+    const std::string least = figure_html(ratio->least);
+    const std::string most = figure_html(ratio->most);
     const char* style = ratio->least < 1.0 ? "<td class=\"alarm\">"
                                            : (ratio->most > loose_ratio ? "<td class=\"loose\">" : "<td>");
     return style + (least == most ? least : least + "\xE2\x80\x93" + most) + "</td>";
@@ -64,8 +90,9 @@ std::string shot_row(const TradeShot& shot) {
     const ErrorSummary& m = shot.interior_m;
     const ErrorSummary& px = shot.interior_px;
     const ErrorSummary& skyline = shot.skyline_px;
-    std::string html = "<tr>" + text_cell(shot.view) + text_cell(shot.setting) + cell(figure(shot.gpu_ms)) +
-                       cell(grouped(shot.triangles)) + cell(figure(megabytes(shot.bytes)));
+    std::string html = "<tr>" + text_cell(shot.view) + text_cell(shot.setting) +
+                       cell(figure_html(shot.gpu_ms)) + cell(grouped(shot.triangles)) +
+                       cell(figure_html(megabytes(shot.bytes)));
     for (const double value : {m.largest, m.p99, m.mean}) html += measured_cell(m.count > 0, value);
     for (const double value : {px.largest, px.p9999, px.p99, px.mean})
         html += measured_cell(px.count > 0, value);
@@ -96,16 +123,16 @@ std::string settings_table_html(const TradeReport& report) {
         const bool broken = measured && setting.promised_px && !(setting.interior_px <= *setting.promised_px);
         html += (setting.on_front ? "<tr class=\"front\">" : "<tr>") +
                 cell(setting.on_front ? "\xE2\x97\x8F" : "") + "<th scope=\"row\" class=\"text\">" +
-                escaped(setting.name) + "</th>" + cell(figure(setting.gpu_ms)) +
-                cell(grouped(setting.triangles)) + cell(figure(megabytes(setting.bytes))) +
+                escaped(setting.name) + "</th>" + cell(figure_html(setting.gpu_ms)) +
+                cell(grouped(setting.triangles)) + cell(figure_html(megabytes(setting.bytes))) +
                 measured_cell(measured, setting.interior_m) +
-                (broken ? "<td class=\"alarm\">" + figure(setting.interior_px) + "</td>"
+                (broken ? "<td class=\"alarm\">" + figure_html(setting.interior_px) + "</td>"
                         : measured_cell(measured, setting.interior_px)) +
                 (setting.promised_px ? number_cell(setting.promised_px) : cell("")) +
                 measured_cell(measured, setting.interior_p99_px) +
                 measured_cell(measured, setting.interior_mean_px) +
-                measured_cell(setting.skyline_columns > 0, setting.skyline_px) + "<td class=\"text\"><code>" +
-                escaped(setting.options) + "</code></td></tr>\n";
+                measured_cell(setting.skyline_columns > 0, setting.skyline_px) + "<td class=\"text\">" +
+                options_html(setting.options) + "</td></tr>\n";
     }
     return html + table_end + "</section>\n";
 }

@@ -110,7 +110,8 @@ std::string settings_text(const TradeReport& report) {
              interior(setting.interior_mean_px), setting.promised_px ? figure(*setting.promised_px) : "",
              setting.skyline_columns > 0 ? figure(setting.skyline_px) : "n/a", valid_text(setting.options)});
     }
-    return table.text() + "* no other setting is as fast and as close, and better in one of the two\n";
+    return table.text() +
+           "* Pareto front, of time and worst px: no other setting equals it in both and beats it in one\n";
 }
 
 std::string ratio_text(const std::optional<RatioRange>& ratio) {
