@@ -10,6 +10,30 @@ std::string fault_if_empty(const std::string& text) {
     return text.empty() ? "is empty" : "";
 }
 
+// What of the world is modelled, and how exactly.
+void add_model_options(CLI::App& command, ViewOptions& options) {
+    command
+        .add_option("--earth", options.earth,
+                    "The Earth's figure: ellipsoid (WGS84, the default), sphere, or flat from the eye on")
+        ->check(CLI::IsMember({"ellipsoid", "sphere", "flat"}));
+    command.add_option("--refraction", options.refraction_k,
+                       "Coefficient of refraction of the air, -1 to 0.9 (default 0; by day usually 0.13)");
+    command
+        .add_option(
+            "--precision", options.precision,
+            "relative: posts are placed relative to the eye (default); naive: in float32 ECEF, to see "
+            "what that costs")
+        ->check(CLI::IsMember({"relative", "naive"}));
+    command
+        .add_option("--geoid", options.geoid,
+                    "What heights are above: egm96 (default), or none: the ellipsoid")
+        ->check(CLI::IsMember({"egm96", "none"}));
+    command
+        .add_option("--heights", options.heights,
+                    "Heights on the GPU: f32 (default), or i16: half the bytes, coarser steps")
+        ->check(CLI::IsMember({"f32", "i16"}));
+}
+
 }  // namespace
 
 void add_region_options(CLI::App& command, RegionOptions& options) {
@@ -57,8 +81,10 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
             "--pipeline", options.pipeline,
             "How triangles are drawn: mesh shaders, compute, or auto (default: the faster, measured once)")
         ->check(CLI::IsMember({"auto", "mesh", "compute"}));
-    command.add_option("--tau", options.tau_px,
-                       "Largest error of what is drawn, pixels (default 1, in a window 0.5; 0: every post that there is)");
+    command.add_option(
+        "--tau", options.tau_px,
+        "Largest error of what is drawn, pixels (default 1, in a window 0.5; 0: every post that there is)");
+    add_model_options(command, options);
     command.add_option("--time", options.time,
                        "The picture's time, e.g. 2026-11-21T09:00:00Z (default: now)");
 }

@@ -39,6 +39,11 @@ struct ViewOptions {
     std::optional<std::string> time;
     std::optional<std::string> pipeline;
     std::optional<double> tau_px;
+    std::optional<std::string> earth;
+    std::optional<double> refraction_k;
+    std::optional<std::string> precision;
+    std::optional<std::string> geoid;
+    std::optional<std::string> heights;
 };
 
 // How much memory drawing may take, MB of 10^6 bytes; nothing: as much as is reasonable here.

@@ -20,7 +20,7 @@ std::optional<DestinationTag> destination_of(const View& view, const Region& reg
     const glm::dvec3 ray = camera.ecef_direction_at({0.5 * camera.width_px, 0.5 * camera.height_px});
     const TrueSurface surface(region.field, view.exaggeration, thread_count());
     const auto hit =
-        first_hit(surface, sight_from(camera.eye), ray, sight_reach_m(camera.eye.h_m));
+        first_hit(surface, sight_from(camera.eye, view.model.refraction_k), ray, sight_reach_m(camera.eye.h_m));
     if (!hit) return std::nullopt;
     const GeodesicPath path =
         geodesic_between(camera.eye.lat_deg, camera.eye.lon_deg, hit->point.lat_deg, hit->point.lon_deg);
@@ -63,6 +63,7 @@ Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, c
     ORO_TRY(WholeFile view_file, WholeFile::create(files.view, overwrite));
     options.samples = view.samples;
     options.tau_px = view.tau_px;
+    options.model = view.model;
     ORO_TRY(PictureReport report,
             render_picture(
                 gpu, scene, view.camera, style, options,

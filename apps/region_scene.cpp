@@ -8,27 +8,31 @@
 namespace oro {
 namespace {
 
-// A baked region's levels are those of its own heights; exaggerated ones need levels of their own, and to
-// measure these, all posts in memory.
+// A baked region's levels are those of its own heights; exaggerated ones, and those that its geoid was taken
+// from, need levels of their own, and to measure these, all posts in memory.
 Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exaggeration,
                                               const RenderProgress& progress) {
-    if (region.file && exaggeration == 1.0) return pages_of_file(region.file);
     if (!region.file) return pages_in_memory(region.field, exaggeration, thread_count(), progress);
-    ORO_TRY(const HeightField field, field_in_memory(*region.file));
+    const bool own_geoid = region.field.undulation.N_m.size() == region.file->outline().undulation.N_m.size();
+    if (own_geoid && exaggeration == 1.0) return pages_of_file(region.file);
+    ORO_TRY(HeightField field, field_in_memory(*region.file));
+    if (!own_geoid) field.undulation = region.field.undulation;
     return pages_in_memory(field, exaggeration, thread_count(), progress);
 }
 
 }  // namespace
 
 Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
-                           const MemoryOptions& memory, const RenderProgress& progress) {
+                           const MemoryOptions& memory, const RenderProgress& progress,
+                           HeightStorage heights) {
     ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(region, exaggeration, progress));
     if (pages->facts().triangles == 0)
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
     const auto bytes = [](const std::optional<int>& mb) {
         return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
     };
-    return Scene::create(gpu, std::move(pages), {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb)});
+    return Scene::create(gpu, std::move(pages), {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb)},
+                         heights);
 }
 
 }  // namespace oro

@@ -8,8 +8,9 @@
 namespace oro {
 
 // Builds the levels of a region and makes it ready for a GPU. Errors: nothing to draw in it (no_data), out of
-// device memory.
+// device memory. heights: how they are kept on the GPU.
 Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
-                           const MemoryOptions& memory, const RenderProgress& progress = {});
+                           const MemoryOptions& memory, const RenderProgress& progress = {},
+                           HeightStorage heights = HeightStorage::f32);
 
 }  // namespace oro

@@ -11,6 +11,7 @@
 #include "apps/commands.h"
 #include "apps/interruption.h"
 #include "apps/json_text.h"
+#include "apps/model_names.h"
 #include "apps/picture_file.h"
 #include "apps/progress_bar.h"
 #include "apps/region_json.h"
@@ -44,6 +45,7 @@ struct ShotResult {
     std::uint64_t pages{};
     std::uint64_t pages_on_gpu{};
     std::uint64_t page_bytes{};
+    double height_step_m{};
     std::uint64_t triangles_at_full_resolution{};
     ShotTimes times;
 };
@@ -120,6 +122,8 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                      {"on_gpu", shot.pages_on_gpu},
                      {"bytes_on_gpu", shot.page_bytes}};
     json["tau_px"] = shot.view.tau_px;
+    json["models"] = models_json(shot.view);
+    json["models"]["height_step_m"] = shot.height_step_m;
     json["settled"] = counts.settled;
     json["tiles"] = shot.picture.tiles;
     json["times_s"] = {{"read", shot.times.read_s},           {"pages", shot.times.pages_s},
@@ -191,8 +195,9 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
 
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     const auto start = Clock::now();
-    ORO_TRY(Scene scene, create_scene(*gpu, shot.region, shot.view.exaggeration, options.memory,
-                                      [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(Scene scene, create_scene(
+                             *gpu, shot.region, shot.view.exaggeration, options.memory,
+                             [&](double share) { bar.show(share, "measuring levels"); }, shot.view.heights));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
     shot.triangles_at_full_resolution = scene.pages().facts().triangles;
@@ -203,6 +208,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     shot.times.draw_s = seconds_since(drawing);
     shot.pages_on_gpu = scene.store().size();
     shot.page_bytes = scene.store().bytes();
+    shot.height_step_m = scene.height_step_m();
     bar.clear();
     say(options.quiet || files.picture != told.picture, "wrote " + files.picture + " and " + files.view);
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, told, *gpu, style), true).c_str());

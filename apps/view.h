@@ -8,7 +8,9 @@
 
 #include "apps/options.h"
 #include "core/camera.h"
+#include "core/height_coding.h"
 #include "core/page.h"
+#include "core/world_model.h"
 #include "geo/region.h"
 
 namespace oro {
@@ -27,6 +29,9 @@ struct View {
     std::string style{"default"};
     std::string pipeline{"auto"};  // or "mesh", "compute": written views name the one that drew them
     double tau_px{1.0};            // largest error of what is drawn; 0: full resolution
+    WorldModel model;
+    bool has_geoid{true};  // false: N is 0 everywhere, heights are above the ellipsoid
+    HeightStorage heights{HeightStorage::f32};
     std::int64_t time_utc_s{};
 };
 

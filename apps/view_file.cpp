@@ -6,6 +6,7 @@
 
 #include "apps/json_fields.h"
 #include "apps/json_text.h"
+#include "apps/model_names.h"
 #include "apps/view.h"
 #include "geo/letter_case.h"
 #include "geo/picture.h"
@@ -32,6 +33,23 @@ BoundingBox read_box(const nlohmann::json& json) {
     const BoundingBox box{angle(0, 180), angle(1, 90), angle(2, 180), angle(3, 90)};
     if (!(box.south_deg < box.north_deg) || box.west_deg == box.east_deg) throw JsonFault{"'bbox' is empty"};
     return box;
+}
+
+// Of a named choice; views of before there was it have none, and keep what `value` is.
+template <class Choice, class Named>
+void read_choice(const nlohmann::json& json, const char* name, Named named, Choice& value) {
+    if (!json.contains(name)) return;
+    Result<Choice> found = named(json_string(json, name));
+    if (!found.ok()) throw JsonFault{"'" + std::string(name) + "' " + found.error().what};
+    value = *found;
+}
+
+void read_models(const nlohmann::json& json, View& view) {
+    read_choice(json, "earth", earth_named, view.model.earth);
+    read_choice(json, "precision", precision_named, view.model.precision);
+    read_choice(json, "geoid", geoid_named, view.has_geoid);
+    read_choice(json, "heights", heights_named, view.heights);
+    if (json.contains("refraction")) view.model.refraction_k = json_number(json, "refraction", -1.0, 0.9);
 }
 
 // What the parser of options would have refused must not come in by a file.
@@ -67,6 +85,7 @@ View read_fields(const nlohmann::json& json) {
         throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of auto, mesh, compute"};
     // Nor have they a tau: they were drawn at full resolution.
     view.tau_px = json.contains("tau_px") ? json_number(json, "tau_px", 0, 1000) : 0.0;
+    read_models(json, view);
     view.time_utc_s = json_whole(json, "time_utc_s", first_second, last_second);
     return view;
 }
@@ -107,6 +126,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["style"] = view.style;
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;
+    json.update(models_json(view));
     json["time_utc_s"] = view.time_utc_s;
     json["time"] = time_text(view.time_utc_s);
     return json_text(json, pretty);

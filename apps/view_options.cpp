@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "apps/json_text.h"
+#include "apps/model_names.h"
 #include "apps/view.h"
 
 namespace oro {
@@ -68,6 +69,25 @@ Result<double> within(const char* option, double value, double low, double high)
     return usage(option, text);
 }
 
+Result<void> apply_models(View& view, const ViewOptions& options) {
+    if (options.earth) {
+        ORO_TRY(view.model.earth, earth_named(*options.earth));
+    }
+    if (options.refraction_k) {
+        ORO_TRY(view.model.refraction_k, within("--refraction", *options.refraction_k, -1.0, 0.9));
+    }
+    if (options.precision) {
+        ORO_TRY(view.model.precision, precision_named(*options.precision));
+    }
+    if (options.geoid) {
+        ORO_TRY(view.has_geoid, geoid_named(*options.geoid));
+    }
+    if (options.heights) {
+        ORO_TRY(view.heights, heights_named(*options.heights));
+    }
+    return {};
+}
+
 // The options that a view from a file can be changed by.
 Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.size) ORO_CHECK(set_size(*options.size, view.camera));
@@ -87,6 +107,7 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.tau_px) {
         ORO_TRY(view.tau_px, within("--tau", *options.tau_px, 0.0, 1000.0));
     }
+    ORO_CHECK(apply_models(view, options));
     if (options.time) {
         ORO_TRY(view.time_utc_s, parse_time(*options.time));
     }

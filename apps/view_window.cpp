@@ -179,7 +179,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     camera.width_px = static_cast<int>(extent.width);
     camera.height_px = static_cast<int>(extent.height);
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    ORO_TRY(FramePlan plan, viewer.scene.plan(camera, tile, viewer.view.tau_px));
+    ORO_TRY(FramePlan plan, viewer.scene.plan(camera, tile, viewer.view.tau_px, viewer.view.model));
     viewer.missing = plan.missing;
     ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
@@ -218,8 +218,9 @@ Result<void> run_view(const WindowOptions& options) {
     gpu_options.instance_extensions = extensions;
     gpu_options.presents = true;
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
-    ORO_TRY(Scene scene, create_scene(*gpu, region, view.exaggeration, options.memory,
-                                      [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(Scene scene, create_scene(
+                             *gpu, region, view.exaggeration, options.memory,
+                             [&](double share) { bar.show(share, "measuring levels"); }, view.heights));
     bar.clear();
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
     if (const std::string holes = note_of_voids(region); !holes.empty()) say(options.quiet, "note: " + holes);
