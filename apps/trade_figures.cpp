@@ -69,8 +69,11 @@ std::string key(int mark, const std::string& text) {
 }
 
 // Colours and shapes tell views apart as long as there are enough.
+bool told_apart(std::size_t views) {
+    return views <= static_cast<std::size_t>(most_distinct_marks);
+}
 int mark_of(std::size_t view, std::size_t views) {
-    return views <= static_cast<std::size_t>(row_marks) - 2 ? static_cast<int>(view) + 2 : 2;
+    return told_apart(views) ? static_cast<int>(view) + 2 : 1;
 }
 
 struct ViewsPlot {
@@ -115,8 +118,8 @@ std::string views_plot(const TradeReport& report, const ViewsPlot& what) {
 std::string views_key(const TradeReport& report) {
     const std::vector<std::string> views = views_of(report);
     std::string html = "<p class=\"keys\">\n";
-    if (mark_of(1, views.size()) == mark_of(0, views.size()))
-        html += key(2, "a view (point at it for its name)");
+    if (!told_apart(views.size()))
+        html += key(1, "a view (point at it for its name); many on one place are darker");
     else
         for (std::size_t i = 0; i < views.size(); ++i) html += key(mark_of(i, views.size()), views[i]);
     return html + "</p>\n";

@@ -37,17 +37,18 @@ std::string row_svg(const PlotRow& row, const LogAxis& axis, const PlotBox& fram
     if (row.joined && row.points.size() > 1)
         svg += svg_line(axis.at(row.points.front().value), y, axis.at(row.points.back().value), y,
                         row.alarm ? "join alarm" : "join");
+    for (const RowPoint& point : row.points) {
+        const double down = (point.lane - (lanes - 1) / 2.0) * std::min(lane_px, (row_px - 10.0) / lanes);
+        svg += "<g class=\"point mark" + std::to_string(point.mark % row_marks) +
+               (is_missing(point.value) ? " missing" : "") + (lanes > most_distinct_marks ? " many" : "") +
+               "\" " + point.data + " transform=\"translate(" + svg_number(axis.at(point.value)) + "," +
+               svg_number(y + down) + ")\"><title>" + escaped(point.tip) + "</title>" +
+               shape_svg(point.mark) + "</g>\n";
+    }
     if (row.limit) {
         const std::string x = svg_number(axis.at(*row.limit));
         svg += "<g class=\"limit\"><title>" + escaped(row.limit_tip) + "</title><path d=\"M" + x + "," +
                svg_number(y - row_px / 2.0 + 2.0) + "v" + svg_number(row_px - 4.0) + "\"/></g>\n";
-    }
-    for (const RowPoint& point : row.points) {
-        const double down = (point.lane - (lanes - 1) / 2.0) * std::min(lane_px, (row_px - 10.0) / lanes);
-        svg += "<g class=\"point mark" + std::to_string(point.mark % row_marks) +
-               (is_missing(point.value) ? " missing" : "") + "\" " + point.data + " transform=\"translate(" +
-               svg_number(axis.at(point.value)) + "," + svg_number(y + down) + ")\"><title>" +
-               escaped(point.tip) + "</title>" + shape_svg(point.mark) + "</g>\n";
     }
     return svg;
 }

@@ -47,7 +47,7 @@ sup { line-height: 0; font-size: 11px; }
 svg text { font-size: 12px; fill: var(--ink); }
 svg text.tick { fill: var(--soft); }
 svg text.title { fill: var(--ink); font-size: 13px; }
-svg text.name { fill: var(--soft); }
+svg text.name { fill: var(--soft); stroke: var(--paper); stroke-width: 3px; paint-order: stroke; }
 svg text.name.front { fill: var(--front); font-weight: 600; }
 svg text.alarm { fill: var(--alarm); font-weight: 600; }
 .grid { stroke: var(--grid); }
@@ -66,6 +66,7 @@ g[class*="mark"] path { stroke: var(--paper); stroke-width: 0.8; }
 .mark0 path { fill: var(--c0); } .mark1 path { fill: var(--c1); } .mark2 path { fill: var(--c2); }
 .mark3 path { fill: var(--c3); } .mark4 path { fill: var(--c4); } .mark5 path { fill: var(--c5); }
 .mark6 path { fill: var(--c6); } .mark7 path { fill: var(--c7); }
+g.many[class*="mark"] path { fill-opacity: 0.4; stroke: none; }
 g.missing[class*="mark"] path { fill: var(--band); stroke: var(--soft); stroke-width: 1.4; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; width: 100%;
   margin: 8px 0 12px; }
