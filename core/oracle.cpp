@@ -14,7 +14,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 using Block = TrueSurface::Block;
-using Layer = TrueSurface::Layer;
 
 // A row's posts are at ((N + h) cos lat cos lon, (N + h) cos lat sin lon, (N (1 - e2) + h) sin lat).
 struct RowPlace {
@@ -23,14 +22,16 @@ struct RowPlace {
     double sine;
 };
 
+}  // namespace
+
 // What all sight lines of a picture share: the surface in a frame whose z is up in the middle of the region,
 // so that boxes along its axes lie close around the ground.
-class Scenery {
+class Oracle::Scenery {
   public:
     Scenery(const TrueSurface& surface, const Sight& sight);
 
     const TrueSurface& surface;
-    const Sight& sight;
+    const Sight sight;
     glm::dmat3 frame_from_ecef;
     glm::dvec3 up;               // the eye's vertical
     std::vector<RowPlace> rows;  // of the grid, each block_cells-th and the last
@@ -42,7 +43,7 @@ class Scenery {
     [[nodiscard]] bool box(const Block& block, glm::dvec3& low, glm::dvec3& high) const;
 };
 
-Scenery::Scenery(const TrueSurface& of, const Sight& from) : surface(of), sight(from) {
+Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from) : surface(of), sight(from) {
     const PostGrid& grid = surface.field().grid;
     const double lat_deg = 0.5 * (grid.north_deg() + grid.south_deg());
     const double lon_deg = 0.5 * (grid.west_deg() + grid.east_deg());
@@ -58,7 +59,7 @@ Scenery::Scenery(const TrueSurface& of, const Sight& from) : surface(of), sight(
         columns.push_back(sine_cosine_deg(grid.lon.at_deg(std::min(column, grid.columns() - 1))));
 }
 
-glm::dvec3 Scenery::seen(int row, int column, double h_m) const {
+glm::dvec3 Oracle::Scenery::seen(int row, int column, double h_m) const {
     const RowPlace& place = rows[static_cast<std::size_t>(row)];
     const SineCosine& lon = columns[static_cast<std::size_t>(column)];
     const double rho_m = (place.normal_m + h_m) * place.cosine;
@@ -67,8 +68,8 @@ glm::dvec3 Scenery::seen(int row, int column, double h_m) const {
     return frame_from_ecef * sight.refraction.apparent_m(ecef - sight.eye.m);
 }
 
-bool Scenery::box(const Block& block, glm::dvec3& low, glm::dvec3& high) const {
-    const Layer layer = surface.layer(block);
+bool Oracle::Scenery::box(const Block& block, glm::dvec3& low, glm::dvec3& high) const {
+    const TrueSurface::Layer layer = surface.layer(block);
     if (layer.empty()) return false;
     const int north = block.row << block.level, west = block.column << block.level;
     const int south = std::min(((block.row + 1) << block.level), static_cast<int>(rows.size()) - 1);
@@ -100,6 +101,8 @@ bool Scenery::box(const Block& block, glm::dvec3& low, glm::dvec3& high) const {
     return true;
 }
 
+namespace {
+
 // Where on a ray from the origin a box begins and ends; begin > end when it is missed.
 struct Span {
     double begin_m;
@@ -120,10 +123,12 @@ Span span_in_box(const glm::dvec3& direction, const glm::dvec3& inverse, const g
     return span;
 }
 
+}  // namespace
+
 // One sight line against the surface.
-class Search {
+class Oracle::Search {
   public:
-    Search(const Scenery& scenery, const glm::dvec3& direction, double reach_m)
+    Search(const Oracle::Scenery& scenery, const glm::dvec3& direction, double reach_m)
         : scenery_(scenery),
           surface_(scenery.surface),
           grid_(scenery.surface.field().grid),
@@ -173,7 +178,7 @@ class Search {
     void search_triangle(const Triangle& triangle, const Piece& piece);
     bool take_root(const Triangle& triangle, const Piece& piece, double share, double slope_m);
 
-    const Scenery& scenery_;
+    const Oracle::Scenery& scenery_;
     const TrueSurface& surface_;
     const PostGrid& grid_;
     glm::dvec3 direction_;
@@ -183,10 +188,14 @@ class Search {
     std::optional<SightHit> hit_;
 };
 
+namespace {
+
 // A root is looked for this far beyond a triangle, in cells, because it is looked for on an approximation.
 constexpr double search_slack = 0.02;
 
-Search::Place Search::place(double t_m, double near_column) const {
+}  // namespace
+
+Oracle::Search::Place Oracle::Search::place(double t_m, double near_column) const {
     const Sight& sight = scenery_.sight;
     const Geodetic point = geodetic_from_ecef({sight.eye.m + sight.refraction.true_m(t_m * direction_)});
     const double turn = 360.0 * grid_.lon.posts_per_deg;
@@ -195,7 +204,7 @@ Search::Place Search::place(double t_m, double near_column) const {
     return {t_m, grid_.lat.index_at(point.lat_deg), column, point.h_m, point};
 }
 
-std::optional<SightHit> Search::first_hit() {
+std::optional<SightHit> Oracle::Search::first_hit() {
     if (surface_.levels() == 0) return std::nullopt;
     std::array<Waiting, 160> waiting;  // at most 3 more for each level
     std::size_t count = 0;
@@ -227,7 +236,7 @@ std::optional<SightHit> Search::first_hit() {
     return hit_;
 }
 
-void Search::search_block(const Block& block, const Span& span) {
+void Oracle::Search::search_block(const Block& block, const Span& span) {
     const double end_m = std::min(span.end_m, nearest_m_);
     if (end_m < span.begin_m) return;
     const double middle_column = (block.column + 0.5) * TrueSurface::block_cells;
@@ -235,7 +244,7 @@ void Search::search_block(const Block& block, const Span& span) {
 }
 
 // Cuts the line until it is all but straight in rows and columns.
-void Search::walk(const Block& block, const Place& from, const Place& to, int depth) {
+void Oracle::Search::walk(const Block& block, const Place& from, const Place& to, int depth) {
     if (from.t_m >= nearest_m_) return;
     const Place middle = place(0.5 * (from.t_m + to.t_m), (block.column + 0.5) * TrueSurface::block_cells);
     const bool straight = std::abs(middle.row - 0.5 * (from.row + to.row)) < 0.005 &&
@@ -250,6 +259,8 @@ void Search::walk(const Block& block, const Place& from, const Place& to, int de
     walk(block, middle, to, depth + 1);
 }
 
+namespace {
+
 // First and last cell of a block that a piece may touch along one axis.
 struct CellRange {
     int first;
@@ -262,7 +273,9 @@ CellRange cells_touched(double from, double to, int first, int count) {
             std::min(first + count - 1, static_cast<int>(std::floor(high)))};
 }
 
-void Search::search_piece(const Block& block, const Piece& piece) {
+}  // namespace
+
+void Oracle::Search::search_piece(const Block& block, const Piece& piece) {
     constexpr int cells = TrueSurface::block_cells;
     const int first_row = block.row * cells, first_column = block.column * cells;
     const CellRange rows =
@@ -284,7 +297,7 @@ void Search::search_piece(const Block& block, const Piece& piece) {
     }
 }
 
-void Search::search_cell(int row, int column, const Piece& piece) {
+void Oracle::Search::search_cell(int row, int column, const Piece& piece) {
     const auto north_west = surface_.post_h_m(row, column),
                south_east = surface_.post_h_m(row + 1, column + 1);
     if (!north_west || !south_east) return;
@@ -296,14 +309,14 @@ void Search::search_cell(int row, int column, const Piece& piece) {
             {row, column, false, *north_west, *south_east - *north_east, *north_east - *north_west}, piece);
 }
 
-bool Search::Triangle::holds(const Place& place, double slack) const {
+bool Oracle::Search::Triangle::holds(const Place& place, double slack) const {
     const double down = place.row - row, right = place.column - column;
     if (down < -slack || right < -slack || down > 1.0 + slack || right > 1.0 + slack) return false;
     return south_west ? down >= right - slack : right >= down - slack;
 }
 
 // Roots of the parabola through the piece's three heights above the triangle's plane, nearest first.
-void Search::search_triangle(const Triangle& triangle, const Piece& piece) {
+void Oracle::Search::search_triangle(const Triangle& triangle, const Piece& piece) {
     const double at_0 = triangle.above_m(piece[0]), at_half = triangle.above_m(piece[1]),
                  at_1 = triangle.above_m(piece[2]);
     const double square = 2.0 * (at_0 - 2.0 * at_half + at_1);
@@ -327,7 +340,7 @@ void Search::search_triangle(const Triangle& triangle, const Piece& piece) {
 }
 
 // Follows a root to where the line itself meets the triangle, and takes it when it is the nearest so far.
-bool Search::take_root(const Triangle& triangle, const Piece& piece, double share, double slope_m) {
+bool Oracle::Search::take_root(const Triangle& triangle, const Piece& piece, double share, double slope_m) {
     const double length_m = piece[2].t_m - piece[0].t_m;
     const double rise =
         length_m > 0.0 ? slope_m / length_m : 0.0;  // metres above the plane for a metre along the line
@@ -356,8 +369,6 @@ bool Search::take_root(const Triangle& triangle, const Piece& piece, double shar
     return true;
 }
 
-}  // namespace
-
 Sight sight_from(const Geodetic& eye, double refraction_k) {
     return {ecef_from_geodetic(eye), refraction_k == 0.0 ? Refraction() : Refraction(eye, refraction_k)};
 }
@@ -370,15 +381,16 @@ double sight_reach_m(double eye_h_m) {
     return over_the_earth_m + std::sqrt(eye_m * (2.0 * wgs84_a_m + eye_m));
 }
 
-std::optional<SightHit> first_hit(const TrueSurface& surface, const Sight& sight, const glm::dvec3& direction,
-                                  double reach_m) {
-    const Scenery scenery(surface, sight);
-    return Search(scenery, direction, reach_m).first_hit();
+Oracle::Oracle(const TrueSurface& surface, const Sight& sight)
+    : scenery_(std::make_unique<const Scenery>(surface, sight)) {}
+
+Oracle::~Oracle() = default;
+
+std::optional<SightHit> Oracle::first_hit(const glm::dvec3& direction, double reach_m) const {
+    return Search(*scenery_, direction, reach_m).first_hit();
 }
 
-std::vector<std::optional<SightHit>> cast_picture(const TrueSurface& surface, const Sight& sight,
-                                                  const Camera& camera, int threads) {
-    const Scenery scenery(surface, sight);
+std::vector<std::optional<SightHit>> Oracle::cast_picture(const Camera& camera, int threads) const {
     const double reach_m = sight_reach_m(camera.eye.h_m);
     std::vector<std::optional<SightHit>> hits(static_cast<std::size_t>(camera.width_px) *
                                               static_cast<std::size_t>(camera.height_px));
@@ -386,10 +398,15 @@ std::vector<std::optional<SightHit>> cast_picture(const TrueSurface& surface, co
         for (int x = 0; x < camera.width_px; ++x) {
             const glm::dvec3 direction = camera.ecef_direction_at({x + 0.5, y + 0.5});
             hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
-                 static_cast<std::size_t>(x)] = Search(scenery, direction, reach_m).first_hit();
+                 static_cast<std::size_t>(x)] = first_hit(direction, reach_m);
         }
     });
     return hits;
+}
+
+std::optional<SightHit> first_hit(const TrueSurface& surface, const Sight& sight, const glm::dvec3& direction,
+                                  double reach_m) {
+    return Oracle(surface, sight).first_hit(direction, reach_m);
 }
 
 }  // namespace oro

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,15 +32,33 @@ struct SightHit {
     double residual_m{};  // of the root: height of the point above its triangle
 };
 
-// First crossing of a sight line (unit ECEF direction at the eye) with the surface, from either side; nothing
-// when it meets none within reach_m. Exact: the nearest root over all cells, residual below 1e-6 m, or a
-// millionth of a millionth of the distance where that is more. Touches narrower than that may be missed.
+// Sight lines from one eye. Safe to ask from several threads.
+class Oracle {
+  public:
+    // `surface` outlives the oracle. Costs a sine and a cosine for each fourth row and column of posts.
+    Oracle(const TrueSurface& surface, const Sight& sight);
+    ~Oracle();
+    Oracle(const Oracle&) = delete;
+    Oracle& operator=(const Oracle&) = delete;
+
+    // First crossing of a sight line (unit ECEF direction at the eye) with the surface, from either side;
+    // nothing when it meets none within reach_m. Exact: the nearest root over all cells, its residual below
+    // 1e-8 m within 1,000 km (1e-4 m at worst, from the Moon's distance and beyond). Touches narrower than
+    // 1 cm over cells of kilometres, or 1e-6 m over cells of metres, may be missed.
+    [[nodiscard]] std::optional<SightHit> first_hit(const glm::dvec3& direction, double reach_m) const;
+
+    // What each pixel of a picture sees at its centre, row by row; shared between `threads`.
+    [[nodiscard]] std::vector<std::optional<SightHit>> cast_picture(const Camera& camera, int threads) const;
+
+  private:
+    class Scenery;
+    class Search;
+    std::unique_ptr<const Scenery> scenery_;
+};
+
+// For one sight line.
 std::optional<SightHit> first_hit(const TrueSurface& surface, const Sight& sight, const glm::dvec3& direction,
                                   double reach_m);
-
-// What each pixel of a picture sees at its centre, row by row; shared between `threads`.
-std::vector<std::optional<SightHit>> cast_picture(const TrueSurface& surface, const Sight& sight,
-                                                  const Camera& camera, int threads);
 
 // Farther than any sight line over the Earth from this height.
 double sight_reach_m(double eye_h_m);

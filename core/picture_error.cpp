@@ -57,57 +57,14 @@ std::optional<double> h_below_m(const TrueSurface& surface, double lat_deg, doub
                        lon_deg + 2.0 * edge_slack * west * grid.lon.spacing_deg());
 }
 
-// What is asked of each drawn point of a picture.
-class DrawnPoints {
-  public:
-    DrawnPoints(const TrueSurface& surface, const Sight& sight, const Camera& camera)
-        : surface_(surface),
-          sight_(sight),
-          view_from_ecef_(camera.view_from_ecef()),
-          ecef_from_view_(glm::transpose(view_from_ecef_)),
-          tangent_(camera.half_fov_tangent()),
-          size_px_(camera.width_px, camera.height_px),
-          pixels_per_tangent_(0.5 * camera.height_px / tangent_.y) {}
-
-    struct Measured {
-        double height_m;
-        double px;
-    };
-    // Of the drawn point on the ray through a place of the picture; nothing where nothing true lies below.
-    [[nodiscard]] std::optional<Measured> at(const glm::dvec2& point_px, float depth) const {
-        const double z_m = near_plane_m / static_cast<double>(depth);
-        const glm::dvec2 drawn_tangent = (2.0 * point_px / size_px_ - 1.0) * tangent_ * glm::dvec2(1.0, -1.0);
-        const glm::dvec3 apparent_m = ecef_from_view_ * (z_m * glm::dvec3(drawn_tangent, -1.0));
-        const Geodetic point = geodetic_from_ecef({sight_.eye.m + sight_.refraction.true_m(apparent_m)});
-        const std::optional<double> true_h_m = h_below_m(surface_, point.lat_deg, point.lon_deg);
-        if (!true_h_m) return std::nullopt;
-        const double height_m = point.h_m - *true_h_m;
-        const glm::dvec3 truth_m =
-            ecef_from_geodetic({point.lat_deg, point.lon_deg, *true_h_m}).m - sight_.eye.m;
-        const glm::dvec3 seen_m = view_from_ecef_ * sight_.refraction.apparent_m(truth_m);
-        if (seen_m.z >= 0.0) return Measured{height_m, std::abs(height_m) * pixels_per_tangent_ / z_m};
-        const glm::dvec2 apart = glm::dvec2(seen_m) / -seen_m.z - drawn_tangent;
-        return Measured{height_m, glm::length(apart) * pixels_per_tangent_};
-    }
-
-  private:
-    const TrueSurface& surface_;
-    const Sight& sight_;
-    glm::dmat3 view_from_ecef_;
-    glm::dmat3 ecef_from_view_;
-    glm::dvec2 tangent_;
-    glm::dvec2 size_px_;
-    double pixels_per_tangent_;
-};
-
 constexpr double skyline_step_px = 1.0 / 64.0;
 
 // Where the highest ground of a column begins: 0 when it is at the top, nothing where there is none.
-std::optional<double> column_skyline_px(const TrueSurface& surface, const Sight& sight, const Camera& camera,
-                                        int column, double reach_m) {
+std::optional<double> column_skyline_px(const Oracle& oracle, const Camera& camera, int column,
+                                        double reach_m) {
     const auto is_ground = [&](double y_px) {
         const glm::dvec3 ray = camera.ecef_direction_at({column + 0.5, y_px});
-        return first_hit(surface, sight, ray, reach_m).has_value();
+        return oracle.first_hit(ray, reach_m).has_value();
     };
     if (is_ground(0.0)) return 0.0;
     double sky_px = 0.0, ground_px = 0.5;
@@ -145,6 +102,33 @@ std::optional<DrawnSkyline> drawn_skyline(const Camera& camera, std::span<const 
 
 }  // namespace
 
+PointMeter::PointMeter(const TrueSurface& surface, const Sight& sight, const Camera& camera)
+    : surface_(surface),
+      sight_(sight),
+      view_from_ecef_(camera.view_from_ecef()),
+      tangent_(camera.half_fov_tangent()),
+      size_px_(camera.width_px, camera.height_px),
+      pixels_per_tangent_(0.5 * camera.height_px / tangent_.y) {}
+
+glm::dvec3 PointMeter::offset_m(const glm::dvec2& point_px, float depth) const {
+    const double z_m = near_plane_m / static_cast<double>(depth);
+    const glm::dvec2 tangent = (2.0 * point_px / size_px_ - 1.0) * tangent_ * glm::dvec2(1.0, -1.0);
+    return z_m * (glm::dvec3(tangent, -1.0) * view_from_ecef_);
+}
+
+std::optional<PointError> PointMeter::at(const glm::dvec3& drawn_m) const {
+    const Geodetic point = geodetic_from_ecef({sight_.eye.m + sight_.refraction.true_m(drawn_m)});
+    const std::optional<double> true_h_m = h_below_m(surface_, point.lat_deg, point.lon_deg);
+    if (!true_h_m) return std::nullopt;
+    const double height_m = point.h_m - *true_h_m;
+    const glm::dvec3 truth_m = ecef_from_geodetic({point.lat_deg, point.lon_deg, *true_h_m}).m - sight_.eye.m;
+    const glm::dvec3 seen = view_from_ecef_ * sight_.refraction.apparent_m(truth_m);
+    const glm::dvec3 drawn = view_from_ecef_ * drawn_m;
+    if (seen.z >= 0.0) return PointError{height_m, std::abs(height_m) * pixels_per_tangent_ / -drawn.z};
+    const glm::dvec2 apart = glm::dvec2(seen) / seen.z - glm::dvec2(drawn) / drawn.z;
+    return PointError{height_m, glm::length(apart) * pixels_per_tangent_};
+}
+
 ErrorSummary summary_of(std::vector<double> values) {
     for (double& value : values) value = std::abs(value);
     return summary_of_sizes(values);
@@ -167,7 +151,7 @@ InteriorError interior_error(const TrueSurface& surface, const Sight& sight, con
     InteriorError error;
     error.height_m.assign(width * height, not_measured);
     error.px.assign(width * height, not_measured);
-    const DrawnPoints points(surface, sight, camera);
+    const PointMeter meter(surface, sight, camera);
     std::vector<std::uint64_t> drawn_in_row(height), beyond_in_row(height);
     in_parallel(camera.height_px, threads, [&](int row) {
         const std::size_t r = static_cast<std::size_t>(row);
@@ -176,7 +160,7 @@ InteriorError interior_error(const TrueSurface& surface, const Sight& sight, con
             if (!(drawn.depths[pixel] > 0.0F)) continue;
             ++drawn_in_row[r];
             const glm::dvec2 corner(static_cast<double>(column), row);
-            const auto measured = points.at(corner + drawn.sample_px, drawn.depths[pixel]);
+            const auto measured = meter.at(meter.offset_m(corner + drawn.sample_px, drawn.depths[pixel]));
             if (!measured) {
                 ++beyond_in_row[r];
                 continue;
@@ -196,8 +180,9 @@ Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camer
     Skyline skyline;
     skyline.y_px.assign(static_cast<std::size_t>(camera.width_px), not_measured);
     const double reach_m = sight_reach_m(geodetic_from_ecef(sight.eye).h_m);
+    const Oracle oracle(surface, sight);
     in_parallel(camera.width_px, threads, [&](int column) {
-        if (const auto y_px = column_skyline_px(surface, sight, camera, column, reach_m))
+        if (const auto y_px = column_skyline_px(oracle, camera, column, reach_m))
             skyline.y_px[static_cast<std::size_t>(column)] = static_cast<float>(*y_px);
     });
     return skyline;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +31,30 @@ ErrorSummary summary_of(std::span<const float> values);
 struct DrawnDepths {
     std::span<const float> depths;
     glm::dvec2 sample_px{0.5, 0.5};
+};
+
+// What is wrong with one drawn point.
+struct PointError {
+    double height_m;  // how far it lies above the true surface, along the ellipsoid's normal
+    double px;        // on the picture, from where the true surface at its latitude and longitude is
+};
+// Measures drawn points of a picture. All outlive it but the camera.
+class PointMeter {
+  public:
+    // `sight` is the true one: where the eye really is, and the air really bends light.
+    PointMeter(const TrueSurface& surface, const Sight& sight, const Camera& camera);
+    // Where the point on the ray through a place of the picture is seen: offset from the eye, ECEF axes.
+    [[nodiscard]] glm::dvec3 offset_m(const glm::dvec2& point_px, float depth) const;
+    // Of a point that is drawn at that offset, before the eye; nothing where nothing true lies below it.
+    [[nodiscard]] std::optional<PointError> at(const glm::dvec3& drawn_m) const;
+
+  private:
+    const TrueSurface& surface_;
+    const Sight& sight_;
+    glm::dmat3 view_from_ecef_;
+    glm::dvec2 tangent_;
+    glm::dvec2 size_px_;
+    double pixels_per_tangent_;
 };
 
 // The interior: at each drawn point, taken relative to the true eye, how far it lies above the true surface
