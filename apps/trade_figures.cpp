@@ -119,7 +119,7 @@ std::string views_key(const TradeReport& report) {
     const std::vector<std::string> views = views_of(report);
     std::string html = "<p class=\"keys\">\n";
     if (!told_apart(views.size()))
-        html += key(1, "a view (point at it for its name); many on one place are darker");
+        html += key(1, "a view (point at it for its name); many on one place stand out");
     else
         for (std::size_t i = 0; i < views.size(); ++i) html += key(mark_of(i, views.size()), views[i]);
     return html + "</p>\n";

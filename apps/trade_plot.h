@@ -56,7 +56,7 @@ struct RowPlot {
     int lanes{1};
 };
 inline constexpr int row_marks = 8;
-// With more lanes than this, marks are pale, so that many on one place are darker.
+// With more lanes than this, marks are pale, so that many on one place stand out.
 inline constexpr int most_distinct_marks = row_marks - 2;
 std::string rows_svg(RowPlot plot);
 // One mark by itself, for legends.
