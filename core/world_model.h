@@ -40,6 +40,8 @@ class Refraction {
     // R is the Gaussian radius of curvature at the eye. k falls with the air's density at the eye (by e each
     // 8,434 m): the air around the eye bends most of what is seen, so an eye in space has none.
     Refraction(const Geodetic& eye, double k);
+    // Sight lines of that curvature, 1/m, whatever bends them: with the Earth's own it looks flat.
+    static Refraction with_curvature(const Geodetic& eye, double curvature_per_m);
 
     [[nodiscard]] bool straight() const { return curvature_per_m_ == 0.0; }
     // 1 / radius of the sight lines, 1/m: k / R at the eye's height.

@@ -1,0 +1,380 @@
+#include "core/effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/drawn_heights.h"
+#include "core/parallel.h"
+#include "core/sampled_detail.h"
+
+namespace oro {
+namespace {
+
+constexpr int samples_across = 160;
+// What lies between the samples: bounds that come from samples of rough ground are widened by this.
+constexpr double between_samples = 3.0;
+// Half a unit in the last place of a float, relative.
+constexpr double float_rounding = 1.0 / 16777216.0;
+
+double median(std::vector<double>& values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// Collects one effect's sizes at the samples.
+class Sizes {
+  public:
+    void add(double height_m, double px) {
+        height_m_.push_back(height_m);
+        px_.push_back(px);
+    }
+    // The bound is the largest times `margin`.
+    EffectSize size(double margin) {
+        if (px_.empty()) return {};
+        const double worst_m = *std::max_element(height_m_.begin(), height_m_.end());
+        const double worst_px = *std::max_element(px_.begin(), px_.end());
+        return {margin * worst_m, median(height_m_), margin * worst_px, median(px_)};
+    }
+
+  private:
+    std::vector<double> height_m_;
+    std::vector<double> px_;
+};
+
+// Half the distance between neighbouring floats at a value.
+double half_step(double value) {
+    return std::ldexp(0.5, std::max(-149, std::ilogb(std::max(std::abs(value), 1.0e-30)) - 23));
+}
+
+// How far a point's ECEF coordinates in float32 are at most from the point.
+double rounded_post_m(const Geodetic& point) {
+    const glm::dvec3 ecef = ecef_from_geodetic(point).m;
+    return glm::length(glm::dvec3(half_step(ecef.x), half_step(ecef.y), half_step(ecef.z)));
+}
+
+// How far the product of a point's ECEF with a float32 view matrix, translation and all, is at most off, in
+// view x, y and z: products of rotation and coordinates (each rounded, and a rotation's entry before it),
+// their sums, and a translation as long.
+double rounded_view_m(const Geodetic& point) {
+    const double length_m = glm::length(ecef_from_geodetic(point).m);
+    return std::sqrt(3.0) * length_m * float_rounding * (2.0 * std::sqrt(3.0) + 3.0);
+}
+
+}  // namespace
+
+const char* name_of(EffectKind kind) {
+    switch (kind) {
+        case EffectKind::geoid:
+            return "geoid left out";
+        case EffectKind::sphere:
+            return "sphere for ellipsoid";
+        case EffectKind::flat:
+            return "curvature left out";
+        case EffectKind::refraction:
+            return "refraction left out";
+        case EffectKind::float32_posts:
+            return "posts in float32 ECEF";
+        case EffectKind::float32_view:
+            return "view transform in float32";
+        case EffectKind::steps_f32:
+            return "heights in steps of 0.5 mm";
+        case EffectKind::steps_i16:
+            return "heights in 16 bits";
+        case EffectKind::detail:
+            return "level of detail";
+        case EffectKind::placement:
+            return "float32 relative to the eye";
+        case EffectKind::depth:
+            return "depth resolution";
+        case EffectKind::flat_cells:
+            return "flat triangles between posts";
+        case EffectKind::interpolation:
+            return "interpolation between posts";
+        case EffectKind::source:
+            return "the source's own accuracy";
+    }
+    return "";
+}
+
+EffectPrediction::EffectPrediction(const TrueSurface& surface, const RegionPages& pages, const Camera& camera,
+                                   const TrueWorld& world, int threads)
+    : surface_(surface),
+      pages_(pages),
+      camera_(camera),
+      world_(world),
+      threads_(threads),
+      sight_(sight_from(camera.eye, world.refraction_k)),
+      view_from_ecef_(camera.view_from_ecef()),
+      pixels_per_tangent_(0.5 * camera.height_px / camera.half_fov_tangent().y),
+      samples_(cast(sight_.refraction, threads)) {}
+
+// Sight lines through the middles of pixels all over the picture, those of its rim included.
+std::vector<EffectPrediction::Sample> EffectPrediction::cast(const Refraction& refraction,
+                                                             int threads) const {
+    const Oracle oracle(surface_, {sight_.eye, refraction});
+    const double reach_m = sight_reach_m(camera_.eye.h_m);
+    const int across = std::clamp(camera_.width_px, 1, samples_across);
+    const int down = std::clamp(samples_across * camera_.height_px / std::max(1, camera_.width_px), 1,
+                                std::min(camera_.height_px, 4 * samples_across));
+    const auto pixel = [](int i, int count, int size) {
+        return 0.5 +
+               (count > 1 ? std::round(static_cast<double>(i) * (size - 1) / (count - 1)) : 0.5 * (size - 1));
+    };
+    std::vector<std::vector<Sample>> rows(static_cast<std::size_t>(down));
+    const PostGrid& grid = surface_.field().grid;
+    in_parallel(down, threads, [&](int i) {
+        for (int j = 0; j < across; ++j) {
+            const glm::dvec3 direction = camera_.ecef_direction_at(
+                {pixel(j, across, camera_.width_px), pixel(i, down, camera_.height_px)});
+            const auto hit = oracle.first_hit(direction, reach_m);
+            if (!hit) continue;
+            const auto h_m = [&](int row, int column) {
+                return surface_.post_h_m(row, column).value_or(hit->point.h_m);
+            };
+            const double corner_m = h_m(hit->south_west ? hit->row + 1 : hit->row,
+                                        hit->south_west ? hit->column : hit->column + 1);
+            const double north_west_m = h_m(hit->row, hit->column),
+                         south_east_m = h_m(hit->row + 1, hit->column + 1);
+            const double row_m =
+                meridian_radius_m(hit->point.lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
+            const double column_m = std::max(1.0e-3, prime_vertical_radius_m(hit->point.lat_deg) *
+                                                         sine_cosine_deg(hit->point.lat_deg).cosine *
+                                                         radians_from_deg(grid.lon.spacing_deg()).rad);
+            const double down_m = hit->south_west ? corner_m - north_west_m : south_east_m - corner_m;
+            const double right_m = hit->south_west ? south_east_m - corner_m : corner_m - north_west_m;
+            rows[static_cast<std::size_t>(i)].push_back(
+                {hit->point, hit->distance_m * direction, hit->distance_m,
+                 std::hypot(down_m / row_m, right_m / column_m), hit->row, hit->column});
+        }
+    });
+    std::vector<Sample> samples;
+    for (const std::vector<Sample>& row : rows) samples.insert(samples.end(), row.begin(), row.end());
+    return samples;
+}
+
+double EffectPrediction::nearest_m() const {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const Sample& sample : samples_) nearest_m = std::min(nearest_m, sample.distance_m);
+    return nearest_m;
+}
+
+double EffectPrediction::median_distance_m() const {
+    std::vector<double> distances;
+    for (const Sample& sample : samples_) distances.push_back(sample.distance_m);
+    return median(distances);
+}
+
+// Points that are drawn elsewhere: how far over the surface they then are.
+EffectSize EffectPrediction::displaced(const std::vector<Sample>& samples, const Displacement& drawn) const {
+    const PointMeter meter(surface_, sight_, camera_);
+    Sizes sizes;
+    for (const Sample& sample : samples) {
+        const std::optional<glm::dvec3> at = drawn(sample);
+        if (!at || (view_from_ecef_ * *at).z >= -near_plane_m) continue;
+        if (const auto error = meter.at(*at)) sizes.add(std::abs(error->height_m), error->px);
+    }
+    return sizes.size(between_samples);
+}
+
+// A height on the picture, up or down from a sample.
+double EffectPrediction::vertical_px(const Sample& sample, double height_m) const {
+    const glm::dvec3 here = view_from_ecef_ * sample.apparent_m;
+    const glm::dvec3 up = view_from_ecef_ * ecef_from_enu(sample.point.lat_deg, sample.point.lon_deg)[2];
+    double worst_px = 0.0;
+    for (const double sign : {1.0, -1.0}) {
+        const glm::dvec3 there = here + sign * height_m * up;
+        const double px =
+            there.z < 0.0
+                ? glm::length(glm::dvec2(there) / -there.z - glm::dvec2(here) / -here.z) * pixels_per_tangent_
+                : height_m * pixels_per_tangent_ / -here.z;
+        worst_px = std::max(worst_px, px);
+    }
+    return worst_px;
+}
+
+// Heights that are off by no more than a bound. Ground between the samples may be somewhat nearer.
+EffectSize EffectPrediction::bounded(const Bound& height_m) const {
+    constexpr double nearer = 1.3;
+    Sizes sizes;
+    for (const Sample& sample : samples_) {
+        const double height = height_m(sample);
+        sizes.add(height, vertical_px(sample, height));
+    }
+    return sizes.size(nearer);
+}
+
+EffectSize EffectPrediction::on_flat_earth() const {
+    // Without curvature more can be seen: as if light followed the ground.
+    const double radius_m =
+        std::sqrt(prime_vertical_radius_m(camera_.eye.lat_deg) * meridian_radius_m(camera_.eye.lat_deg));
+    const Refraction along_ground =
+        Refraction::with_curvature(camera_.eye, sight_.refraction.curvature_per_m() + 1.0 / radius_m);
+    const WorldModel flat{Earth::flat, world_.refraction_k, Precision::relative};
+    return displaced(cast(along_ground, threads_),
+                     [&](const Sample& sample) { return model_offset_m(flat, camera_.eye, sample.point); });
+}
+
+EffectSize EffectPrediction::without_geoid() const {
+    const UndulationField& undulation = surface_.field().undulation;
+    Geodetic eye = camera_.eye;
+    eye.h_m -= undulation.at_m(eye.lat_deg, eye.lon_deg);
+    return displaced(samples_, [&](const Sample& sample) {
+        Geodetic point = sample.point;
+        point.h_m -= undulation.at_m(point.lat_deg, point.lon_deg);
+        return sight_.refraction.apparent_m(model_offset_m(Earth::ellipsoid, eye, point));
+    });
+}
+
+// From the posts around what is seen: how far each second one lies from the middle of its neighbours is how
+// far the ground may lie from the middle of posts twice as dense; half of that typically.
+EffectSize EffectPrediction::interpolation() const {
+    Sizes sizes;
+    for (const Sample& sample : samples_) {
+        double bend_m = 0.0;
+        for (const auto& [down, right] : {std::pair(1, 0), std::pair(0, 1)}) {
+            const auto before =
+                surface_.post_h_m(std::max(0, sample.row - down), std::max(0, sample.column - right));
+            const auto here = surface_.post_h_m(sample.row, sample.column);
+            const auto after = surface_.post_h_m(sample.row + down, sample.column + right);
+            if (sample.row - down < 0 || sample.column - right < 0 || !before || !here || !after) continue;
+            bend_m = std::max(bend_m, std::abs(*here - 0.5 * (*before + *after)));
+        }
+        sizes.add(bend_m, vertical_px(sample, bend_m));
+    }
+    EffectSize size = sizes.size(1.0);
+    size.typical_m *= 0.5;
+    size.typical_px *= 0.5;
+    return size;
+}
+
+Result<EffectSize> EffectPrediction::detail(double tau_px) const {
+    SampledDetail detail(pages_, camera_, tau_px);
+    Sizes sizes;
+    for (const Sample& sample : samples_) {
+        ORO_TRY(const SampledDetail::Bound bound, detail.at(sample.row, sample.column));
+        sizes.add(bound.error_m, bound.error_px);
+    }
+    constexpr double between_nodes = 1.5;
+    EffectSize size = sizes.size(between_nodes);
+    size.worst_px = std::min(size.worst_px, tau_px);
+    return size;
+}
+
+Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double tau_px) const {
+    using Size = std::optional<EffectSize>;
+    const auto steep = [](const Sample& sample) { return std::hypot(1.0, sample.slope); };
+    switch (kind) {
+        case EffectKind::geoid:
+            return Size(without_geoid());
+        case EffectKind::sphere:
+            return Size(displaced(samples_, [&](const Sample& sample) {
+                return model_offset_m({Earth::sphere, world_.refraction_k, Precision::relative}, camera_.eye,
+                                      sample.point);
+            }));
+        case EffectKind::flat:
+            return Size(on_flat_earth());
+        case EffectKind::refraction:
+            return Size(displaced(
+                samples_, [&](const Sample& sample) { return sight_.refraction.true_m(sample.apparent_m); }));
+        case EffectKind::float32_posts:
+            return Size(
+                bounded([&](const Sample& sample) { return rounded_post_m(sample.point) * steep(sample); }));
+        case EffectKind::float32_view:
+            return Size(bounded([&](const Sample& sample) {
+                return (rounded_post_m(sample.point) + rounded_view_m(sample.point)) * steep(sample);
+            }));
+        case EffectKind::steps_f32:
+            return Size(bounded([](const Sample&) { return 0.5 * height_step_m; }));
+        case EffectKind::steps_i16:
+            return Size(bounded([&](const Sample&) { return world_.sixteen.error_m(); }));
+        case EffectKind::detail: {
+            ORO_TRY(const EffectSize size, detail(tau_px));
+            return Size(size);
+        }
+        // Measured: at most 3.2e-7 of the distance, in any direction (docs/ARCHITECTURE.md, Placement).
+        case EffectKind::placement:
+            return Size(
+                bounded([&](const Sample& sample) { return 3.2e-7 * sample.distance_m * steep(sample); }));
+        // A depth is rounded twice, and the triangle's plane that it comes from: along the ray.
+        case EffectKind::depth:
+            return Size(bounded([&](const Sample& sample) {
+                return 4.0 * float_rounding * sample.distance_m * steep(sample);
+            }));
+        case EffectKind::flat_cells: {
+            const PostGrid& grid = surface_.field().grid;
+            return Size(bounded([&](const Sample& sample) {
+                const double tall = radians_from_deg(grid.lat.spacing_deg()).rad;
+                const double wide = radians_from_deg(grid.lon.spacing_deg()).rad *
+                                    sine_cosine_deg(sample.point.lat_deg).cosine;
+                return (tall * tall + wide * wide) / 8.0 * (wgs84_a_m + std::max(0.0, sample.point.h_m));
+            }));
+        }
+        case EffectKind::interpolation:
+            return Size(interpolation());
+        case EffectKind::source: {
+            if (!world_.source_le90_m) return Size(std::nullopt);
+            // Of a normal distribution: half of all errors are within 0.41 of what holds 90 %.
+            const double le90_m = *world_.source_le90_m;
+            EffectSize size = bounded([&](const Sample&) { return le90_m; });
+            size.typical_m = 0.41 * le90_m;
+            size.typical_px *= 0.41;
+            size.worst_m = le90_m;
+            return Size(size);
+        }
+    }
+    return Size(std::nullopt);
+}
+
+bool EffectPrediction::is_in(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world) {
+    switch (kind) {
+        case EffectKind::geoid:
+            return !drawing.geoid;
+        case EffectKind::sphere:
+            return drawing.world.earth == Earth::sphere;
+        case EffectKind::flat:
+            return drawing.world.earth == Earth::flat;
+        case EffectKind::refraction:
+            return drawing.world.refraction_k != world.refraction_k;
+        case EffectKind::float32_posts:
+            return drawing.world.precision == Precision::rounded_posts;
+        case EffectKind::float32_view:
+            return drawing.world.precision == Precision::naive;
+        case EffectKind::steps_f32:
+            return !drawing.coding.sixteen;
+        case EffectKind::steps_i16:
+            return drawing.coding.sixteen;
+        case EffectKind::detail:
+            return drawing.tau_px > 0.0;
+        case EffectKind::placement:
+            return drawing.world.precision == Precision::relative;
+        case EffectKind::depth:
+        case EffectKind::flat_cells:
+        case EffectKind::interpolation:
+        case EffectKind::source:
+            return true;
+    }
+    return true;
+}
+
+Result<EffectSize> EffectPrediction::total(const DrawingModel& drawing) const {
+    EffectSize sum;
+    for (const EffectKind kind :
+         {EffectKind::geoid, EffectKind::sphere, EffectKind::flat, EffectKind::refraction,
+          EffectKind::float32_posts, EffectKind::float32_view, EffectKind::steps_f32, EffectKind::steps_i16,
+          EffectKind::detail, EffectKind::placement, EffectKind::depth, EffectKind::flat_cells}) {
+        if (!is_in(kind, drawing, world_)) continue;
+        ORO_TRY(const std::optional<EffectSize> one, size(kind, drawing.tau_px));
+        if (!one) continue;
+        sum.worst_m += one->worst_m;
+        sum.typical_m += one->typical_m;
+        sum.worst_px += one->worst_px;
+        sum.typical_px += one->typical_px;
+    }
+    return sum;
+}
+
+}  // namespace oro

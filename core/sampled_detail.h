@@ -1,0 +1,41 @@
+// How far what is drawn at a place may be from the full resolution, place by place, without planning a frame.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include "core/camera.h"
+#include "core/levels.h"
+#include "core/region_pages.h"
+
+namespace oro {
+
+// Asks the pages' nodes as a frame does (shaders/levels.glsl). Keeps the pages that it has asked for.
+class SampledDetail {
+  public:
+    // pages outlives it.
+    SampledDetail(const RegionPages& pages, const Camera& camera, double tau_px);
+    ~SampledDetail();
+
+    // Bounds of the node that is drawn over a cell of the region; 0 at full resolution.
+    struct Bound {
+        int level{};
+        double error_m{};
+        double error_px{};
+    };
+    // Errors: a page that cannot be read.
+    Result<Bound> at(int row, int column);
+
+  private:
+    struct Page;
+    Result<const Page*> page(const PageIndex& index);
+
+    const RegionPages& pages_;
+    LevelView view_;
+    glm::dmat3 view_from_ecef_;
+    Ecef eye_;
+    std::map<std::tuple<int, int, int>, std::unique_ptr<Page>> kept_;
+};
+
+}  // namespace oro
