@@ -1,0 +1,172 @@
+// Must hold: what is drawn lies within tau of the full resolution, on the picture and at every drawn pixel.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+
+#include "core/ground.h"
+#include "core/parallel.h"
+#include "core/picture_error.h"
+#include "geo/region.h"
+#include "render/depth_picture.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/rough_terrain.h"
+#include "tests/support/test_data.h"
+
+namespace oro {
+namespace {
+
+constexpr int width_px = 256, height_px = 144;
+constexpr std::array taus_px{0.5, 1.0, 2.0, 4.0};
+// Beside tau: what placement, subpixel snapping and the depths' own rounding may add.
+constexpr double slack_px = 0.05;
+constexpr unsigned seed = 401;
+
+// An eye over the region: from 2 m above the ground to 500 km, all headings, from straight down to the sky.
+Camera random_camera(std::mt19937_64& random, const HeightField& field) {
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Camera camera;
+    camera.width_px = width_px;
+    camera.height_px = height_px;
+    camera.vertical_fov_deg = 10.0 + 80.0 * unit(random);
+    const PostGrid& grid = field.grid;
+    camera.eye.lat_deg =
+        grid.south_deg() + (0.02 + 0.96 * unit(random)) * (grid.north_deg() - grid.south_deg());
+    camera.eye.lon_deg = grid.west_deg() + (0.02 + 0.96 * unit(random)) * (grid.east_deg() - grid.west_deg());
+    const double above_m = 2.0 * std::pow(2.5e5, unit(random));
+    camera.eye.h_m = ground_h_m(field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0) + above_m;
+    // From far up a level view would be of the sky.
+    const bool level = above_m < 5000.0 && random() % 2 == 0;
+    camera.attitude = {360.0 * unit(random),
+                       level ? -25.0 + 30.0 * unit(random) : -89.0 + 64.0 * unit(random),
+                       random() % 3 == 0 ? 360.0 * unit(random) : 0.0};
+    return camera;
+}
+
+// All that was measured with one tau.
+struct Measured {
+    std::vector<float> height_m, px, skyline_px;
+    std::uint64_t drawn{}, beyond_data{}, in_one_only{}, violations{}, triangles{};
+
+    void add(const DepthPicture& picture, const InteriorError& interior, const SkylineError& skyline) {
+        const auto append = [](std::vector<float>& all, const std::vector<float>& some) {
+            std::copy_if(some.begin(), some.end(), std::back_inserter(all),
+                         [](float value) { return value != not_measured; });
+        };
+        append(height_m, interior.height_m);
+        append(px, interior.px);
+        append(skyline_px, skyline.px);
+        drawn += interior.drawn;
+        beyond_data += interior.beyond_data;
+        in_one_only += skyline.in_one_only;
+        triangles += picture.report.counts.triangles_drawn;
+    }
+};
+
+void print_row(const char* what, const ErrorSummary& of) {
+    std::printf("  %-14s %12.5f %12.5f %12.5f %12.6f  (%llu)\n", what, of.largest, of.p9999, of.p99, of.mean,
+                static_cast<unsigned long long>(of.count));
+}
+
+int view_count() {
+    const char* const wanted = std::getenv("OROGRAPH_TEST_VIEWS");
+    return wanted ? std::max(1, std::atoi(wanted)) : 50;
+}
+
+class InteriorErrorOfPictures : public test::GpuTest {
+  protected:
+    std::array<Measured, taus_px.size()> measured;
+    std::mt19937_64 random{seed};
+
+    void say_violation(const char* name, int view, const Camera& camera, double tau_px,
+                       const InteriorError& error) {
+        const auto worst = std::max_element(error.px.begin(), error.px.end());
+        const auto pixel = worst - error.px.begin();
+        ADD_FAILURE() << name << ", view " << view << ": " << *worst << " px ("
+                      << error.height_m[static_cast<std::size_t>(pixel)] << " m) at tau " << tau_px
+                      << ", pixel " << pixel % width_px << "," << pixel / width_px << "; eye "
+                      << camera.eye.lat_deg << "," << camera.eye.lon_deg << " h " << camera.eye.h_m
+                      << " heading " << camera.attitude.heading_deg << " pitch " << camera.attitude.pitch_deg
+                      << " roll " << camera.attitude.roll_deg << " fov " << camera.vertical_fov_deg;
+    }
+
+    void look(const char* name, const HeightField& field, int views) {
+        auto made = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {std::uint64_t{512} << 20U, 0});
+        ASSERT_TRUE(made.ok()) << made.error().line();
+        Scene scene = std::move(made).value();
+        const TrueSurface surface(field, 1.0, thread_count());
+        DepthPainter painter(*gpu_, RasterPath::compute);
+        for (int view = 0; view < views; ++view) {
+            const Camera camera = random_camera(random, field);
+            const Sight sight = sight_from(camera.eye);
+            const Skyline skyline = true_skyline(surface, sight, camera, thread_count());
+            for (std::size_t i = 0; i < taus_px.size(); ++i) {
+                DepthPictureOptions options;
+                options.tau_px = taus_px[i];
+                const auto picture = painter.draw(scene, camera, {}, options);
+                ASSERT_TRUE(picture.ok()) << picture.error().line();
+                ASSERT_TRUE(picture->settled);
+                const InteriorError error =
+                    interior_error(surface, sight, camera, picture->centres(), thread_count());
+                measured[i].add(*picture, error, skyline_error(skyline, camera, picture->skylines()));
+                if (error.summary_px.largest <= taus_px[i] + slack_px) continue;
+                ++measured[i].violations;
+                say_violation(name, view, camera, taus_px[i], error);
+            }
+        }
+    }
+
+    void print_all(const char* of, int views) {
+        std::printf("%s, seed %u, %d views of %d x %d px\n", of, seed, views, width_px, height_px);
+        for (std::size_t i = 0; i < taus_px.size(); ++i) {
+            const Measured& all = measured[i];
+            std::printf("tau %.1f px         %12s %12s %12s %12s\n", taus_px[i], "largest", "99.99 %", "99 %",
+                        "mean");
+            print_row("interior, px", summary_of(all.px));
+            print_row("interior, m", summary_of(all.height_m));
+            print_row("skyline, px", summary_of(all.skyline_px));
+            std::printf(
+                "  %llu pixels of ground, %llu of them over no data; %llu columns with ground in one only; "
+                "%llu triangles\n",
+                static_cast<unsigned long long>(all.drawn), static_cast<unsigned long long>(all.beyond_data),
+                static_cast<unsigned long long>(all.in_one_only),
+                static_cast<unsigned long long>(all.triangles));
+            EXPECT_EQ(all.violations, 0U) << "views at tau " << taus_px[i];
+            EXPECT_GT(all.px.size(), static_cast<std::size_t>(views) * width_px * height_px / 4)
+                << "or the test sees the sky";
+            EXPECT_LE(all.beyond_data, all.drawn / 100);
+        }
+    }
+
+    // Views of a folder of real data.
+    void look_over(const char* folder, const char* tiles, int views) {
+        RegionRequest request;
+        request.paths = {test::real_data(folder)->string()};
+        request.box = *parse_tile_range(tiles);
+        const auto region = open_region(request);
+        ASSERT_TRUE(region.ok()) << region.error().line();
+        look(folder, region->field, views);
+    }
+};
+
+TEST_F(InteriorErrorOfPictures, OfMadeTerrainIsWithinTau) {
+    const int views = (view_count() + 4) / 5;
+    look("made terrain", test::rough_field(47.0, 8.0, 700, 900), views);
+    print_all("made terrain", views);
+}
+
+TEST_F(InteriorErrorOfPictures, OfRealTerrainIsWithinTau) {
+    for (const char* folder : {"alps", "himalaya", "poland"}) {
+        if (!test::real_data(folder)) GTEST_SKIP() << "needs " << folder;
+    }
+    const int views = view_count();
+    look_over("alps", "N46E007:N46E008", (views + 2) / 3);
+    look_over("himalaya", "N28E082:N28E083", (views + 1) / 3);
+    look_over("poland", "N51E018:N51E019", views / 3);
+    print_all("alps, himalaya, poland", views);
+}
+
+}  // namespace
+}  // namespace oro
