@@ -6,8 +6,10 @@
 
 namespace oro {
 
-// Writes a geotagged picture and, beside it, its view.
+// Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
 Result<void> run_shot(const ShotOptions& options);
+// Measures how far the picture of a view is from the truth; draws it again, replaces no picture.
+Result<void> run_compare(const CompareOptions& options);
 // Opens a window to fly over a region.
 Result<void> run_view(const WindowOptions& options);
 // Writes a region with all its levels into a file, or goes on with one that was broken off.

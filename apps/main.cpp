@@ -31,8 +31,27 @@ void add_shot(CLI::App& app, oro::ShotOptions& options) {
     command.add_option("--view", options.view_file,
                        "Take sources and eye from a view: the .json beside a picture, or the picture");
     command.add_option("--out", options.out, "The picture to write");
+    command.add_flag("--verify", options.verify,
+                     "Measure the picture against the full resolution, in metres and pixels, and write "
+                     "NAME.error.png beside it");
     command.add_flag("--overwrite", options.overwrite, "Replace files that are there");
     command.add_flag("--json", options.json, "Print one JSON object about the picture on standard output");
+    command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
+}
+
+void add_compare(CLI::App& app, oro::CompareOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "compare", "Measure a picture's view against the full resolution: how far off it is drawn");
+    command
+        .add_option("PICTURE", options.view_file,
+                    "A picture that carries its view, or the .json beside it; PATHs after it are its data, "
+                    "if they lie elsewhere now")
+        ->required();
+    oro::add_region_options(command, options.region);
+    oro::add_memory_options(command, options.memory);
+    command.add_option("--out", options.out, "The picture of errors to write (.png)");
+    command.add_flag("--overwrite", options.overwrite, "Replace a file that is there");
+    command.add_flag("--json", options.json, "Print one JSON object about the errors on standard output");
     command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
 }
 
@@ -105,7 +124,8 @@ void fill_standard_streams() {
 oro::Error usage_error(const CLI::App& app, int argc, char** argv, const CLI::ParseError& error) {
     const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
     if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty())
-        return {oro::ErrorKind::usage, argv[1], "is no command; these are shot, view, bake, info and doctor"};
+        return {oro::ErrorKind::usage, argv[1],
+                "is no command; these are shot, compare, view, bake, info and doctor"};
     return {oro::ErrorKind::usage, "", std::string(error.what()) + " (orograph --help tells more)"};
 }
 
@@ -121,11 +141,13 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "orograph " OROGRAPH_VERSION);
     oro::ShotOptions shot;
+    oro::CompareOptions compare;
     oro::WindowOptions view;
     oro::BakingOptions bake;
     oro::InfoOptions info;
     oro::DoctorOptions doctor;
     add_shot(app, shot);
+    add_compare(app, compare);
     add_view(app, view);
     add_bake(app, bake);
     add_info(app, info);
@@ -140,6 +162,7 @@ int main(int argc, char** argv) {
     // What was begun is undone on the way here: no half file stays.
     try {
         if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
+        if (app.got_subcommand("compare")) return exit_code(oro::run_compare(compare));
         if (app.got_subcommand("view")) return exit_code(oro::run_view(view));
         if (app.got_subcommand("bake")) return exit_code(oro::run_bake(bake));
         if (app.got_subcommand("info")) return exit_code(oro::run_info(info));

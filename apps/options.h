@@ -58,6 +58,17 @@ struct ShotOptions {
     MemoryOptions memory;
     std::string view_file;
     std::string out;
+    bool verify{false};
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct CompareOptions {
+    RegionOptions region;
+    MemoryOptions memory;
+    std::string view_file;
+    std::string out;
     bool overwrite{false};
     bool json{false};
     bool quiet{false};

@@ -12,15 +12,17 @@
 namespace oro {
 
 PictureFiles picture_files(const std::string& picture) {
-    return {picture, std::filesystem::path(picture).replace_extension(".json").string()};
+    const std::filesystem::path path(picture);
+    return {picture, std::filesystem::path(path).replace_extension(".json").string(),
+            std::filesystem::path(path).replace_extension(".error.png").string()};
 }
 
 std::optional<DestinationTag> destination_of(const View& view, const Region& region) {
     const Camera& camera = view.camera;
     const glm::dvec3 ray = camera.ecef_direction_at({0.5 * camera.width_px, 0.5 * camera.height_px});
     const TrueSurface surface(region.field, view.exaggeration, thread_count());
-    const auto hit =
-        first_hit(surface, sight_from(camera.eye, view.model.refraction_k), ray, sight_reach_m(camera.eye.h_m));
+    const auto hit = first_hit(surface, sight_from(camera.eye, view.model.refraction_k), ray,
+                               sight_reach_m(camera.eye.h_m));
     if (!hit) return std::nullopt;
     const GeodesicPath path =
         geodesic_between(camera.eye.lat_deg, camera.eye.lon_deg, hit->point.lat_deg, hit->point.lon_deg);

@@ -7,10 +7,11 @@
 
 namespace oro {
 
-// A picture's file and the view beside it.
+// A picture's file, the view beside it, and the picture of its errors, which --verify asks for.
 struct PictureFiles {
     std::string picture;
     std::string view;
+    std::string error;
 };
 PictureFiles picture_files(const std::string& picture);
 

@@ -16,7 +16,9 @@
 #include "apps/progress_bar.h"
 #include "apps/region_json.h"
 #include "apps/region_scene.h"
+#include "apps/spared_inputs.h"
 #include "apps/style.h"
+#include "apps/verification.h"
 #include "apps/view.h"
 #include "core/ground.h"
 #include "geo/whole_file.h"
@@ -36,6 +38,7 @@ struct ShotTimes {
     double read_s{};
     double pages_s{};
     double draw_s{};  // drawing, reading back and writing, which overlap row by row
+    double verify_s{};
 };
 
 struct ShotResult {
@@ -47,6 +50,7 @@ struct ShotResult {
     std::uint64_t page_bytes{};
     double height_step_m{};
     std::uint64_t triangles_at_full_resolution{};
+    std::optional<Verification> verification;
     ShotTimes times;
 };
 
@@ -134,6 +138,11 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                       {"driver", gpu.report().driver},
                       {"api", gpu.report().api}};
     json["pipeline"] = name_of(shot.picture.path);
+    if (shot.verification) {
+        json["times_s"]["verify"] = shot.times.verify_s;
+        json["error_picture"] = files.error;
+        json["error"] = verification_json(*shot.verification);
+    }
     return json;
 }
 
@@ -150,9 +159,15 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
     }
 }
 
-// Before anything takes time: that both files can be written where they shall be.
+std::vector<std::string> written_files(const ShotOptions& options, const PictureFiles& files) {
+    std::vector<std::string> all{files.picture, files.view};
+    if (options.verify) all.push_back(files.error);
+    return all;
+}
+
+// Before anything takes time: that all files can be written where they shall be.
 Result<void> check_out(const ShotOptions& options, const PictureFiles& files) {
-    for (const std::string& file : {files.picture, files.view}) {
+    for (const std::string& file : written_files(options, files)) {
         if (!options.overwrite && access(file.c_str(), F_OK) == 0)
             return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
         if (const auto trial = WholeFile::create(file, options.overwrite); !trial.ok()) return trial.error();
@@ -160,20 +175,14 @@ Result<void> check_out(const ShotOptions& options, const PictureFiles& files) {
     return {};
 }
 
-// --overwrite is for pictures: the terrain and the style that a picture is made from are never replaced by
-// it.
-Result<void> spare_inputs(const PictureFiles& files, const ShotResult& shot) {
-    std::vector<std::string> inputs{shot.view.style};
-    for (const std::string& path : shot.view.region.paths) inputs.push_back(path);
-    for (const SourceReport& source : shot.region.sources) inputs.push_back(source.path);
-    for (const std::string& file : {files.picture, files.view}) {
-        for (const std::string& input : inputs) {
-            std::error_code not_there;
-            if (fs::equivalent(file, input, not_there))
-                return Error{ErrorKind::usage, "--out",
-                             "would replace " + input + ", which the picture is made from"};
-        }
-    }
+// Measures what was drawn, the same way, and writes the picture of its errors.
+Result<void> verify_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu, Scene& scene,
+                         const Style& style, ShotResult& shot) {
+    const auto start = Clock::now();
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
+    ORO_TRY(shot.verification, verify_view(shot.view, *truth, gpu, scene, shot.picture.path, style.frame));
+    ORO_CHECK(write_error_picture(files.error, *shot.verification, shot.view.tau_px, options.overwrite));
+    shot.times.verify_s = seconds_since(start);
     return {};
 }
 
@@ -188,7 +197,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
         shot.region));
     shot.times.read_s = seconds_since(reading);
-    ORO_CHECK(spare_inputs(files, shot));
+    ORO_CHECK(spare_inputs(written_files(options, files), shot.view, shot.region));
     ORO_TRY(const Style style, load_style(shot.view.style, shot.view.sun));
     bar.clear();
     say_notes(options, shot);
@@ -209,8 +218,17 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     shot.pages_on_gpu = scene.store().size();
     shot.page_bytes = scene.store().bytes();
     shot.height_step_m = scene.height_step_m();
+    if (options.verify) {
+        bar.show(1.0, "measuring errors");
+        ORO_CHECK(verify_shot(options, files, *gpu, scene, style, shot));
+    }
     bar.clear();
     say(options.quiet || files.picture != told.picture, "wrote " + files.picture + " and " + files.view);
+    if (shot.verification) {
+        say(options.quiet, "wrote " + files.error);
+        if (!options.quiet)
+            std::fputs(verification_text(*shot.verification, shot.view.tau_px).c_str(), stderr);
+    }
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, told, *gpu, style), true).c_str());
     return {};
 }
@@ -224,8 +242,9 @@ bool same_bytes(const std::string& a, const std::string& b) {
 Result<void> check_shot(const ShotOptions& options, const PictureFiles& files) {
     const ScratchFolder scratch;
     if (!scratch.made()) return Error{ErrorKind::failed, scratch.path(), "cannot be made"};
-    const PictureFiles again =
+    PictureFiles again =
         picture_files((fs::path(scratch.path()) / fs::path(files.picture).filename()).string());
+    again.error = files.error;  // the one file of a check that is wanted
     ORO_CHECK(take_shot(options, again, files));
     if (!same_bytes(again.picture, files.picture))
         return Error{

@@ -9,6 +9,7 @@ namespace {
 // Without a geoid heights are above the ellipsoid, for the eye's place as for the terrain's.
 void leave_geoid_out(const View& view, Region& region) {
     if (view.has_geoid) return;
+    region.geoid_left_out = std::move(region.field.undulation);
     region.field.undulation = {};
     region.geoid = "none";
 }

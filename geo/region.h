@@ -78,6 +78,7 @@ struct Region {
     std::vector<SourceReport> sources;  // those that the region uses
     SeamReport seams;
     std::string geoid;  // "EGM96 (egm96_15.gtx)": what N in the field is
+    UndulationField geoid_left_out;  // N that the field had, where a view goes without it
     std::vector<std::string>
         missing_cells;               // whole-degree cells of the region without any source, e.g. "N45E008"
     std::uint64_t voids{};           // void posts in the region

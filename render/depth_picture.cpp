@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/page.h"
-
 namespace oro {
 namespace {
 
@@ -71,7 +69,7 @@ Result<FrameReport> DepthPainter::draw_sample(Scene& scene, const Camera& camera
                                               const gpu::FrameStyle& style,
                                               const DepthPictureOptions& options, const Tile& tile,
                                               DepthPicture& picture, std::vector<float>& depths) {
-    ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px));
+    ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px, options.model));
     picture.settled = picture.settled && plan.missing.empty();
     ORO_TRY(const FrameReport report, renderer_->draw(std::move(plan), style));
     ORO_TRY(const std::vector<float> drawn,
@@ -87,7 +85,7 @@ Result<void> DepthPainter::draw_tile(Scene& scene, const Camera& camera, const g
     ORO_TRY(const FrameReport report,
             draw_sample(scene, camera, style, options, tile, picture, picture.depths));
     add(picture.report, report);
-    picture.page_bytes += report.pages * sizeof(gpu::PageBlock);
+    picture.page_bytes += report.pages * page_bytes(scene.store().coding());
     ++picture.tiles;
     ORO_TRY(const std::vector<std::uint8_t> rgba,
             renderer_->read_picture(static_cast<std::uint32_t>(tile.width_px),

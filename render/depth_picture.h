@@ -14,7 +14,8 @@
 namespace oro {
 
 struct DepthPictureOptions {
-    double tau_px{1.0};      // 0: full resolution
+    double tau_px{1.0};  // 0: full resolution
+    WorldModel model{};
     bool skyline{true};      // draw the samples that skylines are found in, too
     int largest_tile_px{0};  // 0: chosen from the device; tests make it small
 };

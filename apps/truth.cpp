@@ -1,0 +1,27 @@
+#include "apps/truth.h"
+
+#include "core/file_pages.h"
+#include "core/parallel.h"
+
+namespace oro {
+
+Sight true_sight(const View& view, const Region& region) {
+    Geodetic eye = view.camera.eye;
+    if (!region.geoid_left_out.N_m.empty()) eye.h_m += region.geoid_left_out.at_m(eye.lat_deg, eye.lon_deg);
+    return sight_from(eye, view.model.refraction_k);
+}
+
+Result<std::unique_ptr<TrueScene>> TrueScene::of(const View& view, const Region& region) {
+    std::unique_ptr<TrueScene> scene(new TrueScene);
+    if (region.file) {
+        ORO_TRY(scene->field_, field_in_memory(*region.file));
+    } else if (!region.geoid_left_out.N_m.empty()) {
+        scene->field_ = region.field;
+        scene->field_->undulation = region.geoid_left_out;
+    }
+    scene->surface_.emplace(scene->field_ ? *scene->field_ : region.field, view.exaggeration, thread_count());
+    scene->sight_ = true_sight(view, region);
+    return scene;
+}
+
+}  // namespace oro
