@@ -1,0 +1,187 @@
+// shot --verify and compare: the error of a picture, as a table, as JSON and as a picture.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/apps/picture_pixels.h"
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using oro::test::bytes_of;
+using oro::test::expect_refusal;
+using oro::test::names_in;
+using oro::test::Outcome;
+using oro::test::Pixels;
+using oro::test::pixels_of;
+using oro::test::run_orograph;
+using Words = std::vector<std::string>;
+
+std::string bundled() {
+    return (oro::test::bundled_data() / "jacksboro.tif").string();
+}
+
+json one_object(const std::string& text) {
+    const json object = json::parse(text, nullptr, false);
+    EXPECT_TRUE(object.is_object()) << text;
+    return object.is_object() ? object : json::object();
+}
+
+class Verify : public testing::Test {
+  protected:
+    const fs::path folder = oro::test::scratch_folder();
+    const fs::path picture = folder / "p.png";
+    const fs::path error_picture = folder / "p.error.png";
+
+    Outcome shoot(Words more) const {
+        Words words{"shot",      bundled(), "--out",   picture, "--at",   "36.6,-84.2", "--above", "300",
+                    "--heading", "200",     "--pitch", "-5",    "--size", "400x200",    "--verify"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_orograph(words);
+    }
+};
+
+// What must hold of every verification: fields, order, and the bound that tau promises.
+void expect_errors(const json& error, double tau_px) {
+    for (const char* part : {"interior_m", "interior_px", "skyline_px"}) {
+        SCOPED_TRACE(part);
+        const json& of = error.at(part);
+        EXPECT_GE(of.at("max").get<double>(), of.at("p9999").get<double>());
+        EXPECT_GE(of.at("p9999").get<double>(), of.at("p99").get<double>());
+        EXPECT_GE(of.at("max").get<double>(), of.at("mean").get<double>());
+        EXPECT_GE(of.at("mean").get<double>(), 0.0);
+    }
+    EXPECT_LE(error.at("interior_px").at("max").get<double>(), tau_px + 0.05) << "px";
+    EXPECT_GT(error.at("interior_px").at("max").get<double>(), 0.0) << "nothing is drawn without any error";
+    EXPECT_GT(error.at("drawn_pixels").get<int>(), 20000);
+    EXPECT_EQ(error.at("pixels_beyond_data").get<int>(), 0);
+    EXPECT_GT(error.at("skyline_columns").get<int>(), 300);
+    EXPECT_TRUE(error.at("skyline_in_one_only").is_number_integer());
+}
+
+TEST_F(Verify, SaysHowFarOffThePictureIs) {
+    const Outcome outcome = shoot({"--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json said = one_object(outcome.out);
+    expect_errors(said.at("error"), 1.0);
+    EXPECT_EQ(said.at("error_picture"), error_picture.string());
+    for (const char* words :
+         {"largest", "99.99 %", "interior, m", "interior, px", "skyline, px", "p.error.png"})
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
+    EXPECT_EQ(names_in(folder), (Words{"p.error.png", "p.json", "p.png"}));
+}
+
+TEST_F(Verify, TheErrorPictureHasALegend) {
+    ASSERT_EQ(shoot({"-q", "--tau", "8"}).exit_code, 0);
+    const Pixels pixels = pixels_of(error_picture);
+    // 400 px wide as the picture is; below its 200 rows a legend of 2 * 6 + 16 + 7 * 10 = 98.
+    ASSERT_EQ(pixels.width, 400U);
+    ASSERT_EQ(pixels.height, 298U);
+    const auto colours = [&](std::size_t from_row, std::size_t to_row) {
+        std::set<std::vector<png_byte>> found;
+        for (std::size_t i = 3 * 400 * from_row; i < 3 * 400 * to_row; i += 3)
+            found.insert({pixels.rgb[i], pixels.rgb[i + 1], pixels.rgb[i + 2]});
+        return found;
+    };
+    const auto drawn = colours(0, 200), legend = colours(200, 298);
+    EXPECT_TRUE(drawn.contains({190, 190, 190})) << "sky is grey";
+    EXPECT_GT(drawn.size(), 50U) << "errors of many sizes";
+    EXPECT_FALSE(drawn.contains({255, 0, 255})) << "all of it could be measured";
+    EXPECT_TRUE(legend.contains({20, 20, 20})) << "letters";
+    EXPECT_TRUE(legend.contains({68, 1, 84}) && legend.contains({253, 231, 37})) << "both ends of the scale";
+}
+
+TEST_F(Verify, IsSilentWhenTold) {
+    const Outcome outcome = shoot({"-q"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_GT(pixels_of(error_picture).width, 0U);
+}
+
+TEST_F(Verify, ReplacesOnlyWhenTold) {
+    oro::test::write_bytes(error_picture, "mine");
+    expect_refusal(shoot({"-q"}), 1, {"p.error.png", "--overwrite"});
+    EXPECT_EQ(bytes_of(error_picture), "mine");
+    EXPECT_EQ(names_in(folder), Words{"p.error.png"}) << "refused before anything was drawn";
+    ASSERT_EQ(shoot({"-q", "--overwrite"}).exit_code, 0);
+    EXPECT_EQ(pixels_of(error_picture).width, 400U);
+}
+
+// The picture is the same with and without, and a check writes the picture of errors only.
+TEST_F(Verify, DoesNotChangeThePicture) {
+    ASSERT_EQ(shoot({"-q", "--pipeline", "compute"}).exit_code, 0);
+    const std::string bytes = bytes_of(picture), errors = bytes_of(error_picture);
+    fs::remove(error_picture);
+    const Outcome again = run_orograph({"shot", "--view", picture, "--verify", "-q"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_TRUE(bytes_of(picture) == bytes);
+    EXPECT_TRUE(bytes_of(error_picture) == errors);
+}
+
+TEST_F(Verify, CompareTellsTheSameOfAWrittenPicture) {
+    const Outcome shot = shoot({"--json", "-q"});
+    ASSERT_EQ(shot.exit_code, 0) << shot.err;
+    const json error = one_object(shot.out).at("error");
+    const std::string bytes = bytes_of(picture);
+    for (const fs::path& from : {picture, folder / "p.json"}) {
+        const fs::path out = folder / "again.png";
+        const Outcome outcome = run_orograph({"compare", from, "--out", out, "--json", "--overwrite"});
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        const json said = one_object(outcome.out);
+        EXPECT_EQ(said.at("error"), error);
+        EXPECT_EQ(said.at("error_picture"), out.string());
+        EXPECT_NE(outcome.err.find("interior, px"), std::string::npos) << outcome.err;
+        EXPECT_TRUE(bytes_of(out) == bytes_of(error_picture));
+    }
+    EXPECT_TRUE(bytes_of(picture) == bytes);
+    const Outcome table = run_orograph({"compare", picture, bundled()});
+    EXPECT_EQ(table.exit_code, 0) << "the data named again";
+    EXPECT_EQ(table.out, "");
+    EXPECT_EQ(names_in(folder), (Words{"again.png", "p.error.png", "p.json", "p.png"}));
+}
+
+TEST_F(Verify, CompareRefusesWhatItMustNotWrite) {
+    ASSERT_EQ(shoot({"-q"}).exit_code, 0);
+    const std::string bytes = bytes_of(picture);
+    expect_refusal(run_orograph({"compare", picture, "--out", picture, "--overwrite", "-q"}), 2,
+                   {"would replace", "p.png"});
+    EXPECT_TRUE(bytes_of(picture) == bytes);
+    expect_refusal(run_orograph({"compare", picture, "--out", error_picture, "-q"}), 1, {"p.error.png"});
+    expect_refusal(run_orograph({"compare", picture, "--out", folder / "e.jpg", "-q"}), 2, {"e.jpg", ".png"});
+    expect_refusal(run_orograph({"compare", bundled(), "-q"}), 1, {"jacksboro.tif"});
+}
+
+// A view whose models leave something out is still measured against all of it.
+TEST_F(Verify, WhatAModelLeavesOutIsMeasured) {
+    const auto worst_px = [&](Words more) {
+        more.insert(more.end(), {"--json", "-q", "--overwrite"});
+        const Outcome outcome = shoot(more);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return one_object(outcome.out).at("error").at("interior_px").at("max").get<double>();
+    };
+    EXPECT_LE(worst_px({"--refraction", "0.13"}), 1.05);
+    // N falls by less than 1 m over this view: near 0.1 px at most, but no longer nothing. The Earth as a
+    // plane is off by 8 m at 10 km and 70 m at 30 km: many pixels.
+    EXPECT_LE(worst_px({"--geoid", "none"}), 2.0);
+    EXPECT_GT(worst_px({"--earth", "flat"}), 0.5);
+}
+
+TEST_F(Verify, BakedRegionsAreMeasured) {
+    const fs::path region = folder / "r.oro";
+    ASSERT_EQ(run_orograph({"bake", bundled(), "--out", region, "-q"}).exit_code, 0);
+    const Outcome from_tiles = shoot({"--json", "-q"});
+    ASSERT_EQ(from_tiles.exit_code, 0) << from_tiles.err;
+    const Outcome outcome =
+        run_orograph({"shot", region, "--out", folder / "b.png", "--at", "36.6,-84.2", "--above", "300",
+                      "--heading", "200", "--pitch", "-5", "--size", "400x200", "--verify", "--json", "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(one_object(outcome.out).at("error"), one_object(from_tiles.out).at("error"));
+}
+
+}  // namespace
