@@ -69,9 +69,9 @@ std::optional<double> column_skyline_px(const Oracle& oracle, const Camera& came
     if (is_ground(0.0)) return 0.0;
     double sky_px = 0.0, ground_px = 0.5;
     while (!is_ground(ground_px)) {
+        if (ground_px >= camera.height_px) return std::nullopt;
         sky_px = ground_px;
-        ground_px += 1.0;
-        if (ground_px > camera.height_px) return std::nullopt;
+        ground_px = std::min(ground_px + 1.0, static_cast<double>(camera.height_px));
     }
     while (ground_px - sky_px > skyline_step_px) {
         const double middle_px = 0.5 * (sky_px + ground_px);
@@ -193,13 +193,15 @@ SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span
     std::vector<DrawnDepths> from_top(samples.begin(), samples.end());
     std::sort(from_top.begin(), from_top.end(),
               [](const DrawnDepths& a, const DrawnDepths& b) { return a.sample_px.y < b.sample_px.y; });
+    const double last_sample_px = camera.height_px - 1 + from_top.back().sample_px.y;
     SkylineError error;
     error.px.assign(truth.y_px.size(), not_measured);
     for (std::size_t column = 0; column < truth.y_px.size(); ++column) {
         const float true_px = truth.y_px[column];
         const auto drawn = drawn_skyline(camera, from_top, static_cast<int>(column));
         if (drawn.has_value() != (true_px != not_measured)) {
-            ++error.in_one_only;
+            // Ground below the last sample is not drawn, whatever is there.
+            if (drawn || static_cast<double>(true_px) < last_sample_px) ++error.in_one_only;
             continue;
         }
         // Ground at the top in both: the skyline is not in the picture.

@@ -82,7 +82,8 @@ struct Skyline {
     std::vector<float> y_px;  // not_measured: no ground. 0: ground at the picture's very top
 };
 // Along the middles of the columns; by bisection to 1/64 px between the first ray with ground, of those
-// through the pixels' centres, and the ray above it. Ground that no such ray meets is not found.
+// through the pixels' centres and the picture's edges, and the ray above it. Ground that no such ray meets is
+// not found.
 Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads);
 
 // The skyline: how far the drawn one lies from the truth's, in pixels along the column. The drawn one is

@@ -226,6 +226,9 @@ TEST(SkylineError, CountsColumnsWithGroundInOneOnly) {
     EXPECT_EQ(drawn_only.px[0], not_measured);
     EXPECT_EQ(skyline_error(Skyline{{5.0F}}, camera, sky.samples).in_one_only, 1U);
     EXPECT_EQ(skyline_error(Skyline{{not_measured}}, camera, sky.samples).in_one_only, 0U);
+    // The last sample lies at 9.875: ground below it is in no drawn picture.
+    EXPECT_EQ(skyline_error(Skyline{{9.8F}}, camera, sky.samples).in_one_only, 1U);
+    EXPECT_EQ(skyline_error(Skyline{{9.9F}}, camera, sky.samples).in_one_only, 0U);
     // At the top in both: no skyline to compare.
     EXPECT_EQ(skyline_error(Skyline{{0.0F}}, camera, full.samples).summary_px.count, 0U);
     EXPECT_EQ(skyline_error(Skyline{{0.0F}}, camera, full.samples).in_one_only, 0U);
