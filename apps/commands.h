@@ -10,6 +10,10 @@ namespace oro {
 Result<void> run_shot(const ShotOptions& options);
 // Measures how far the picture of a view is from the truth; draws it again, replaces no picture.
 Result<void> run_compare(const CompareOptions& options);
+// Predicts how large each effect is in a view, before anything is drawn.
+Result<void> run_plan(const PlanOptions& options);
+// Draws views with all settings, measures time and error, and writes a report.
+Result<void> run_trade(const TradeOptions& options);
 // Opens a window to fly over a region.
 Result<void> run_view(const WindowOptions& options);
 // Writes a region with all its levels into a file, or goes on with one that was broken off.

@@ -119,10 +119,7 @@ void draw_legend(Canvas& canvas, const Verification& verification, double tau_px
     }
 }
 
-}  // namespace
-
-Result<void> write_error_picture(const std::string& path, const Verification& verification, double tau_px,
-                                 bool overwrite) {
+Canvas error_canvas(const Verification& verification, double tau_px) {
     const DepthPicture& picture = verification.picture;
     const int scale = std::clamp(picture.width_px / (3 * least_width_px / 2), 1, 8);
     Canvas canvas(std::max(picture.width_px, least_width_px * scale), picture.height_px + legend_dots * scale,
@@ -130,6 +127,19 @@ Result<void> write_error_picture(const std::string& path, const Verification& ve
     draw_errors(canvas, verification);
     mark_skyline(canvas, verification, scale);
     draw_legend(canvas, verification, tau_px, picture.height_px, scale);
+    return canvas;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> error_picture_png(const Verification& verification, double tau_px) {
+    const Canvas canvas = error_canvas(verification, tau_px);
+    return png_bytes(canvas.rgb(), canvas.width_px(), canvas.height_px());
+}
+
+Result<void> write_error_picture(const std::string& path, const Verification& verification, double tau_px,
+                                 bool overwrite) {
+    const Canvas canvas = error_canvas(verification, tau_px);
     return write_png(path, canvas.rgb(), canvas.width_px(), canvas.height_px(), overwrite);
 }
 

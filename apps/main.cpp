@@ -68,6 +68,36 @@ void add_view(CLI::App& app, oro::WindowOptions& options) {
     command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
 }
 
+void add_plan(CLI::App& app, oro::PlanOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "plan", "Predict how far off a view would be, and what makes it so: in metres and pixels");
+    oro::add_region_options(command, options.region);
+    oro::add_view_options(command, options.view);
+    command.add_option("--view", options.view_file,
+                       "Take sources and eye from a view: the .json beside a picture, or the picture");
+    command.add_flag("--json", options.json, "Print one JSON object on standard output");
+    command.add_flag("-q,--quiet", options.quiet, "Say nothing but the table and errors");
+}
+
+void add_trade(CLI::App& app, oro::TradeOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "trade", "Draw views with all settings, measure time and true error, write trade.csv and trade.html");
+    command.footer("Views: the one of --at or --view; without, a set from all heights over the region.");
+    oro::add_region_options(command, options.region);
+    oro::add_view_options(command, options.view);
+    oro::add_memory_options(command, options.memory);
+    command.add_option("--view", options.view_file,
+                       "Take sources and eye from a view: the .json beside a picture, or the picture");
+    command.add_option("--views", options.views, "Views of the set (default 6)")->check(CLI::Range(1, 1000));
+    command
+        .add_option("--repeats", options.repeats,
+                    "Times each picture is drawn; the median counts (default 3)")
+        ->check(CLI::Range(1, 1000));
+    command.add_option("--out", options.out, "The folder to write into (default: this one)");
+    command.add_flag("--overwrite", options.overwrite, "Replace files that are there");
+    command.add_flag("-q,--quiet", options.quiet, "Say nothing but the table and errors");
+}
+
 void add_bake(CLI::App& app, oro::BakingOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "bake", "Write a region with all its levels into one file (.oro) that opens at once");
@@ -125,7 +155,7 @@ oro::Error usage_error(const CLI::App& app, int argc, char** argv, const CLI::Pa
     const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
     if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty())
         return {oro::ErrorKind::usage, argv[1],
-                "is no command; these are shot, compare, view, bake, info and doctor"};
+                "is no command; these are shot, compare, plan, trade, view, bake, info and doctor"};
     return {oro::ErrorKind::usage, "", std::string(error.what()) + " (orograph --help tells more)"};
 }
 
@@ -143,12 +173,16 @@ int main(int argc, char** argv) {
     oro::ShotOptions shot;
     oro::CompareOptions compare;
     oro::WindowOptions view;
+    oro::PlanOptions plan;
+    oro::TradeOptions trade;
     oro::BakingOptions bake;
     oro::InfoOptions info;
     oro::DoctorOptions doctor;
     add_shot(app, shot);
     add_compare(app, compare);
     add_view(app, view);
+    add_plan(app, plan);
+    add_trade(app, trade);
     add_bake(app, bake);
     add_info(app, info);
     add_doctor(app, doctor);
@@ -164,6 +198,11 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
         if (app.got_subcommand("compare")) return exit_code(oro::run_compare(compare));
         if (app.got_subcommand("view")) return exit_code(oro::run_view(view));
+        if (app.got_subcommand("plan")) return exit_code(oro::run_plan(plan));
+        if (app.got_subcommand("trade")) {
+            for (int i = 0; i < argc; ++i) trade.command += (i > 0 ? " " : "") + std::string(argv[i]);
+            return exit_code(oro::run_trade(trade));
+        }
         if (app.got_subcommand("bake")) return exit_code(oro::run_bake(bake));
         if (app.got_subcommand("info")) return exit_code(oro::run_info(info));
         return exit_code(oro::run_doctor(doctor));

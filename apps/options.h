@@ -44,6 +44,8 @@ struct ViewOptions {
     std::optional<std::string> precision;
     std::optional<std::string> geoid;
     std::optional<std::string> heights;
+    std::optional<std::string> accuracy;   // a bundle of options; single ones win over it
+    std::optional<std::string> tolerance;  // pixels: the cheapest bundle that holds it
 };
 
 // How much memory drawing may take, MB of 10^6 bytes; nothing: as much as is reasonable here.
@@ -71,6 +73,27 @@ struct CompareOptions {
     std::string out;
     bool overwrite{false};
     bool json{false};
+    bool quiet{false};
+};
+
+struct PlanOptions {
+    RegionOptions region;
+    ViewOptions view;
+    std::string view_file;
+    bool json{false};
+    bool quiet{false};
+};
+
+struct TradeOptions {
+    RegionOptions region;
+    ViewOptions view;
+    MemoryOptions memory;
+    std::string view_file;
+    int views{6};
+    int repeats{3};
+    std::string out{"."};  // folder
+    std::string command;   // as it was typed
+    bool overwrite{false};
     bool quiet{false};
 };
 

@@ -22,12 +22,23 @@ Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exagg
 
 }  // namespace
 
-Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
-                           const MemoryOptions& memory, const RenderProgress& progress,
-                           HeightStorage heights) {
+Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double exaggeration,
+                                                  const RenderProgress& progress) {
     ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(region, exaggeration, progress));
     if (pages->facts().triangles == 0)
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
+    return pages;
+}
+
+Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
+                           const MemoryOptions& memory, const RenderProgress& progress,
+                           HeightStorage heights) {
+    ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(region, exaggeration, progress));
+    return create_scene(gpu, std::move(pages), memory, heights);
+}
+
+Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
+                           HeightStorage heights) {
     const auto bytes = [](const std::optional<int>& mb) {
         return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
     };

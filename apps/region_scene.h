@@ -7,6 +7,14 @@
 
 namespace oro {
 
+// Pages of a region with levels for that exaggeration. Errors: damage in a baked region; nothing to draw in
+// it (no_data).
+Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double exaggeration,
+                                                  const RenderProgress& progress = {});
+// Makes them ready for a GPU. Errors: out of device memory. heights: how they are kept there.
+Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
+                           HeightStorage heights = HeightStorage::f32);
+
 // Builds the levels of a region and makes it ready for a GPU. Errors: nothing to draw in it (no_data), out of
 // device memory. heights: how they are kept on the GPU.
 Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,

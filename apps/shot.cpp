@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "apps/accuracy.h"
 #include "apps/commands.h"
 #include "apps/interruption.h"
 #include "apps/json_text.h"
@@ -51,6 +52,7 @@ struct ShotResult {
     double height_step_m{};
     std::uint64_t triangles_at_full_resolution{};
     std::optional<Verification> verification;
+    std::optional<AccuracyChoice> choice;  // with --tolerance
     ShotTimes times;
 };
 
@@ -127,6 +129,14 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                      {"bytes_on_gpu", shot.page_bytes}};
     json["tau_px"] = shot.view.tau_px;
     json["models"] = models_json(shot.view);
+    json["accuracy"] = nullptr;
+    if (!shot.view.accuracy.empty()) json["accuracy"] = {{"bundle", shot.view.accuracy}};
+    if (const auto& choice = shot.choice)
+        json["accuracy"] = {{"bundle", choice->bundle.name},
+                            {"options", choice->bundle.options},
+                            {"tolerance_px", choice->tolerance_px},
+                            {"predicted_px", choice->predicted_px},
+                            {"holds", choice->holds}};
     json["models"]["height_step_m"] = shot.height_step_m;
     json["settled"] = counts.settled;
     json["tiles"] = shot.picture.tiles;
@@ -186,9 +196,30 @@ Result<void> verify_shot(const ShotOptions& options, const PictureFiles& files, 
     return {};
 }
 
+// The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
+// it.
+Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages, ShotResult& shot) {
+    ORO_TRY(const double tolerance_px, parse_tolerance(*options.view.tolerance));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
+    ORO_TRY(shot.choice, choose_accuracy(shot.view, shot.region, truth->surface(), pages, tolerance_px));
+    apply_bundle(shot.choice->bundle, shot.view);
+    ViewOptions single;
+    single.tau_px = options.view.tau_px;
+    single.heights = options.view.heights;
+    single.refraction_k = options.view.refraction_k;
+    ORO_CHECK(change_view(shot.view, single));
+    char text[160];
+    std::snprintf(text, sizeof text, "accuracy: %s, predicted error %.3g px%s", shot.choice->bundle.name,
+                  shot.choice->predicted_px,
+                  shot.choice->holds ? "" : ": more than the tolerance, and nothing here comes nearer");
+    say(options.quiet, text);
+    return {};
+}
+
 // `told` are the files that messages and --json name: those of a check are in a scratch folder and soon gone.
 Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, const PictureFiles& told) {
     ORO_CHECK(check_out(options, files));
+    if (options.view.tolerance) ORO_CHECK(parse_tolerance(*options.view.tolerance));
     ProgressBar bar(options.quiet);
     ShotResult shot;
     const auto reading = Clock::now();
@@ -204,9 +235,11 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
 
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     const auto start = Clock::now();
-    ORO_TRY(Scene scene, create_scene(
-                             *gpu, shot.region, shot.view.exaggeration, options.memory,
-                             [&](double share) { bar.show(share, "measuring levels"); }, shot.view.heights));
+    ORO_TRY(std::unique_ptr<RegionPages> pages,
+            region_pages(shot.region, shot.view.exaggeration,
+                         [&](double share) { bar.show(share, "measuring levels"); }));
+    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
+    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), options.memory, shot.view.heights));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
     shot.triangles_at_full_resolution = scene.pages().facts().triangles;

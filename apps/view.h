@@ -32,6 +32,7 @@ struct View {
     WorldModel model;
     bool has_geoid{true};  // false: N is 0 everywhere, heights are above the ellipsoid
     HeightStorage heights{HeightStorage::f32};
+    std::string accuracy;  // the bundle that these come from; empty when they were chosen one by one
     std::int64_t time_utc_s{};
 };
 
@@ -57,6 +58,9 @@ std::string view_to_json(const View& view, bool pretty);
 Result<View> view_from_json(const std::string& text, const std::string& where);
 // From a .json file, or from a picture that carries its view.
 Result<View> read_view(const std::string& path);
+
+// Takes N out of a region: heights are then above the ellipsoid, for the eye's place as for the terrain's.
+void leave_geoid_out(Region& region);
 
 // The view that a command's options ask for, and the region it looks at: from `view_file` where one is named,
 // changed as far as the options may, else from the options alone. Errors: all of the above and those of

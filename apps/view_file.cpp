@@ -86,6 +86,8 @@ View read_fields(const nlohmann::json& json) {
     // Nor have they a tau: they were drawn at full resolution.
     view.tau_px = json.contains("tau_px") ? json_number(json, "tau_px", 0, 1000) : 0.0;
     read_models(json, view);
+    // The bundle's name alone: what it stood for is in the fields themselves.
+    if (json.contains("accuracy")) view.accuracy = json_string(json, "accuracy");
     view.time_utc_s = json_whole(json, "time_utc_s", first_second, last_second);
     return view;
 }
@@ -126,6 +128,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["style"] = view.style;
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;
+    json["accuracy"] = view.accuracy;
     json.update(models_json(view));
     json["time_utc_s"] = view.time_utc_s;
     json["time"] = time_text(view.time_utc_s);

@@ -4,17 +4,12 @@
 #include "apps/view.h"
 
 namespace oro {
-namespace {
 
-// Without a geoid heights are above the ellipsoid, for the eye's place as for the terrain's.
-void leave_geoid_out(const View& view, Region& region) {
-    if (view.has_geoid) return;
+void leave_geoid_out(Region& region) {
     region.geoid_left_out = std::move(region.field.undulation);
     region.field.undulation = {};
     region.geoid = "none";
 }
-
-}  // namespace
 
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
@@ -24,13 +19,13 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         ORO_CHECK(change_view(view, view_options));
         ORO_CHECK(change_region(view, region_options));
         ORO_TRY(region, open_region(view.region, progress));
-        leave_geoid_out(view, region);
+        if (!view.has_geoid) leave_geoid_out(region);
         return {};
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     ORO_TRY(region, open_region(view.region, progress));
-    leave_geoid_out(view, region);
+    if (!view.has_geoid) leave_geoid_out(region);
     return place_eye(view, view_options, region);
 }
 

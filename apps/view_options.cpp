@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "apps/accuracy.h"
 #include "apps/json_text.h"
 #include "apps/model_names.h"
 #include "apps/view.h"
@@ -70,6 +71,12 @@ Result<double> within(const char* option, double value, double low, double high)
 }
 
 Result<void> apply_models(View& view, const ViewOptions& options) {
+    if (options.accuracy) {
+        ORO_TRY(const AccuracyBundle bundle, accuracy_bundle(*options.accuracy));
+        apply_bundle(bundle, view);
+    } else if (options.tau_px || options.heights || options.refraction_k) {
+        view.accuracy.clear();
+    }
     if (options.earth) {
         ORO_TRY(view.model.earth, earth_named(*options.earth));
     }
@@ -104,10 +111,10 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     }
     if (options.style) view.style = *options.style;
     if (options.pipeline) view.pipeline = *options.pipeline;
+    ORO_CHECK(apply_models(view, options));
     if (options.tau_px) {
         ORO_TRY(view.tau_px, within("--tau", *options.tau_px, 0.0, 1000.0));
     }
-    ORO_CHECK(apply_models(view, options));
     if (options.time) {
         ORO_TRY(view.time_utc_s, parse_time(*options.time));
     }

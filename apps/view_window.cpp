@@ -202,6 +202,9 @@ Result<void> run_loop(Viewer& viewer) {
 }  // namespace
 
 Result<void> run_view(const WindowOptions& options) {
+    if (options.view.tolerance)
+        return Error{ErrorKind::usage, "--tolerance",
+                     "is for single pictures: a window takes --accuracy or --tau"};
     ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
     ProgressBar bar(options.quiet);
     View view;
@@ -211,7 +214,7 @@ Result<void> run_view(const WindowOptions& options) {
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     // Each of two levels is within tau of the full resolution: where one takes the other's place nothing
     // moves by more than twice that.
-    if (!options.view.tau_px && options.view_file.empty()) view.tau_px = 0.5;
+    if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
     view.camera = above_ground(view.camera, region.field, view.exaggeration);
     ORO_TRY(const Style style, load_style(view.style, view.sun));
     GpuOptions gpu_options = gpu_options_from_environment();

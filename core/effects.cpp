@@ -231,16 +231,19 @@ EffectSize EffectPrediction::without_geoid() const {
 
 // From the posts around what is seen: how far each second one lies from the middle of its neighbours is how
 // far the ground may lie from the middle of posts twice as dense; half of that typically.
-EffectSize EffectPrediction::interpolation() const {
+EffectSize EffectPrediction::interpolation(int apart) const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
         double bend_m = 0.0;
-        for (const auto& [down, right] : {std::pair(1, 0), std::pair(0, 1)}) {
-            const auto before =
-                surface_.post_h_m(std::max(0, sample.row - down), std::max(0, sample.column - right));
+        for (const auto& [down, right] : {std::pair(apart, 0), std::pair(0, apart)}) {
+            const PostGrid& grid = surface_.field().grid;
+            if (sample.row < down || sample.column < right || sample.row + down >= grid.rows() ||
+                sample.column + right >= grid.columns())
+                continue;
+            const auto before = surface_.post_h_m(sample.row - down, sample.column - right);
             const auto here = surface_.post_h_m(sample.row, sample.column);
             const auto after = surface_.post_h_m(sample.row + down, sample.column + right);
-            if (sample.row - down < 0 || sample.column - right < 0 || !before || !here || !after) continue;
+            if (!before || !here || !after) continue;
             bend_m = std::max(bend_m, std::abs(*here - 0.5 * (*before + *after)));
         }
         sizes.add(bend_m, vertical_px(sample, bend_m));
@@ -314,7 +317,7 @@ Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double
             }));
         }
         case EffectKind::interpolation:
-            return Size(interpolation());
+            return Size(interpolation(1));
         case EffectKind::source: {
             if (!world_.source_le90_m) return Size(std::nullopt);
             // Of a normal distribution: half of all errors are within 0.41 of what holds 90 %.

@@ -78,6 +78,10 @@ class EffectPrediction {
     // that cannot be read.
     [[nodiscard]] Result<std::optional<EffectSize>> size(EffectKind kind, double tau_px) const;
 
+    // What lies between posts that are `apart` of the region's apart: 1 for the data as they are. 2 predicts
+    // what every second post would hide, which is known.
+    [[nodiscard]] EffectSize interpolation(int apart) const;
+
     // Whether an effect is in a picture that is drawn so. Interpolation and source are in all of them.
     [[nodiscard]] static bool is_in(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world);
 
@@ -103,7 +107,6 @@ class EffectPrediction {
     [[nodiscard]] EffectSize bounded(const Bound& height_m) const;
     [[nodiscard]] double vertical_px(const Sample& sample, double height_m) const;
     [[nodiscard]] Result<EffectSize> detail(double tau_px) const;
-    [[nodiscard]] EffectSize interpolation() const;
     [[nodiscard]] EffectSize on_flat_earth() const;
     [[nodiscard]] EffectSize without_geoid() const;
 

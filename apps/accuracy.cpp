@@ -1,0 +1,139 @@
+#include "apps/accuracy.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace oro {
+namespace {
+
+// In the order in which tables have them.
+constexpr std::array all_effects{
+    EffectKind::geoid,         EffectKind::sphere,       EffectKind::flat,      EffectKind::refraction,
+    EffectKind::float32_posts, EffectKind::float32_view, EffectKind::steps_i16, EffectKind::steps_f32,
+    EffectKind::detail,        EffectKind::placement,    EffectKind::depth,     EffectKind::flat_cells,
+    EffectKind::interpolation, EffectKind::source};
+
+bool can_be_helped(EffectKind kind) {
+    return kind != EffectKind::interpolation && kind != EffectKind::source;
+}
+
+// What sources are known to promise: half the interval that holds 90 % of height errors.
+std::optional<double> stated_le90_m(const Region& region) {
+    // Source: T. Farr et al., The Shuttle Radar Topography Mission, Reviews of Geophysics 45, 2007, section
+    // 5: absolute height error at most 16 m (90 %).
+    constexpr double srtm_le90_m = 16.0;
+    for (const SourceReport& source : region.sources) {
+        if (source.format.find("SRTM") != std::string::npos ||
+            source.format.find(".hgt") != std::string::npos)
+            return srtm_le90_m;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<AccuracyBundle>& accuracy_bundles() {
+    static const std::vector<AccuracyBundle> bundles{
+        {"draft", 4.0, HeightStorage::i16, 0.0, "--tau 4 --heights i16 --refraction 0"},
+        {"balanced", 0.5, HeightStorage::f32, usual_refraction_k,
+         "--tau 0.5 --heights f32 --refraction 0.13"},
+        {"survey", 0.0, HeightStorage::f32, usual_refraction_k, "--tau 0 --heights f32 --refraction 0.13"}};
+    return bundles;
+}
+
+Result<AccuracyBundle> accuracy_bundle(const std::string& name) {
+    for (const AccuracyBundle& bundle : accuracy_bundles()) {
+        if (name == bundle.name) return bundle;
+    }
+    return Error{ErrorKind::usage, "--accuracy", "'" + name + "' is none of draft, balanced and survey"};
+}
+
+void apply_bundle(const AccuracyBundle& bundle, View& view) {
+    view.tau_px = bundle.tau_px;
+    view.heights = bundle.heights;
+    view.model.refraction_k = bundle.refraction_k;
+    view.accuracy = bundle.name;
+}
+
+Result<double> parse_tolerance(const std::string& text) {
+    double px = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), px);
+    std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
+    if (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
+    if (error != std::errc() || !(rest.empty() || rest == "px") || !(px >= 0.001 && px <= 1000.0))
+        return Error{ErrorKind::usage, "--tolerance",
+                     "'" + text + "' is no number of pixels from 0.001 to 1000, e.g. 1px"};
+    return px;
+}
+
+Result<TrueWorld> true_world(const View& view, const Region& region, const RegionPages& pages) {
+    TrueWorld world;
+    if (view.model.refraction_k != 0.0) world.refraction_k = view.model.refraction_k;
+    world.source_le90_m = stated_le90_m(region);
+    ORO_TRY(world.sixteen, height_coding(pages, HeightStorage::i16));
+    return world;
+}
+
+Camera true_camera(const View& view, const Region& region) {
+    Camera camera = view.camera;
+    if (!region.geoid_left_out.N_m.empty())
+        camera.eye.h_m += region.geoid_left_out.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
+    return camera;
+}
+
+DrawingModel drawing_model(const View& view, const TrueWorld& world) {
+    return {view.model, view.has_geoid, view.heights == HeightStorage::i16 ? world.sixteen : HeightCoding{},
+            view.tau_px};
+}
+
+Result<Budget> plan_view(const View& view, const Region& region, const TrueSurface& truth,
+                         const RegionPages& pages, double tolerance_px) {
+    ORO_TRY(const TrueWorld world, true_world(view, region, pages));
+    const DrawingModel drawing = drawing_model(view, world);
+    const EffectPrediction prediction(truth, pages, true_camera(view, region), world, thread_count());
+    Budget budget;
+    budget.tolerance_px = tolerance_px;
+    budget.empty = prediction.empty();
+    if (!budget.empty) {
+        budget.nearest_m = prediction.nearest_m();
+        budget.median_distance_m = prediction.median_distance_m();
+    }
+    double largest_px = 0.0;
+    for (const EffectKind kind : all_effects) {
+        // At full resolution, what the default would leave out.
+        const double tau_px = view.tau_px > 0.0 ? view.tau_px : 1.0;
+        ORO_TRY(const std::optional<EffectSize> size, prediction.size(kind, tau_px));
+        const bool in_picture = EffectPrediction::is_in(kind, drawing, world);
+        budget.lines.push_back(
+            {kind, size, in_picture, can_be_helped(kind), !size || size->worst_px <= tolerance_px});
+        if (!in_picture || !size || size->worst_px <= largest_px) continue;
+        largest_px = size->worst_px;
+        budget.dominant = kind;
+    }
+    ORO_TRY(budget.total, prediction.total(drawing));
+    return budget;
+}
+
+Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueSurface& truth,
+                                       const RegionPages& pages, double tolerance_px) {
+    View with = view;
+    apply_bundle(accuracy_bundles().back(), with);
+    ORO_TRY(const TrueWorld world, true_world(with, region, pages));
+    const EffectPrediction prediction(truth, pages, true_camera(view, region), world, thread_count());
+    AccuracyChoice choice{accuracy_bundles().back(), tolerance_px, 0.0, false};
+    for (const AccuracyBundle& bundle : accuracy_bundles()) {
+        apply_bundle(bundle, with);
+        ORO_TRY(const EffectSize total, prediction.total(drawing_model(with, world)));
+        choice.bundle = bundle;
+        choice.predicted_px = total.worst_px;
+        choice.holds = total.worst_px <= tolerance_px;
+        if (choice.holds) break;
+    }
+    return choice;
+}
+
+}  // namespace oro
