@@ -281,6 +281,56 @@ TEST_P(Models, DrawnDepthsLieOnTheModelsSurface) {
     }
 }
 
+// How far along the picture a place moves when it is lifted by so many metres.
+double moved_px(const Camera& camera, const glm::dvec3& view_m, double lift_m) {
+    const glm::dvec3 up = camera.view_from_ecef() * ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg)[2];
+    const glm::dvec3 to = view_m + lift_m * up;
+    const double px = 0.5 * camera.height_px / camera.half_fov_tangent().y;
+    return px * glm::length(glm::dvec2(to) / to.z - glm::dvec2(view_m) / view_m.z);
+}
+
+// Levels are chosen where light puts them: what is drawn is within tau of the full resolution, seen as bent.
+TEST_P(Models, BentLightKeepsTau) {
+    constexpr unsigned seed = 86;
+    FrameRenderer renderer = renderer_of(GetParam());
+    const HeightField field = test::made_field(48.5, 7.0, 240.0, 600, 600, test::rough_H_m);
+    Scene scene = scene_of(*gpu_, pages_in_memory(field, 1.0, 2));
+    for (const double k : {0.0, 0.13, 0.9, -1.0}) {
+        for (const double tau_px : {1.0, 4.0}) {
+            std::mt19937 random(seed);
+            std::size_t compared = 0, coarse = 0;
+            double worst_px = 0.0;
+            for (int i = 0; i < 12; ++i) {
+                const Camera camera = random_camera(random, field, 20.0, 20000.0, -30.0, -3.0);
+                const WorldModel model{Earth::ellipsoid, k, Precision::relative};
+                FramePlan plan = plan_of(scene, camera, tau_px, model);
+                const auto pages = plan.page_indices;
+                const auto depths = depths_of(renderer, std::move(plan));
+                const auto ids = renderer.read_ids(side_px, side_px);
+                ASSERT_TRUE(ids.ok());
+                for (int at = 0; at < side_px * side_px; at += 3) {
+                    const auto pixel = static_cast<std::size_t>(at);
+                    if (depths[pixel] == 0.0F) continue;
+                    const glm::dvec3 ray = camera.view_from_ecef() *
+                                           camera.ecef_direction_at({at % side_px + 0.5, at / side_px + 0.5});
+                    const glm::dvec3 view_m =
+                        ray * (near_plane_m / static_cast<double>(depths[pixel]) / -ray.z);
+                    const Geodetic place = place_of(model, camera, view_m);
+                    const auto ground_m = ground_h_m(field, place.lat_deg, place.lon_deg);
+                    if (!ground_m) continue;
+                    worst_px = std::max(worst_px, moved_px(camera, view_m, *ground_m - place.h_m));
+                    coarse += pages[((*ids)[pixel] - 1U) / (256U * 128U)].level > 0 ? 1U : 0U;
+                    ++compared;
+                }
+            }
+            std::printf("seed %u, k %5.2f, tau %.1f: %zu pixels, %zu of coarser levels, worst %.3f px\n",
+                        seed, k, tau_px, compared, coarse, worst_px);
+            EXPECT_GT(coarse, 1000U);
+            EXPECT_LE(worst_px, tau_px + 0.05);
+        }
+    }
+}
+
 TEST_P(Models, CullingChangesNoPixel) {
     constexpr unsigned seed = 84;
     std::printf("seed %u\n", seed);
