@@ -22,6 +22,9 @@ oro::View unusual_view() {
     view.sun = oro::SunDirection{270.0, -3.5};
     view.style = "other";
     view.pipeline = "compute";
+    view.model = {oro::Earth::sphere, -0.25, oro::Precision::naive};
+    view.has_geoid = false;
+    view.heights = oro::HeightStorage::i16;
     view.time_utc_s = 1234567890;
     return view;
 }
@@ -35,6 +38,8 @@ TEST(ViewFile, EveryFieldComesBack) {
         EXPECT_EQ(oro::view_to_json(*read, pretty), text);
         EXPECT_EQ(read->pipeline, "compute");
         EXPECT_EQ(read->camera.eye.lat_deg, view.camera.eye.lat_deg);
+        EXPECT_EQ(read->model.refraction_k, -0.25);
+        EXPECT_FALSE(read->has_geoid);
     }
 }
 
