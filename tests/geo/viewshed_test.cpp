@@ -25,12 +25,12 @@ namespace {
 constexpr double cell_m = 60.0;
 // A tower. GDAL knows the ground around the observer at whole cells only, and carries what these hide
 // outwards by interpolating: an eye that just clears the ground beside it differs in whole sectors. That is
-// the cells' size: 5 m above the slope of the real tile and out to 8 km, 94.8 % agree with cells of 60
-// m, 96.5 % of 30 m, 97.6 % of 20 m; posts taken from the true surface instead of the warp change that by 0.1
-// % at most.
+// the cells' size: 5 m above the slope of the real tile and out to 8 km, 94.8 % agree with cells of 60 m,
+// 96.5 % of 30 m, 97.6 % of 20 m; posts taken from the true surface instead of the warp change that by 0.15 %
+// at most.
 constexpr double observer_above_m = 50.0;
 constexpr double target_above_m = 2.0;
-// Out to 15 km in mountains the air decides some twenty cells: this test says little about refraction.
+// Says little of refraction: out to 15 km in mountains, straight light agrees as well to 0.01 %.
 // GDAL lowers each height by C d^2 / (2 a) (GDALViewshedGenerate): C = 1 - k, here k = 1/7.
 constexpr double curvature_coefficient = 0.85714;
 constexpr double least_agreement = 0.97;
