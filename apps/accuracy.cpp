@@ -11,11 +11,11 @@ namespace oro {
 namespace {
 
 // In the order in which tables have them.
-constexpr std::array all_effects{
-    EffectKind::geoid,         EffectKind::sphere,       EffectKind::flat,      EffectKind::refraction,
-    EffectKind::float32_posts, EffectKind::float32_view, EffectKind::steps_i16, EffectKind::steps_f32,
-    EffectKind::detail,        EffectKind::placement,    EffectKind::depth,     EffectKind::flat_cells,
-    EffectKind::interpolation, EffectKind::source};
+constexpr std::array all_effects{EffectKind::geoid,      EffectKind::sphere,        EffectKind::flat,
+                                 EffectKind::refraction, EffectKind::float32_posts, EffectKind::float32_view,
+                                 EffectKind::steps_i16,  EffectKind::steps_f32,     EffectKind::detail,
+                                 EffectKind::placement,  EffectKind::depth,         EffectKind::pixel_grid,
+                                 EffectKind::flat_cells, EffectKind::interpolation, EffectKind::source};
 
 bool can_be_helped(EffectKind kind) {
     return kind != EffectKind::interpolation && kind != EffectKind::source;

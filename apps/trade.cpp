@@ -316,6 +316,7 @@ Result<void> run_trade(const TradeOptions& options) {
     ORO_CHECK(write_report(report, csv, html, options.overwrite));
     bar.clear();
     std::fputs(trade_text(report).c_str(), stdout);
+    std::fflush(stdout);
     say(options.quiet, "wrote " + csv + " and " + html);
     return {};
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t terminal_columns = 120;
 constexpr std::size_t least_last_column = 16;
-constexpr std::size_t most_name_columns = 30;
+constexpr std::size_t most_name_columns = 32;
 
 // Characters, not bytes; combining and double-width ones count as one.
 std::size_t width_of(const std::string& text) {
@@ -96,19 +96,18 @@ class Table {
 
 std::string settings_text(const TradeReport& report) {
     Table table(
-        {{"  setting", "time", "triangles", "read", "interior", "", "", "", "promised", "skyline", ""},
-         {"", "median ms", "all views", "MB", "worst m", "worst px", "p99 px", "mean px", "px", "worst px",
-          "options"}},
-        true);
+        {{"  setting", "time", "triangles", "read", "interior", "", "", "", "promised", "skyline"},
+         {"", "median ms", "all views", "MB", "worst m", "worst px", "p99 px", "mean px", "px", "worst px"}},
+        false);
     for (const TradeSetting& setting : report.settings) {
         const bool measured = setting.interior_pixels > 0;
         const auto interior = [&](double value) { return measured ? figure(value) : std::string("n/a"); };
-        table.add(
-            {(setting.on_front ? "* " : "  ") + valid_text(setting.name), figure(setting.gpu_ms),
-             grouped(setting.triangles), figure(megabytes(setting.bytes)), interior(setting.interior_m),
-             interior(setting.interior_px), interior(setting.interior_p99_px),
-             interior(setting.interior_mean_px), setting.promised_px ? figure(*setting.promised_px) : "",
-             setting.skyline_columns > 0 ? figure(setting.skyline_px) : "n/a", valid_text(setting.options)});
+        table.add({(setting.on_front ? "* " : "  ") + valid_text(setting.name), figure(setting.gpu_ms),
+                   grouped(setting.triangles), figure(megabytes(setting.bytes)), interior(setting.interior_m),
+                   interior(setting.interior_px), interior(setting.interior_p99_px),
+                   interior(setting.interior_mean_px),
+                   setting.promised_px ? figure(*setting.promised_px) : "",
+                   setting.skyline_columns > 0 ? figure(setting.skyline_px) : "n/a"});
     }
     return table.text() +
            "* Pareto front, of time and worst px: no other setting equals it in both and beats it in one\n";

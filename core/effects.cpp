@@ -45,25 +45,6 @@ class Sizes {
     std::vector<double> px_;
 };
 
-// Half the distance between neighbouring floats at a value.
-double half_step(double value) {
-    return std::ldexp(0.5, std::max(-149, std::ilogb(std::max(std::abs(value), 1.0e-30)) - 23));
-}
-
-// How far a point's ECEF coordinates in float32 are at most from the point.
-double rounded_post_m(const Geodetic& point) {
-    const glm::dvec3 ecef = ecef_from_geodetic(point).m;
-    return glm::length(glm::dvec3(half_step(ecef.x), half_step(ecef.y), half_step(ecef.z)));
-}
-
-// How far the product of a point's ECEF with a float32 view matrix, translation and all, is at most off, in
-// view x, y and z: products of rotation and coordinates (each rounded, and a rotation's entry before it),
-// their sums, and a translation as long.
-double rounded_view_m(const Geodetic& point) {
-    const double length_m = glm::length(ecef_from_geodetic(point).m);
-    return std::sqrt(3.0) * length_m * float_rounding * (2.0 * std::sqrt(3.0) + 3.0);
-}
-
 }  // namespace
 
 const char* name_of(EffectKind kind) {
@@ -90,6 +71,8 @@ const char* name_of(EffectKind kind) {
             return "float32 relative to the eye";
         case EffectKind::depth:
             return "depth resolution";
+        case EffectKind::pixel_grid:
+            return "triangles on 1/256 px";
         case EffectKind::flat_cells:
             return "flat triangles between posts";
         case EffectKind::interpolation:
@@ -148,7 +131,7 @@ std::vector<EffectPrediction::Sample> EffectPrediction::cast(const Refraction& r
             const double right_m = hit->south_west ? south_east_m - corner_m : corner_m - north_west_m;
             rows[static_cast<std::size_t>(i)].push_back(
                 {hit->point, hit->distance_m * direction, hit->distance_m,
-                 std::hypot(down_m / row_m, right_m / column_m), hit->row, hit->column});
+                 std::hypot(down_m / row_m, right_m / column_m), hit->row, hit->column, hit->south_west});
         }
     });
     std::vector<Sample> samples;
@@ -180,18 +163,18 @@ EffectSize EffectPrediction::displaced(const std::vector<Sample>& samples, const
     return sizes.size(between_samples);
 }
 
-// A height on the picture, up or down from a sample.
+// A height on the picture, up or down from a sample. Towards the eye only half the way: beyond, pixels say
+// nothing.
 double EffectPrediction::vertical_px(const Sample& sample, double height_m) const {
     const glm::dvec3 here = view_from_ecef_ * sample.apparent_m;
     const glm::dvec3 up = view_from_ecef_ * ecef_from_enu(sample.point.lat_deg, sample.point.lon_deg)[2];
     double worst_px = 0.0;
     for (const double sign : {1.0, -1.0}) {
         const glm::dvec3 there = here + sign * height_m * up;
-        const double px =
-            there.z < 0.0
-                ? glm::length(glm::dvec2(there) / -there.z - glm::dvec2(here) / -here.z) * pixels_per_tangent_
-                : height_m * pixels_per_tangent_ / -here.z;
-        worst_px = std::max(worst_px, px);
+        const double tangent = there.z < 0.5 * here.z
+                                   ? glm::length(glm::dvec2(there) / -there.z - glm::dvec2(here) / -here.z)
+                                   : height_m / -here.z;
+        worst_px = std::max(worst_px, tangent * pixels_per_tangent_);
     }
     return worst_px;
 }
@@ -226,6 +209,32 @@ EffectSize EffectPrediction::without_geoid() const {
         Geodetic point = sample.point;
         point.h_m -= undulation.at_m(point.lat_deg, point.lon_deg);
         return sight_.refraction.apparent_m(model_offset_m(Earth::ellipsoid, eye, point));
+    });
+}
+
+// What float32 makes of the posts around each sample, worked out in float as the GPU does: rounding is no
+// chance.
+EffectSize EffectPrediction::in_float32(Precision precision) const {
+    const PostGrid& grid = surface_.field().grid;
+    const glm::mat3 rotation(view_from_ecef_);
+    const glm::vec3 translation(-(view_from_ecef_ * sight_.eye.m));
+    const auto offset_m = [&](int row, int column, double otherwise_m) {
+        const Geodetic post{row_lat_deg(grid, row), grid.lon.at_deg(column),
+                            surface_.post_h_m(row, column).value_or(otherwise_m)};
+        const glm::vec3 rounded(ecef_from_geodetic(post).m);
+        if (precision == Precision::rounded_posts) return glm::dvec3(rounded) - sight_.eye.m;
+        return glm::dvec3(rotation * rounded + translation) * view_from_ecef_;
+    };
+    return displaced(samples_, [&](const Sample& sample) {
+        const double down = grid.lat.index_at(sample.point.lat_deg) - sample.row;
+        const double right = grid.column_at(sample.point.lon_deg) - sample.column;
+        const double north_west = 1.0 - std::max(down, right), south_east = std::min(down, right);
+        const glm::dvec3 offset = north_west * offset_m(sample.row, sample.column, sample.point.h_m) +
+                                  south_east * offset_m(sample.row + 1, sample.column + 1, sample.point.h_m) +
+                                  (1.0 - north_west - south_east) *
+                                      offset_m(sample.row + (sample.south_west ? 1 : 0),
+                                               sample.column + (sample.south_west ? 0 : 1), sample.point.h_m);
+        return std::optional(sight_.refraction.apparent_m(offset));
     });
 }
 
@@ -284,12 +293,9 @@ Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double
             return Size(displaced(
                 samples_, [&](const Sample& sample) { return sight_.refraction.true_m(sample.apparent_m); }));
         case EffectKind::float32_posts:
-            return Size(
-                bounded([&](const Sample& sample) { return rounded_post_m(sample.point) * steep(sample); }));
+            return Size(in_float32(Precision::rounded_posts));
         case EffectKind::float32_view:
-            return Size(bounded([&](const Sample& sample) {
-                return (rounded_post_m(sample.point) + rounded_view_m(sample.point)) * steep(sample);
-            }));
+            return Size(in_float32(Precision::naive));
         case EffectKind::steps_f32:
             return Size(bounded([](const Sample&) { return 0.5 * height_step_m; }));
         case EffectKind::steps_i16:
@@ -306,6 +312,11 @@ Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double
         case EffectKind::depth:
             return Size(bounded([&](const Sample& sample) {
                 return 4.0 * float_rounding * sample.distance_m * steep(sample);
+            }));
+        // A corner moves by half a step along each axis.
+        case EffectKind::pixel_grid:
+            return Size(bounded([&](const Sample& sample) {
+                return std::sqrt(0.5) / 256.0 / pixels_per_tangent_ * sample.distance_m * steep(sample);
             }));
         case EffectKind::flat_cells: {
             const PostGrid& grid = surface_.field().grid;
@@ -355,6 +366,7 @@ bool EffectPrediction::is_in(EffectKind kind, const DrawingModel& drawing, const
         case EffectKind::placement:
             return drawing.world.precision == Precision::relative;
         case EffectKind::depth:
+        case EffectKind::pixel_grid:
         case EffectKind::flat_cells:
         case EffectKind::interpolation:
         case EffectKind::source:
@@ -368,7 +380,8 @@ Result<EffectSize> EffectPrediction::total(const DrawingModel& drawing) const {
     for (const EffectKind kind :
          {EffectKind::geoid, EffectKind::sphere, EffectKind::flat, EffectKind::refraction,
           EffectKind::float32_posts, EffectKind::float32_view, EffectKind::steps_f32, EffectKind::steps_i16,
-          EffectKind::detail, EffectKind::placement, EffectKind::depth, EffectKind::flat_cells}) {
+          EffectKind::detail, EffectKind::placement, EffectKind::depth, EffectKind::pixel_grid,
+          EffectKind::flat_cells}) {
         if (!is_in(kind, drawing, world_)) continue;
         ORO_TRY(const std::optional<EffectSize> one, size(kind, drawing.tau_px));
         if (!one) continue;

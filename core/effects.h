@@ -29,6 +29,7 @@ enum class EffectKind {
     detail,         // levels at tau
     placement,      // float32 relative to the eye
     depth,          // what a depth in float32 resolves
+    pixel_grid,     // corners of triangles on a grid of 1/256 px
     flat_cells,     // triangles of full resolution are flat, the surface is curved
     interpolation,  // between posts nobody has measured
     source,         // what the source says of its own accuracy
@@ -97,6 +98,7 @@ class EffectPrediction {
         double slope;  // of its triangle, metres a metre
         int row;       // of its cell
         int column;
+        bool south_west;  // of the cell's triangles
     };
 
   private:
@@ -106,6 +108,7 @@ class EffectPrediction {
     [[nodiscard]] EffectSize displaced(const std::vector<Sample>& samples, const Displacement& drawn) const;
     [[nodiscard]] EffectSize bounded(const Bound& height_m) const;
     [[nodiscard]] double vertical_px(const Sample& sample, double height_m) const;
+    [[nodiscard]] EffectSize in_float32(Precision precision) const;
     [[nodiscard]] Result<EffectSize> detail(double tau_px) const;
     [[nodiscard]] EffectSize on_flat_earth() const;
     [[nodiscard]] EffectSize without_geoid() const;
