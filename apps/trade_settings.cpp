@@ -54,6 +54,7 @@ std::vector<TradeCase> trade_cases() {
         TradeCase one{bundle.name, "--accuracy " + std::string(bundle.name), bundle.tau_px, true_air};
         one.world.refraction_k = bundle.refraction_k;
         one.heights = bundle.heights;
+        one.effect = std::string(bundle.name) + ", all together";
         cases.push_back(one);
     }
     return cases;

@@ -18,7 +18,7 @@ struct TradeCase {
     bool has_geoid{true};
     HeightStorage heights{HeightStorage::f32};
     std::optional<double> promised_px{};  // interior error that it must not exceed
-    std::string effect{};                 // that this measures; empty for bundles
+    std::string effect{};                 // that this measures
 };
 
 // Full detail first, then levels, then one thing left out or rounded at a time, then bundles. All but those

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int samples_across = 160;
 // What lies between the samples: bounds that come from samples of rough ground are widened by this.
-constexpr double between_samples = 3.0;
+constexpr double between_samples = 2.5;
 // Half a unit in the last place of a float, relative.
 constexpr double float_rounding = 1.0 / 16777216.0;
 
@@ -23,6 +23,11 @@ double median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
+}
+
+EffectSize larger(const EffectSize& a, const EffectSize& b) {
+    return {std::max(a.worst_m, b.worst_m), std::max(a.typical_m, b.typical_m),
+            std::max(a.worst_px, b.worst_px), std::max(a.typical_px, b.typical_px)};
 }
 
 // Collects one effect's sizes at the samples.
@@ -212,28 +217,30 @@ EffectSize EffectPrediction::without_geoid() const {
     });
 }
 
-// What float32 makes of the posts around each sample, worked out in float as the GPU does: rounding is no
-// chance.
-EffectSize EffectPrediction::in_float32(Precision precision) const {
+// What float32 makes of the posts around each sample, worked out in float as a GPU does: rounding is no
+// chance. A matrix may be multiplied from its first column or from its last: `backwards`.
+EffectSize EffectPrediction::in_float32(Precision precision, bool backwards) const {
     const PostGrid& grid = surface_.field().grid;
     const glm::mat3 rotation(view_from_ecef_);
     const glm::vec3 translation(-(view_from_ecef_ * sight_.eye.m));
     const auto offset_m = [&](int row, int column, double otherwise_m) {
         const Geodetic post{row_lat_deg(grid, row), grid.lon.at_deg(column),
                             surface_.post_h_m(row, column).value_or(otherwise_m)};
-        const glm::vec3 rounded(ecef_from_geodetic(post).m);
-        if (precision == Precision::rounded_posts) return glm::dvec3(rounded) - sight_.eye.m;
-        return glm::dvec3(rotation * rounded + translation) * view_from_ecef_;
+        const glm::vec3 at(ecef_from_geodetic(post).m);
+        if (precision == Precision::rounded_posts) return glm::dvec3(at) - sight_.eye.m;
+        const glm::vec3 turned = backwards ? (rotation[2] * at.z + rotation[1] * at.y) + rotation[0] * at.x
+                                           : (rotation[0] * at.x + rotation[1] * at.y) + rotation[2] * at.z;
+        return glm::dvec3(turned + translation) * view_from_ecef_;
     };
     return displaced(samples_, [&](const Sample& sample) {
         const double down = grid.lat.index_at(sample.point.lat_deg) - sample.row;
         const double right = grid.column_at(sample.point.lon_deg) - sample.column;
         const double north_west = 1.0 - std::max(down, right), south_east = std::min(down, right);
+        const glm::dvec3 corner = offset_m(sample.row + (sample.south_west ? 1 : 0),
+                                           sample.column + (sample.south_west ? 0 : 1), sample.point.h_m);
         const glm::dvec3 offset = north_west * offset_m(sample.row, sample.column, sample.point.h_m) +
                                   south_east * offset_m(sample.row + 1, sample.column + 1, sample.point.h_m) +
-                                  (1.0 - north_west - south_east) *
-                                      offset_m(sample.row + (sample.south_west ? 1 : 0),
-                                               sample.column + (sample.south_west ? 0 : 1), sample.point.h_m);
+                                  (1.0 - north_west - south_east) * corner;
         return std::optional(sight_.refraction.apparent_m(offset));
     });
 }
@@ -277,6 +284,14 @@ Result<EffectSize> EffectPrediction::detail(double tau_px) const {
 }
 
 Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double tau_px) const {
+    const std::pair key(kind, kind == EffectKind::detail ? tau_px : 0.0);
+    if (const auto found = known_.find(key); found != known_.end()) return found->second;
+    ORO_TRY(const std::optional<EffectSize> made, new_size(kind, tau_px));
+    known_.emplace(key, made);
+    return made;
+}
+
+Result<std::optional<EffectSize>> EffectPrediction::new_size(EffectKind kind, double tau_px) const {
     using Size = std::optional<EffectSize>;
     const auto steep = [](const Sample& sample) { return std::hypot(1.0, sample.slope); };
     switch (kind) {
@@ -293,9 +308,9 @@ Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double
             return Size(displaced(
                 samples_, [&](const Sample& sample) { return sight_.refraction.true_m(sample.apparent_m); }));
         case EffectKind::float32_posts:
-            return Size(in_float32(Precision::rounded_posts));
+            return Size(in_float32(Precision::rounded_posts, false));
         case EffectKind::float32_view:
-            return Size(in_float32(Precision::naive));
+            return Size(larger(in_float32(Precision::naive, false), in_float32(Precision::naive, true)));
         case EffectKind::steps_f32:
             return Size(bounded([](const Sample&) { return 0.5 * height_step_m; }));
         case EffectKind::steps_i16:

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/camera.h"
@@ -77,6 +78,7 @@ class EffectPrediction {
 
     // Of one effect by itself. tau_px: for detail. Nothing for a source that says nothing. Errors: a page
     // that cannot be read.
+    // Not from several threads at a time.
     [[nodiscard]] Result<std::optional<EffectSize>> size(EffectKind kind, double tau_px) const;
 
     // What lies between posts that are `apart` of the region's apart: 1 for the data as they are. 2 predicts
@@ -108,8 +110,9 @@ class EffectPrediction {
     [[nodiscard]] EffectSize displaced(const std::vector<Sample>& samples, const Displacement& drawn) const;
     [[nodiscard]] EffectSize bounded(const Bound& height_m) const;
     [[nodiscard]] double vertical_px(const Sample& sample, double height_m) const;
-    [[nodiscard]] EffectSize in_float32(Precision precision) const;
+    [[nodiscard]] EffectSize in_float32(Precision precision, bool backwards) const;
     [[nodiscard]] Result<EffectSize> detail(double tau_px) const;
+    [[nodiscard]] Result<std::optional<EffectSize>> new_size(EffectKind kind, double tau_px) const;
     [[nodiscard]] EffectSize on_flat_earth() const;
     [[nodiscard]] EffectSize without_geoid() const;
 
@@ -122,6 +125,7 @@ class EffectPrediction {
     glm::dmat3 view_from_ecef_;
     double pixels_per_tangent_;
     std::vector<Sample> samples_;
+    mutable std::map<std::pair<EffectKind, double>, std::optional<EffectSize>> known_;
 };
 
 }  // namespace oro

@@ -100,6 +100,37 @@ std::optional<DrawnSkyline> drawn_skyline(const Camera& camera, std::span<const 
     return std::nullopt;
 }
 
+double to_segment_px(const glm::dvec2& point, const glm::dvec2& from, const glm::dvec2& to) {
+    const glm::dvec2 along = to - from;
+    const double length = glm::dot(along, along);
+    const double share = length > 0.0 ? std::clamp(glm::dot(point - from, along) / length, 0.0, 1.0) : 0.0;
+    return glm::length(point - from - share * along);
+}
+
+// How far what is known of a column's drawn skyline lies from the true skyline, a line through all columns:
+// upright where ground ends. Straight down the column an upright edge would be far away that is off by a
+// thousandth.
+double off_line_px(const Skyline& truth, const Camera& camera, int column, const DrawnSkyline& drawn) {
+    const auto at = [&](int i) {
+        const float y_px = truth.y_px[static_cast<std::size_t>(i)];
+        return glm::dvec2(i + 0.5, y_px == not_measured ? camera.height_px : static_cast<double>(y_px));
+    };
+    const double x_px = column + 0.5, y_px = at(column).y;
+    const double sky_px = std::max(drawn.sky_px, -1.0e6);
+    double off_px = std::max({sky_px - y_px, y_px - drawn.ground_px, 0.0});
+    const int last = static_cast<int>(truth.y_px.size()) - 1;
+    for (int away = 0; away < off_px; ++away) {
+        for (const int from : {column - away - 1, column + away}) {
+            if (from < 0 || from + 1 > last) continue;
+            const glm::dvec2 a = at(from), b = at(from + 1);
+            const double near_px =
+                std::min(to_segment_px({x_px, sky_px}, a, b), to_segment_px({x_px, drawn.ground_px}, a, b));
+            off_px = std::min(off_px, near_px);
+        }
+    }
+    return off_px;
+}
+
 }  // namespace
 
 PointMeter::PointMeter(const TrueSurface& surface, const Sight& sight, const Camera& camera)
@@ -206,8 +237,7 @@ SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span
         }
         // Ground at the top in both: the skyline is not in the picture.
         if (!drawn || (true_px <= 0.0F && std::isinf(drawn->sky_px))) continue;
-        const double y_px = static_cast<double>(true_px);
-        error.px[column] = static_cast<float>(std::max({drawn->sky_px - y_px, y_px - drawn->ground_px, 0.0}));
+        error.px[column] = static_cast<float>(off_line_px(truth, camera, static_cast<int>(column), *drawn));
     }
     error.summary_px = summary_of(error.px);
     return error;

@@ -86,8 +86,8 @@ struct Skyline {
 // not found.
 Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads);
 
-// The skyline: how far the drawn one lies from the truth's, in pixels along the column. The drawn one is
-// known to lie between two samples; what is not known is not counted as an error.
+// The skyline: how far the drawn one lies from the truth's, in pixels, by the shortest way. The drawn one is
+// known to lie between two samples of a column; what is not known is not counted as an error.
 struct SkylineError {
     std::vector<float> px;  // of each column; not_measured where it has no skyline in either, or in one only,
                             // or ground reaches the picture's top in both
