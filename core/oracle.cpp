@@ -85,15 +85,20 @@ bool Oracle::Scenery::box(const Block& block, glm::dvec3& low, glm::dvec3& high)
             }
         }
     }
-    // Between its corners a patch bulges by at most an eighth of its angles squared times its radius;
-    // refraction, a parabola, by another eighth.
+    // Between its corners a patch bulges by at most an eighth of its angles squared times their radii (along
+    // the parallel its own, or near a pole every line would meet every patch); refraction, a parabola, by
+    // another eighth.
     const PostGrid& grid = surface.field().grid;
     const double cells = TrueSurface::block_cells;
     const double tall = radians_from_deg((south - north) * cells * grid.lat.spacing_deg()).rad;
     const double wide = radians_from_deg((east - west) * cells * grid.lon.spacing_deg()).rad;
     const double radius_m = 1.02 * (wgs84_a_m + std::max(0.0, layer.highest_h_m));
+    // The cosine of a latitude changes by at most its angle.
+    const double cosine = std::min(1.0, std::max(rows[static_cast<std::size_t>(north)].cosine,
+                                                 rows[static_cast<std::size_t>(south)].cosine) +
+                                            tall);
     const glm::dvec3 across = high - low;
-    const double pad_m = (tall * tall + wide * wide) / 8.0 * radius_m * 1.1 +
+    const double pad_m = (tall * tall + wide * wide * cosine) / 8.0 * radius_m * 1.1 +
                          std::abs(sight.refraction.curvature_per_m()) * glm::dot(across, across) / 8.0 +
                          1.0e-3;
     low -= pad_m;
