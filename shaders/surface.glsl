@@ -91,6 +91,23 @@ float undulation_at(vec2 post) {
     return mix(north, south, share.x);
 }
 
+vec3 across(vec3 along, vec3 v) { return v - dot(v, along) * along; }
+// Shares of a triangle's second and third post at the point of its rim that is nearest to a ray from the eye: for pixels at a rim, whose
+// ray may pass just beside it (1/256 px). To bound the shares of the plane's point one by one would move it far along a slim triangle.
+vec2 rim_shares(vec3 ray, vec3 first, vec3 edge_b, vec3 edge_c) {
+    vec3 along = normalize(ray);
+    vec3 a = across(along, first), b = across(along, edge_b), c = across(along, edge_c);
+    vec3 bc = c - b;
+    float on_b = clamp(-dot(a, b) / max(dot(b, b), 1.0e-12), 0.0, 1.0);
+    float on_c = clamp(-dot(a, c) / max(dot(c, c), 1.0e-12), 0.0, 1.0);
+    float on_bc = clamp(-dot(a + b, bc) / max(dot(bc, bc), 1.0e-12), 0.0, 1.0);
+    vec3 off_b = a + on_b * b, off_c = a + on_c * c, off_bc = a + b + on_bc * bc;
+    float far_b = dot(off_b, off_b), far_c = dot(off_c, off_c), far_bc = dot(off_bc, off_bc);
+    if (far_b <= far_c && far_b <= far_bc) return vec2(on_b, 0.0);
+    if (far_c <= far_bc) return vec2(0.0, on_c);
+    return vec2(1.0 - on_bc, on_bc);
+}
+
 SurfacePoint surface_at(uint id, vec3 ray) {
     uint triangle = id % meshlet_triangles;
     uint meshlet = (id / meshlet_triangles) % meshlets_per_page;
@@ -113,8 +130,10 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     vec3 p = cross(ray, edge_c);
     float determinant = dot(edge_b, p);
     float scale = determinant == 0.0 ? 0.0 : 1.0 / determinant;
-    float share_b = clamp(dot(-at[0], p) * scale, 0.0, 1.0);
-    float share_c = clamp(dot(ray, cross(-at[0], edge_b)) * scale, 0.0, 1.0 - share_b);
+    vec2 shares = vec2(dot(-at[0], p), dot(ray, cross(-at[0], edge_b))) * scale;
+    bool within = determinant != 0.0 && shares.x >= 0.0 && shares.y >= 0.0 && shares.x + shares.y <= 1.0;
+    if (!within) shares = rim_shares(ray, at[0], edge_b, edge_c);
+    float share_b = shares.x, share_c = shares.y;
     float share_a = 1.0 - share_b - share_c;
 
     SurfacePoint point;
