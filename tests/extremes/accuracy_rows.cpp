@@ -1,0 +1,143 @@
+// Every row of docs/ACCURACY.md's tables: what each extreme case must keep.
+#include "tests/extremes/accuracy_table.h"
+
+namespace oro::test {
+namespace {
+
+constexpr const char* px_error = "interior error";
+constexpr const char* wrong = "pixels off what is seen within 0.1 px";
+constexpr const char* oracle = "true surface";
+constexpr const char* rays = "oracle";
+
+constexpr const char* places = "Places";
+constexpr const char* heights = "Heights and distances";
+constexpr const char* pictures = "Pictures and steps";
+constexpr const char* surfaces = "Surfaces and spacing";
+constexpr const char* data = "No data, odd data";
+constexpr const char* large = "Large data";
+
+// Beside level of detail, of which there is none here: placement, and depths that are floats.
+constexpr double px_bound = 0.05;
+
+constexpr AccuracyRow rows[] = {
+    {places, "flying across a pole", px_error, oracle, px_bound, "px", "pixels",
+     "both poles, 21 steps of 25 m, both ways of drawing; columns a quarter of a degree apart"},
+    {places, "flying across a pole, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {places, "straight down on a pole", px_error, oracle, px_bound, "px", "pixels",
+     "the eye at 90.0 exactly"},
+    {places, "straight down on a pole, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {places, "columns a degree apart at a pole", px_error, oracle, 0.3, "px", "pixels",
+     "cells that end in a pole: the truth is linear in longitude there, a triangle is flat"},
+    {places, "posts within 2 km of a pole", "distance of placed posts", "GeographicLib", 1.0, "mm", "posts",
+     ""},
+    {places, "the 1,441 posts at a pole", "distance from the first", "each other", 0, "m", "posts",
+     "one point, the same bits"},
+    {places, "the antimeridian as 180, -180 and 540", "pixels that differ", "each other", 0, "", "pixels",
+     "depth and triangle, to the bit"},
+    {places, "flying across the antimeridian", px_error, oracle, px_bound, "px", "pixels",
+     "regions that cross it or end at it on either side; 17 steps of 10 m"},
+    {places, "flying across the antimeridian, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {places, "0 N 0 E with each sign of its zeros", "pixels that differ", "each other", 0, "", "pixels",
+     "and as 360 E"},
+    {places, "flying across the equator and Greenwich", px_error, oracle, px_bound, "px", "pixels",
+     "21 steps of 7 m"},
+    {places, "flying across the equator and Greenwich, what is seen", wrong, rays, 0, "", "pixels", ""},
+
+    {heights, "at -11,000 m", px_error, oracle, px_bound, "px", "pixels",
+     "at the foot of 19,849 m of slope, 80 degrees wide"},
+    {heights, "at -11,000 m, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {heights, "at -11,000 m, in height", px_error, oracle, 0.05, "m", "pixels", ""},
+    {heights, "at 8,849 m", px_error, oracle, px_bound, "px", "pixels", "on top of it"},
+    {heights, "at 8,849 m, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {heights, "at 8,849 m, in height", px_error, oracle, 0.05, "m", "pixels", ""},
+    {heights, "0.05 m above a post, straight down", px_error, oracle, 3, "px", "pixels",
+     "heights are drawn in steps of 0.49 mm: half a step at 0.05 m"},
+    {heights, "0.05 m above a post, in height", px_error, oracle, 0.25, "mm", "pixels",
+     "half a step of height"},
+    {heights, "0.05 m above a post, what is seen", "pixels off what is seen within 8 px", rays, 0, "",
+     "pixels", ""},
+    {heights, "in a pit 430 m below the ellipsoid", px_error, oracle, px_bound, "px", "pixels", ""},
+    {heights, "in a pit 430 m below the ellipsoid, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {heights, "from 36,000 km", px_error, oracle, 0.1, "px", "pixels", "field of view 0.3 degree"},
+    {heights, "from 36,000 km, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {heights, "from 36,000 km, along the ray", px_error, oracle, 12, "m", "pixels", "3.2e-7 of the distance"},
+    {heights, "from the Moon's distance", px_error, oracle, 0.5, "px", "pixels", "field of view 0.05 degree"},
+    {heights, "from the Moon's distance, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {heights, "from the Moon's distance, along the ray", px_error, oracle, 124, "m", "pixels",
+     "3.2e-7 of the distance"},
+
+    {pictures, "field of view 0.05 degree", px_error, oracle, 0.5, "px", "pixels", ""},
+    {pictures, "field of view 0.05 degree, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {pictures, "field of view 1 degree", px_error, oracle, px_bound, "px", "pixels", ""},
+    {pictures, "field of view 1 degree, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {pictures, "field of view 45 degrees", px_error, oracle, px_bound, "px", "pixels", ""},
+    {pictures, "field of view 45 degrees, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {pictures, "field of view 120 degrees", px_error, oracle, px_bound, "px", "pixels", ""},
+    {pictures, "field of view 120 degrees, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {pictures, "1 x 1 px", px_error, oracle, px_bound, "px", "pixels", ""},
+    {pictures, "1 x 1 px, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {pictures, "3 x 5 px", px_error, oracle, px_bound, "px", "pixels", ""},
+    {pictures, "3 x 5 px, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {pictures, "4,097 x 3 px", px_error, oracle, px_bound, "px", "pixels", "two tiles"},
+    {pictures, "4,097 x 3 px, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {pictures, "16,384 x 16 px", px_error, oracle, px_bound, "px", "pixels", "four tiles"},
+    {pictures, "16,384 x 16 px, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {pictures, "1 x 16,384 px", px_error, oracle, px_bound, "px", "pixels", "four tiles"},
+    {pictures, "1 x 16,384 px, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {pictures, "1,000 steps of 1 mm", "distance of placed posts", "GeographicLib", 0.01, "px",
+     "posts x steps", "60 m above the equator, 6,378 km from the Earth's centre"},
+    {pictures, "1,000 steps of 1 mm, from step to step", "change of that", "GeographicLib", 0.01, "px",
+     "posts x steps", "jitter"},
+    {pictures, "1,000 steps of 1 mm, naive float32", "distance of placed posts", "GeographicLib", 5, "px",
+     "posts x steps", "positions in float32 ECEF, --precision naive", true},
+
+    {surfaces, "a wall of 30 m seen edge-on", wrong, rays, 0, "", "pixels",
+     "within one cell of 0.1 m; both ways of drawing"},
+    {surfaces, "a wall 1 m before another, at 200 km", "pixels that show the rear one", rays, 0, "", "pixels",
+     "both ways of drawing"},
+    {surfaces, "distance to a wall at 200 km", "error of the depth", rays, 0.1, "m", "pixels",
+     "what depth resolves there"},
+    {surfaces, "posts 0.1 m apart", px_error, oracle, 0.0005, "m", "pixels", ""},
+    {surfaces, "posts 0.1 m apart, from 5 m", px_error, oracle, px_bound, "px", "pixels", ""},
+    {surfaces, "posts 1 second apart", px_error, oracle, 0.002, "m", "pixels", ""},
+    {surfaces, "posts 3 seconds apart", px_error, oracle, 0.005, "m", "pixels", ""},
+    {surfaces, "posts 30 seconds apart", px_error, oracle, 0.05, "m", "pixels",
+     "flat triangles under a curved surface"},
+    {surfaces, "posts 6 minutes apart", px_error, oracle, 5, "m", "pixels", "the same"},
+    {surfaces, "posts 6 minutes apart, from 71 km", px_error, oracle, 1, "px", "pixels", "the same"},
+    {surfaces, "posts 1 degree apart", px_error, oracle, 490, "m", "pixels", "the same"},
+    {surfaces, "posts 1 degree apart, from 356 km", px_error, oracle, 5, "px", "pixels", "the same"},
+
+    {data, "one row of posts, one column, one post", "pixels with ground", "nothing", 0, "", "pixels",
+     "no surface"},
+    {data, "all void", "pixels with ground", "nothing", 0, "", "pixels", ""},
+    {data, "every second post void", "pixels with ground", "nothing", 0, "", "pixels", "no triangle is left"},
+    {data, "two rows of two posts", px_error, oracle, 0.002, "m", "pixels", ""},
+    {data, "two rows of two posts, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {data, "all posts equal", px_error, oracle, 0.002, "m", "pixels", ""},
+    {data, "all posts equal, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {data, "heights of +-32,767 m", px_error, oracle, px_bound, "px", "pixels",
+     "made directly; readers take them for void"},
+    {data, "heights of +-32,767 m, in height", px_error, oracle, 0.3, "m", "pixels", "on slopes of 12 in 1"},
+    {data, "heights of +-32,767 m, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {data, "16 bits with +-32,767 and 9,001 m, as read", "posts not void, or void in vain",
+     "what was written", 0, "", "posts", "beyond -12,000 and 9,000 m is void; with and without --fill-voids"},
+    {data, "16 bits with +-32,767 and 9,001 m, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {data, "float32 with NaN and infinities, as read", "posts not void, or void in vain", "what was written",
+     0, "", "posts", "with and without --fill-voids"},
+    {data, "float32 with NaN and infinities, what is seen", wrong, rays, 0, "", "pixels", ""},
+    {data, "everything sent to the GPU in all these cases", "numbers that are NaN or infinite", "none", 0, "",
+     "floats", "pages, tables of rows and columns, constants, styles"},
+
+    {large, "100 million posts, --tau 1", px_error, oracle, 1.05, "px", "pixels",
+     "from 100 m to 400 km above it"},
+    {large, "100 million posts, what is seen", wrong, rays, 0, "", "pixels", "--tau 0.02"},
+};
+
+}  // namespace
+
+std::span<const AccuracyRow> accuracy_rows() {
+    return rows;
+}
+
+}  // namespace oro::test
