@@ -56,7 +56,6 @@ struct TrueSurface::Chunk {
 TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int threads)
     : field_(field), exaggeration_(exaggeration) {
     const PostGrid& grid = field.grid;
-    if (grid.rows() < 2 || grid.columns() < 2) return;
     if (!field.undulation.N_m.empty()) {
         for (int row = 0; row < grid.rows(); ++row)
             N_rows_.push_back(field.undulation.row_between(row_lat_deg(grid, row)));
@@ -66,6 +65,7 @@ TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int thre
             std::minmax_element(field.undulation.N_m.begin(), field.undulation.N_m.end());
         N_range_m_ = {static_cast<double>(*lowest), static_cast<double>(*highest)};
     }
+    if (grid.rows() < 2 || grid.columns() < 2) return;
     const int down = divided_up(grid.rows() - 1, chunk_cells),
               across = divided_up(grid.columns() - 1, chunk_cells);
     levels_ = chunk_level + 1;
@@ -118,14 +118,21 @@ Layer TrueSurface::scanned_layer(int chunk_row, int chunk_column) const {
             highest = std::max(highest, posts[column]);
         }
     }
-    // All posts of a pole are as high as the first of them, which may be another chunk's.
-    for (const int row : {0, grid.rows() - 1}) {
-        if (row < chunk_row * chunk_cells || row > last_row) continue;
-        const float H_m = field_.H_at_post_m(row, canonical_column(field_, row, chunk_column * chunk_cells));
-        if (is_void(H_m)) continue;
+    // Posts that are one point are as high as one of them, which may be another chunk's.
+    const auto take = [&](int row, int column) {
+        if (is_void(field_.H_at_post_m(row, column))) return false;
+        const float H_m = field_.H_at_post_m(row, canonical_column(field_, row, column));
         lowest = std::min(lowest, H_m);
         highest = std::max(highest, H_m);
+        return true;
+    };
+    for (const int row : {0, grid.rows() - 1}) {
+        if (row < chunk_row * chunk_cells || row > last_row) continue;
+        int column = chunk_column * chunk_cells;
+        while (column <= last_column && !take(row, column)) ++column;
     }
+    for (int row = chunk_row * chunk_cells; last_column == grid.columns() - 1 && row <= last_row; ++row)
+        take(row, last_column);
     if (lowest > highest) return no_layer;
     return {static_cast<double>(lowest) * exaggeration_, static_cast<double>(highest) * exaggeration_};
 }
@@ -139,8 +146,6 @@ void TrueSurface::measure_above(int threads) {
         for (int column = 0; column < columns; ++column) {
             Layer layer{range.lowest_m * exaggeration_, range.highest_m * exaggeration_};
             if (!field_.posts) layer = scanned_layer(row, column);
-            // A pole's posts have the height of one of them: of all of these, where the chunk's own is not
-            // it.
             constexpr double slack_m = 1.0e-3;
             layer.lowest_h_m += N_range_m_.lowest_h_m - slack_m;
             layer.highest_h_m += N_range_m_.highest_h_m + slack_m;
