@@ -8,15 +8,14 @@
 namespace oro {
 namespace {
 
-std::string_view file_name(const Source& source) {
-    const std::string_view path = source.report.path;
+std::string_view file_name(std::string_view path) {
     const std::size_t slash = path.rfind('/');
     return slash == std::string_view::npos ? path : path.substr(slash + 1);
 }
 
 }  // namespace
 
-std::vector<std::size_t> by_precedence(std::span<const Source> sources) {
+std::vector<std::size_t> by_precedence(std::span<const Precedence> sources) {
     // Spacings are compared in classes, so that the order stays one: each class starts at its finest member.
     std::vector<std::size_t> order(sources.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -36,12 +35,19 @@ std::vector<std::size_t> by_precedence(std::span<const Source> sources) {
     }
     std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
         if (spacing_class[a] != spacing_class[b]) return spacing_class[a] < spacing_class[b];
-        const std::string_view name_a = file_name(sources[a]);
-        const std::string_view name_b = file_name(sources[b]);
+        const std::string_view name_a = file_name(sources[a].path);
+        const std::string_view name_b = file_name(sources[b].path);
         if (name_a != name_b) return name_a < name_b;
-        return sources[a].report.path < sources[b].report.path;
+        return sources[a].path < sources[b].path;
     });
     return order;
+}
+
+std::vector<std::size_t> by_precedence(std::span<const Source> sources) {
+    std::vector<Precedence> ranks;
+    for (const Source& source : sources)
+        ranks.push_back({source.lat_spacing_deg, source.lon_spacing_deg, source.report.path});
+    return by_precedence(ranks);
 }
 
 JoinedSurface::JoinedSurface(const PostGrid& grid)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/post_grid.h"
@@ -12,9 +13,16 @@
 
 namespace oro {
 
+// What decides which of several sources wins.
+struct Precedence {
+    double lat_spacing_deg{};
+    double lon_spacing_deg{};
+    std::string_view path;  // as found
+};
 // The order in which sources take posts: the finer spacing first (the
 // geometric mean of both axes' degrees; equal when within a millionth), among
 // equals by the byte order of file names, then of whole paths.
+std::vector<std::size_t> by_precedence(std::span<const Precedence> sources);
 std::vector<std::size_t> by_precedence(std::span<const Source> sources);
 
 // The heights of a region while its sources are laid into it.
