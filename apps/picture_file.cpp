@@ -4,9 +4,6 @@
 
 #include "apps/pipeline_choice.h"
 #include "apps/region_json.h"
-#include "core/oracle.h"
-#include "core/parallel.h"
-#include "geo/geodesic.h"
 #include "geo/whole_file.h"
 
 namespace oro {
@@ -17,19 +14,7 @@ PictureFiles picture_files(const std::string& picture) {
             std::filesystem::path(path).replace_extension(".error.png").string()};
 }
 
-std::optional<DestinationTag> destination_of(const View& view, const Region& region) {
-    const Camera& camera = view.camera;
-    const glm::dvec3 ray = camera.ecef_direction_at({0.5 * camera.width_px, 0.5 * camera.height_px});
-    const TrueSurface surface(region.field, view.exaggeration, thread_count());
-    const auto hit = first_hit(surface, sight_from(camera.eye, view.model.refraction_k), ray,
-                               sight_reach_m(camera.eye.h_m));
-    if (!hit) return std::nullopt;
-    const GeodesicPath path =
-        geodesic_between(camera.eye.lat_deg, camera.eye.lon_deg, hit->point.lat_deg, hit->point.lon_deg);
-    return DestinationTag{hit->point.lat_deg, hit->point.lon_deg, path.bearing_deg, path.distance_m};
-}
-
-Geotags geotags_of(const View& view, const Region& region) {
+Geotags geotags_of(const View& view, const Region& region, const std::optional<SeenPlace>& middle) {
     const Camera& camera = view.camera;
     Geotags tags;
     tags.lat_deg = camera.eye.lat_deg;
@@ -45,7 +30,9 @@ Geotags geotags_of(const View& view, const Region& region) {
     tags.width_px = camera.width_px;
     tags.height_px = camera.height_px;
     tags.time_utc_s = view.time_utc_s;
-    tags.destination = destination_of(view, region);
+    if (middle)
+        tags.destination =
+            DestinationTag{middle->lat_deg, middle->lon_deg, middle->bearing_deg, middle->distance_m};
     tags.attribution = attribution_of(region);
     tags.software = "Orograph " OROGRAPH_VERSION;
     tags.view_json = view_to_json(view, false);
@@ -53,15 +40,16 @@ Geotags geotags_of(const View& view, const Region& region) {
 }
 
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                    const Region& region, const Gpu& gpu, Scene& scene,
-                                    const gpu::FrameStyle& style, const RenderProgress& progress) {
+                                    const Region& region, const std::optional<SeenPlace>& middle,
+                                    const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                    const RenderProgress& progress) {
     PictureOptions options;
     ORO_TRY(options.path, choose_path(view.pipeline, gpu));
     // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
     View drawn = view;
     drawn.pipeline = name_of(options.path);
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,
-            create_picture(files.picture, geotags_of(drawn, region), overwrite));
+            create_picture(files.picture, geotags_of(drawn, region, middle), overwrite));
     ORO_TRY(WholeFile view_file, WholeFile::create(files.view, overwrite));
     options.samples = view.samples;
     options.tau_px = view.tau_px;

@@ -13,6 +13,7 @@
 #include "apps/interruption.h"
 #include "apps/json_text.h"
 #include "apps/model_names.h"
+#include "apps/picking.h"
 #include "apps/picture_file.h"
 #include "apps/progress_bar.h"
 #include "apps/region_json.h"
@@ -45,6 +46,7 @@ struct ShotTimes {
 struct ShotResult {
     View view;
     Region region;
+    std::optional<SeenPlace> middle;  // what the picture sees there
     PictureReport picture;
     std::uint64_t pages{};
     std::uint64_t pages_on_gpu{};
@@ -82,9 +84,24 @@ bool is_check(const ShotOptions& options, const PictureFiles& files) {
     return options.out.empty() && !options.overwrite && fs::exists(files.picture, ignored);
 }
 
+ordered_json destination_json(const std::optional<SeenPlace>& place) {
+    if (!place) return nullptr;
+    ordered_json json{{"lat_deg", place->lat_deg},
+                      {"lon_deg", place->lon_deg},
+                      {"h_m", place->h_m},
+                      {"H_m", place->H_m},
+                      {"bearing_deg", place->bearing_deg},
+                      {"distance_m", place->distance_m},
+                      {"seen_distance_m", place->seen_distance_m},
+                      {"cell", {{"row", place->row}, {"column", place->column}}},
+                      {"source", nullptr}};
+    if (!place->source.empty()) json["source"] = place->source;
+    return json;
+}
+
 ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
                        const Style& style) {
-    const Geotags tags = geotags_of(shot.view, shot.region);
+    const Geotags tags = geotags_of(shot.view, shot.region, shot.middle);
     const glm::dvec3 ecef = shot.view.camera.eye_ecef().m;
     const PictureReport& counts = shot.picture;
     ordered_json json;
@@ -106,12 +123,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["exaggeration"] = shot.view.exaggeration;
     json["sun"] = {{"azimuth_deg", style.sun.azimuth_deg}, {"elevation_deg", style.sun.elevation_deg}};
     json["time"] = time_text(shot.view.time_utc_s);
-    json["destination"] = nullptr;
-    if (const auto& d = tags.destination)
-        json["destination"] = {{"lat_deg", d->lat_deg},
-                               {"lon_deg", d->lon_deg},
-                               {"bearing_deg", d->bearing_deg},
-                               {"distance_m", d->distance_m}};
+    json["destination"] = destination_json(shot.middle);
     json["attribution"] = tags.attribution;
     json["sources"] = sources_json(shot.region.sources);
     json["region"] = region_json(shot.region);
@@ -245,8 +257,10 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     shot.triangles_at_full_resolution = scene.pages().facts().triangles;
     shot.times.pages_s = seconds_since(start);
     const auto drawing = Clock::now();
-    ORO_TRY(shot.picture, write_picture(files, options.overwrite, shot.view, shot.region, *gpu, scene,
-                                        style.frame, [&](double share) { bar.show(share, "drawing"); }));
+    shot.middle = place_in_middle(shot.view, shot.region);
+    ORO_TRY(shot.picture,
+            write_picture(files, options.overwrite, shot.view, shot.region, shot.middle, *gpu, scene,
+                          style.frame, [&](double share) { bar.show(share, "drawing"); }));
     shot.times.draw_s = seconds_since(drawing);
     shot.pages_on_gpu = scene.store().size();
     shot.page_bytes = scene.store().bytes();

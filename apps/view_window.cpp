@@ -7,6 +7,7 @@
 #include "apps/commands.h"
 #include "apps/flight.h"
 #include "apps/json_text.h"
+#include "apps/picking.h"
 #include "apps/picture_file.h"
 #include "apps/pipeline_choice.h"
 #include "apps/progress_bar.h"
@@ -14,6 +15,8 @@
 #include "apps/region_scene.h"
 #include "apps/style.h"
 #include "core/ground.h"
+#include "core/parallel.h"
+#include "core/true_surface.h"
 #include "geo/place.h"
 #include "render/window.h"
 
@@ -32,9 +35,16 @@ struct Viewer {
     FrameRenderer& renderer;
     bool asking_place{false};
     std::string place_text;
-    std::string message;             // shown in the title until the eye moves
-    std::vector<PageIndex> missing;  // what the last frame should have had
+    std::string message;                 // shown in the title until the eye moves
+    std::vector<PageIndex> missing;      // what the last frame should have had
+    std::optional<TrueSurface> surface;  // made when it is first asked, for all questions after
 };
+
+std::optional<SeenPlace> seen_at(Viewer& viewer, glm::dvec2 point_px) {
+    if (!viewer.surface)
+        viewer.surface.emplace(viewer.region.field, viewer.view.exaggeration, thread_count());
+    return place_seen(viewer.view, viewer.region, *viewer.surface, point_px);
+}
 
 std::string title_of(const Viewer& viewer) {
     if (viewer.asking_place) return "Go to: " + viewer.place_text + "_";
@@ -121,8 +131,10 @@ void take_picture(Viewer& viewer) {
         std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
             .count();
     const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
-    const auto written =
-        write_picture(files, false, viewer.view, viewer.region, viewer.gpu, viewer.scene, viewer.style, {});
+    const Camera& camera = viewer.view.camera;
+    const auto middle = seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px});
+    const auto written = write_picture(files, false, viewer.view, viewer.region, middle, viewer.gpu,
+                                       viewer.scene, viewer.style, {});
     viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
     say(viewer.options.quiet && written.ok(), viewer.message);
 }
@@ -245,7 +257,8 @@ Result<void> run_view(const WindowOptions& options) {
                   false,
                   "",
                   "",
-                  {}};
+                  {},
+                  std::nullopt};
     return run_loop(viewer);
 }
 

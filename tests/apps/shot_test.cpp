@@ -179,6 +179,34 @@ TEST_F(Shot, VoidsAreHolesOrFilledAndCounted) {
     EXPECT_FALSE(filled["destination"].is_null());
 }
 
+// Straight down from H = 3,000 m on a tile at 1,000 m: 600.6 posts east of its western rim, 599.64 south of
+// its northern one. A baked region says the same.
+TEST_F(Shot, SaysWhatItsMiddleSees) {
+    std::string tile;
+    for (int i = 0; i < 1201 * 1201; ++i) tile += "\x03\xe8";
+    const std::string data = folder / "N46E008.hgt";
+    oro::test::write_bytes(data, tile);
+    const Words down{"--at", "46.5003,8.5005", "--altitude", "3000",         "--pitch",
+                     "-90",  "--size",         "64x64",      "--refraction", "0.13"};
+    const json said = shoot(folder / "down.png", down, data);
+    const json& destination = said["destination"];
+    ASSERT_TRUE(destination.is_object());
+    EXPECT_NEAR(destination["lat_deg"].get<double>(), 46.5003, 1e-9);
+    EXPECT_NEAR(destination["lon_deg"].get<double>(), 8.5005, 1e-9);
+    EXPECT_NEAR(destination["H_m"].get<double>(), 1000.0, 1e-4);
+    EXPECT_NEAR(destination["h_m"].get<double>(), 1000.0 + said["eye"]["N_m"].get<double>(), 1e-4);
+    // Along the plumb line; refraction lifts by k s^2 / (2 R) = 4 cm.
+    EXPECT_NEAR(destination["seen_distance_m"].get<double>(), 2000.0, 0.05);
+    EXPECT_NEAR(destination["distance_m"].get<double>(), 0.0, 1e-3);
+    EXPECT_EQ(destination["cell"], json({{"row", 599}, {"column", 600}}));
+    EXPECT_EQ(destination["source"], said["sources"][0]["path"]);
+    EXPECT_TRUE(destination["source"].get<std::string>().ends_with("N46E008.hgt"));
+
+    const std::string baked = folder / "tile.oro";
+    ASSERT_EQ(run_orograph({"bake", data, "--out", baked, "-q"}).exit_code, 0);
+    EXPECT_EQ(shoot(folder / "baked.png", down, baked)["destination"], destination);
+}
+
 TEST_F(Shot, NamesWithBlanksAndUmlauts) {
     const fs::path data = folder / "Höhen daten.tif";
     fs::copy_file(bundled(), data);
