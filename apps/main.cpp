@@ -58,8 +58,10 @@ void add_compare(CLI::App& app, oro::CompareOptions& options) {
 void add_view(CLI::App& app, oro::WindowOptions& options) {
     CLI::App& command = *app.add_subcommand("view", "Fly over a region in a window");
     command.footer(
-        "W A S D: move. Space, Ctrl: up, down. Shift: faster. Mouse drag or Q E R F: look. G: go to a place. "
-        "P: write a geotagged picture here. Esc: leave.");
+        "W A S D: move. Space, Ctrl: up, down. Shift: faster. Mouse drag or Q E R F: look. Right click: what "
+        "is "
+        "there, in the title and on standard output. G: go to a place. P: write a geotagged picture here. "
+        "Esc: leave.");
     oro::add_region_options(command, options.region);
     oro::add_view_options(command, options.view);
     oro::add_memory_options(command, options.memory);

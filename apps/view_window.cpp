@@ -139,6 +139,13 @@ void take_picture(Viewer& viewer) {
     say(viewer.options.quiet && written.ok(), viewer.message);
 }
 
+// Tells what the picture that is shown has under the cursor.
+void pick(Viewer& viewer, glm::dvec2 point_px) {
+    viewer.message = line_of(seen_at(viewer, point_px));
+    std::printf("%s\n", viewer.message.c_str());
+    std::fflush(stdout);  // whoever reads along has it now
+}
+
 // One turn of the loop: input, then a frame where something has changed. False when the user leaves.
 Result<bool> turn(Viewer& viewer, bool& changed) {
     const bool can_draw = viewer.window.extent().width > 0;  // not so while minimised
@@ -161,6 +168,8 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
         ask_place(viewer, after);
         changed = changed || !viewer.asking_place;
     } else {
+        // What is clicked at is the picture that is shown, before the eye moves on.
+        if (input.picked_px) pick(viewer, *input.picked_px);
         const FlightStep step = step_of(input, viewer.view.camera);
         if (moves(step)) {
             viewer.view.camera =

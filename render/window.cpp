@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <utility>
 
 namespace oro {
@@ -35,6 +36,21 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
     if (key == GLFW_KEY_BACKSPACE) input.backspace = true;
     if (key == GLFW_KEY_P && action == GLFW_PRESS) input.take_picture = true;
     if (key == GLFW_KEY_G && action == GLFW_PRESS) input.go_to = true;
+}
+
+// Kept from events: asked for later, the cursor may have moved on from where the button went down.
+void on_cursor(GLFWwindow* window, double x, double y) {
+    input_of(window).cursor = {x, y};
+}
+
+void on_button(GLFWwindow* window, int button, int action, int) {
+    if (button != GLFW_MOUSE_BUTTON_RIGHT || action != GLFW_PRESS) return;
+    glm::ivec2 size(0), shown_px(0);
+    glfwGetWindowSize(window, &size.x, &size.y);
+    glfwGetFramebufferSize(window, &shown_px.x, &shown_px.y);
+    if (size.x <= 0 || size.y <= 0) return;
+    WindowInput& input = input_of(window);
+    input.picked_px = glm::floor(input.cursor * glm::dvec2(shown_px) / glm::dvec2(size)) + 0.5;
 }
 
 void on_character(GLFWwindow* window, unsigned int code) {
@@ -93,6 +109,8 @@ Result<std::unique_ptr<Window>> Window::create(const Gpu& gpu, int width_px, int
                      GLFW_TRUE);  // a key tapped during a slow frame counts
     glfwSetKeyCallback(window->window_, on_key);
     glfwSetCharCallback(window->window_, on_character);
+    glfwSetCursorPosCallback(window->window_, on_cursor);
+    glfwSetMouseButtonCallback(window->window_, on_button);
     ORO_CHECK(window->create_surface());
     ORO_TRY(window->commands_, Commands::create(gpu, "present"));
     ORO_TRY(window->acquired_, create_semaphore(gpu, "image acquired"));
@@ -182,7 +200,9 @@ void Window::set_title(const std::string& title) {
 }
 
 WindowInput Window::poll(double wait_s) {
-    input_ = {};
+    WindowInput next;
+    next.cursor = input_.cursor;
+    input_ = std::move(next);
     if (wait_s > 0.0) {
         glfwWaitEventsTimeout(wait_s);
     } else {

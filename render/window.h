@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,11 @@ enum class Key {
 // What happened since the last poll.
 struct WindowInput {
     std::array<bool, static_cast<std::size_t>(Key::count)> held{};
-    glm::dvec2 dragged_px{0.0};  // with a mouse button held
-    std::string typed;           // characters, UTF-8
+    glm::dvec2 dragged_px{0.0};  // with the left mouse button held
+    glm::dvec2 cursor{0.0};      // in the window system's own units, from the top left corner
+    // Centre of the pixel under the cursor when the right mouse button went down, from the top left corner.
+    std::optional<glm::dvec2> picked_px;
+    std::string typed;  // characters, UTF-8
     bool enter{false};
     bool backspace{false};
     bool escape{false};

@@ -1,8 +1,8 @@
 #!/bin/sh
 # A person at the window, as xdotool plays one: window_session.sh PROGRAM DATA, in an empty folder, on a display.
-# Prints the window's title at each stop; ends with the program's own exit code.
+# Prints the window's title at each stop, keeps what the program prints in picked.txt; ends with the program's own exit code.
 program=$1 data=$2
-"$program" view "$data" --size 320x240 --at 36.6,-84.2 --above 500 --heading 30 -q &
+"$program" view "$data" --size 320x240 --at 36.6,-84.2 --above 500 --heading 30 -q >picked.txt &
 viewer=$!
 
 fail() { echo "$*" >&2; kill "$viewer" 2>/dev/null; exit 90; }
@@ -27,6 +27,7 @@ says() {
 holds() { xdotool keydown "$1"; sleep 0.7; xdotool keyup "$1"; sleep 0.3; }
 
 says start 'heading 30'
+xdotool mousemove --window "$window" 160 2 click 3; says sky 'nothing there'
 xdotool windowfocus --sync "$window"
 holds w; says forward 'heading'
 holds e; says turned 'heading'
@@ -41,5 +42,8 @@ holds f; holds f; says looked-down 'heading'
 for press in 1 2 3 4; do holds Control_L; done; says sunk 'heading'
 xdotool windowsize --sync "$window" 400 200; sleep 1; says resized 'heading'
 xdotool key p; says pictured 'wrote orograph-'
+# An odd size has a pixel in its middle.
+xdotool windowsize --sync "$window" 401 201; sleep 1
+xdotool mousemove --window "$window" 200 100 click 3; says picked 'source jacksboro.tif'
 xdotool key Escape
 wait "$viewer"

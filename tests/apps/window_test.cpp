@@ -1,11 +1,13 @@
 // The window on a virtual display: a scripted person flies, jumps, takes a picture and leaves.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -37,6 +39,50 @@ std::map<std::string, Title> titles_of(const std::string& session) {
     return titles;
 }
 
+// What the viewer prints of a place that was clicked at.
+struct Picked {
+    double lat_deg{}, lon_deg{}, H_m{}, h_m{}, distance_m{}, bearing_deg{};
+    int row{}, column{};
+    std::string source;
+};
+
+std::optional<Picked> picked_of(const std::string& line) {
+    Picked place;
+    std::array<char, 100> source{};
+    const int read = std::sscanf(
+        line.c_str(),
+        "%lf° %lf°  H %lf m  h %lf m  distance %lf m  bearing %lf°  row %d column %d  source %99s",
+        &place.lat_deg, &place.lon_deg, &place.H_m, &place.h_m, &place.distance_m, &place.bearing_deg,
+        &place.row, &place.column, source.data());
+    if (read != 9) return std::nullopt;
+    place.source = source.data();
+    return place;
+}
+
+// Clicks at the sky and then at the picture's middle: what they tell, and that they move nothing.
+void expect_picked(const fs::path& folder, const json& destination) {
+    std::istringstream lines(oro::test::bytes_of(folder / "picked.txt"));
+    std::string sky, ground, more;
+    std::getline(lines, sky);
+    std::getline(lines, ground);
+    EXPECT_FALSE(std::getline(lines, more)) << more;
+    EXPECT_EQ(sky, "nothing there: the sight line meets no ground of this region");
+    const std::optional<Picked> place = picked_of(ground);
+    ASSERT_TRUE(place) << ground;
+    ASSERT_TRUE(destination.is_object()) << destination;
+    const auto said = [&](const char* name) { return destination.at(name).get<double>(); };
+    // The same sight line: half of the last digit printed.
+    EXPECT_NEAR(place->lat_deg, said("lat_deg"), 0.51e-6);
+    EXPECT_NEAR(place->lon_deg, said("lon_deg"), 0.51e-6);
+    EXPECT_NEAR(place->H_m, said("H_m"), 0.0051);
+    EXPECT_NEAR(place->h_m, said("h_m"), 0.0051);
+    EXPECT_NEAR(place->distance_m, said("seen_distance_m"), 0.0051);
+    EXPECT_NEAR(place->bearing_deg, said("bearing_deg"), 0.0051);
+    EXPECT_EQ(json({{"row", place->row}, {"column", place->column}}), destination.at("cell"));
+    EXPECT_EQ(place->source, "jacksboro.tif");
+    EXPECT_TRUE(destination.at("source").get<std::string>().ends_with("/jacksboro.tif")) << destination;
+}
+
 json object_of(const oro::test::Outcome& outcome) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return json::parse(outcome.out, nullptr, false);
@@ -53,11 +99,14 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
         there);
     ASSERT_EQ(session.exit_code, 0) << session.out << session.err;
     auto at = titles_of(session.out);
-    for (const char* stop : {"start", "forward", "turned", "dragged", "risen", "jumped", "sunk", "pictured"})
+    for (const char* stop :
+         {"start", "sky", "forward", "turned", "dragged", "risen", "jumped", "sunk", "pictured", "picked"})
         ASSERT_TRUE(at[stop].read) << stop << " in\n" << session.out;
 
     EXPECT_NEAR(at["start"].lat_deg, 36.6, 1e-6);
     EXPECT_NEAR(at["start"].lon_deg, -84.2, 1e-6);
+    EXPECT_EQ(at["sky"].lat_deg, at["start"].lat_deg);
+    EXPECT_EQ(at["sky"].heading_deg, at["start"].heading_deg);
     // W goes where the eye looks: north and east in the proportion of heading 30, give or take the title's
     // digits.
     const double north = at["forward"].lat_deg - at["start"].lat_deg;
@@ -91,8 +140,9 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
     EXPECT_EQ(tags["ImageWidth"], 400);
     EXPECT_EQ(tags["ImageHeight"], 200);
     const auto again =
-        oro::test::run_orograph({"shot", "--view", picture, "--out", folder / "again.png", "-q"});
+        oro::test::run_orograph({"shot", "--view", picture, "--out", folder / "again.png", "--json", "-q"});
     EXPECT_EQ(again.exit_code, 0) << again.err;
+    expect_picked(folder, object_of(again).at("destination"));
     EXPECT_TRUE(oro::test::bytes_of(folder / "again.png") == oro::test::bytes_of(picture));
 }
 
