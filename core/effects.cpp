@@ -1,6 +1,7 @@
 #include "core/effects.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -233,15 +234,36 @@ EffectSize EffectPrediction::in_float32(Precision precision, bool backwards) con
         return glm::dvec3(turned + translation) * view_from_ecef_;
     };
     return displaced(samples_, [&](const Sample& sample) {
-        const double down = grid.lat.index_at(sample.point.lat_deg) - sample.row;
-        const double right = grid.column_at(sample.point.lon_deg) - sample.column;
-        const double north_west = 1.0 - std::max(down, right), south_east = std::min(down, right);
-        const glm::dvec3 corner = offset_m(sample.row + (sample.south_west ? 1 : 0),
-                                           sample.column + (sample.south_west ? 0 : 1), sample.point.h_m);
-        const glm::dvec3 offset = north_west * offset_m(sample.row, sample.column, sample.point.h_m) +
-                                  south_east * offset_m(sample.row + 1, sample.column + 1, sample.point.h_m) +
-                                  (1.0 - north_west - south_east) * corner;
+        glm::dvec3 offset(0.0);
+        for (const PostShare& post : shares_of(sample))
+            offset += post.share * offset_m(post.row, post.column, sample.point.h_m);
         return std::optional(sight_.refraction.apparent_m(offset));
+    });
+}
+
+// The posts of a sample's triangle, and how much each counts there.
+std::array<EffectPrediction::PostShare, 3> EffectPrediction::shares_of(const Sample& sample) const {
+    const PostGrid& grid = surface_.field().grid;
+    const double down = grid.lat.index_at(sample.point.lat_deg) - sample.row;
+    const double right = grid.column_at(sample.point.lon_deg) - sample.column;
+    const double north_west = 1.0 - std::max(down, right), south_east = std::min(down, right);
+    return {{{sample.row, sample.column, north_west},
+             {sample.row + 1, sample.column + 1, south_east},
+             {sample.row + (sample.south_west ? 1 : 0), sample.column + (sample.south_west ? 0 : 1),
+              1.0 - north_west - south_east}}};
+}
+
+// Rounding of heights is no chance either: whole metres of H have all the same rest where N hardly changes.
+EffectSize EffectPrediction::in_sixteen_bits() const {
+    const auto off_m = [&](int row, int column) {
+        const double h_m = surface_.post_h_m(row, column).value_or(0.0);
+        return world_.sixteen.steps(world_.sixteen.code(height_steps(h_m))) * height_step_m - h_m;
+    };
+    return displaced(samples_, [&](const Sample& sample) {
+        Geodetic point = sample.point;
+        for (const PostShare& post : shares_of(sample))
+            point.h_m += post.share * off_m(post.row, post.column);
+        return std::optional(sight_.refraction.apparent_m(ecef_from_geodetic(point).m - sight_.eye.m));
     });
 }
 
@@ -314,7 +336,7 @@ Result<std::optional<EffectSize>> EffectPrediction::new_size(EffectKind kind, do
         case EffectKind::steps_f32:
             return Size(bounded([](const Sample&) { return 0.5 * height_step_m; }));
         case EffectKind::steps_i16:
-            return Size(bounded([&](const Sample&) { return world_.sixteen.error_m(); }));
+            return Size(in_sixteen_bits());
         case EffectKind::detail: {
             ORO_TRY(const EffectSize size, detail(tau_px));
             return Size(size);
@@ -328,10 +350,10 @@ Result<std::optional<EffectSize>> EffectPrediction::new_size(EffectKind kind, do
             return Size(bounded([&](const Sample& sample) {
                 return 4.0 * float_rounding * sample.distance_m * steep(sample);
             }));
-        // A corner moves by half a step along each axis.
+        // Two corners of a triangle may move apart by a step along each axis.
         case EffectKind::pixel_grid:
             return Size(bounded([&](const Sample& sample) {
-                return std::sqrt(0.5) / 256.0 / pixels_per_tangent_ * sample.distance_m * steep(sample);
+                return std::sqrt(2.0) / 256.0 / pixels_per_tangent_ * sample.distance_m * steep(sample);
             }));
         case EffectKind::flat_cells: {
             const PostGrid& grid = surface_.field().grid;

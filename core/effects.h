@@ -2,6 +2,7 @@
 // before anything is drawn.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -110,6 +111,13 @@ class EffectPrediction {
     [[nodiscard]] EffectSize displaced(const std::vector<Sample>& samples, const Displacement& drawn) const;
     [[nodiscard]] EffectSize bounded(const Bound& height_m) const;
     [[nodiscard]] double vertical_px(const Sample& sample, double height_m) const;
+    struct PostShare {
+        int row;
+        int column;
+        double share;
+    };
+    [[nodiscard]] std::array<PostShare, 3> shares_of(const Sample& sample) const;
+    [[nodiscard]] EffectSize in_sixteen_bits() const;
     [[nodiscard]] EffectSize in_float32(Precision precision, bool backwards) const;
     [[nodiscard]] Result<EffectSize> detail(double tau_px) const;
     [[nodiscard]] Result<std::optional<EffectSize>> new_size(EffectKind kind, double tau_px) const;

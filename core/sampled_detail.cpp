@@ -32,7 +32,7 @@ Result<const SampledDetail::Page*> SampledDetail::page(const PageIndex& index) {
     return static_cast<const Page*>(kept.get());
 }
 
-Result<SampledDetail::Bound> SampledDetail::at(int row, int column) {
+Result<SampledDetail::Bound> SampledDetail::node_at(int row, int column) {
     constexpr int quads = static_cast<int>(gpu::page_quads), side = static_cast<int>(gpu::meshlets_per_side);
     for (int level = pages_.levels() - 1; level > 0; --level) {
         const int quad_row = row >> level, quad_column = column >> level;
@@ -53,6 +53,32 @@ Result<SampledDetail::Bound> SampledDetail::at(int row, int column) {
                                                         view_.pixels_per_tangent, view_.corner_tangent))};
     }
     return Bound{};
+}
+
+// Along its rim a node's triangles go to the posts of a coarser one beside it: what is off there, is off
+// here.
+Result<SampledDetail::Bound> SampledDetail::at(int row, int column) {
+    constexpr int side = static_cast<int>(gpu::meshlet_quads);
+    ORO_TRY(Bound worst, node_at(row, column));
+    const PostGrid& grid = pages_.facts().grid;
+    const int quad_row = (row >> worst.level) % side, quad_column = (column >> worst.level) % side;
+    const int step = 1 << worst.level;
+    const auto beside = [&](int down, int right) -> Result<void> {
+        const int beside_row = row + down * step, beside_column = column + right * step;
+        if (beside_row < 0 || beside_column < 0 || beside_row >= grid.rows() - 1 ||
+            beside_column >= grid.columns() - 1)
+            return {};
+        ORO_TRY(const Bound there, node_at(beside_row, beside_column));
+        if (there.level <= worst.level) return {};
+        worst.error_m = std::max(worst.error_m, there.error_m);
+        worst.error_px = std::max(worst.error_px, there.error_px);
+        return {};
+    };
+    if (quad_row == 0) ORO_CHECK(beside(-1, 0));
+    if (quad_row == side - 1) ORO_CHECK(beside(1, 0));
+    if (quad_column == 0) ORO_CHECK(beside(0, -1));
+    if (quad_column == side - 1) ORO_CHECK(beside(0, 1));
+    return worst;
 }
 
 }  // namespace oro

@@ -18,7 +18,8 @@ class SampledDetail {
     SampledDetail(const RegionPages& pages, const Camera& camera, double tau_px);
     ~SampledDetail();
 
-    // Bounds of the node that is drawn over a cell of the region; 0 at full resolution.
+    // Bounds of the node that is drawn over a cell of the region, and of coarser ones beside it, whose edges
+    // it takes on; 0 at full resolution.
     struct Bound {
         int level{};
         double error_m{};
@@ -30,6 +31,7 @@ class SampledDetail {
   private:
     struct Page;
     Result<const Page*> page(const PageIndex& index);
+    Result<Bound> node_at(int row, int column);
 
     const RegionPages& pages_;
     LevelView view_;
