@@ -33,9 +33,12 @@ struct EffectScene {
     }
 };
 
-// Sea level on the equator, 0 to 1 degree east.
+// One height on the equator, 0 to 1 degree east.
+inline HeightField level_at(double H_m) {
+    return test::world_field(1200.0, 120, 0, 241, 1201, [&](double, double) { return H_m; });
+}
 inline HeightField sea_level() {
-    return test::world_field(1200.0, 120, 0, 241, 1201, [](double, double) { return 0.0; });
+    return level_at(0.0);
 }
 
 // N over the equator, 0 to 2 degrees east.

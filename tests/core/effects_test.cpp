@@ -95,14 +95,16 @@ TEST(Effects, GeoidThatIsTheSameEverywhere) {
     EXPECT_LT(scene.size(EffectKind::geoid).worst_px, 1.0e-4);
 }
 
-// 16 bits with a step of 2^11 / 2,048 m = 1 m: half of it. 1.207107 * 0.5 / 2,000 = 3.01777e-4 px.
-// Steps of 1 / 2,048 m: half of one is 0.000244 m.
+// 16 bits with a step of 2^11 / 2,048 m = 1 m: what a height is off them. 1.207107 * 0.25 / 2,000
+// = 1.50889e-4 px. Steps of 1 / 2,048 m: half of one is 0.000244 m.
 TEST(Effects, StepsOfHeights) {
     TrueWorld world;
     world.sixteen = {true, 11, 0};
-    const Scene scene(sea_level(), half_way_down(), world);
-    EXPECT_NEAR(scene.prediction.nearest_m(), 1414.3, 0.3);
-    expect_size(scene.size(EffectKind::steps_i16), 0.5, 0.5, 3.01777e-4, 3.01777e-4, nearer, 0.001);
+    // 0.25 m goes to the step of 0 m: 0.25 m off, everywhere.
+    const Scene scene(test::level_at(0.25), half_way_down(), world);
+    EXPECT_NEAR(scene.prediction.nearest_m(), 1414.0, 0.3);
+    expect_size(scene.size(EffectKind::steps_i16), 0.25, 0.25, 1.50889e-4, 1.50889e-4, between_samples,
+                0.001);
     expect_size(scene.size(EffectKind::steps_f32), 0.000244141, 0.000244141, 1.47352e-7, 1.47352e-7, nearer,
                 0.001);
     EXPECT_NEAR(scene.size(EffectKind::steps_f32).typical_m, 0.000244140625, 1e-15);
@@ -114,21 +116,24 @@ TEST(Effects, SixteenBitsOfAKnownRange) {
     TrueWorld world;
     world.sixteen = sixteen_bits(height_steps(0.0), height_steps(4000.0));
     ASSERT_EQ(world.sixteen.shift, 7);
-    const Scene scene(sea_level(), half_way_down(), world);
-    EXPECT_NEAR(scene.size(EffectKind::steps_i16).typical_m, 0.03125, 1e-12);
+    // 0.02 m goes to 0, 0.05 m to 0.0625.
+    const Scene low(test::level_at(0.02), half_way_down(), world),
+        high(test::level_at(0.05), half_way_down(), world);
+    EXPECT_NEAR(low.size(EffectKind::steps_i16).typical_m, 0.02, 1e-8);
+    EXPECT_NEAR(high.size(EffectKind::steps_i16).typical_m, 0.0125, 1e-8);
 }
 
-// 3.2e-7 of 1,414.3 m (docs/ARCHITECTURE.md, Placement); 4 * 2^-24 of it; and half a 256th of a pixel along
-// each axis: sqrt(1/2) / 256 / 1.207107 of it.
+// 3.2e-7 of 1,414.3 m (docs/ARCHITECTURE.md, Placement); 4 * 2^-24 of it; and a 256th of a pixel along
+// each axis: sqrt(2) / 256 / 1.207107 of it.
 TEST(Effects, RoundingWithTheDistance) {
     const Scene scene(sea_level(), half_way_down());
     const auto share_px = [](double height_m) { return 1.207107 * height_m / 2000.0; };
     for (const auto& [kind, typical_m] :
          {std::pair(EffectKind::placement, 4.5258e-4), std::pair(EffectKind::depth, 3.3720e-4),
-          std::pair(EffectKind::pixel_grid, 3.23625)}) {
-        // Pixels of a height of metres are not in proportion to it: 0.3 %.
+          std::pair(EffectKind::pixel_grid, 6.47250)}) {
+        // Pixels of a height of metres are not in proportion to it: 0.6 %.
         expect_size(scene.size(kind), typical_m, typical_m, share_px(typical_m), share_px(typical_m), nearer,
-                    0.003);
+                    0.006);
     }
 }
 
