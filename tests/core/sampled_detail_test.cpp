@@ -53,8 +53,9 @@ void compare(const Region& region, const RegionPages& pages, const Camera& camer
                                                   .node(node.row, node.column)
                                                   .error_m);
                 // On a rim that of a coarser one beside it, if there is one.
-                const bool rim = row == first_row || row + (1 << node.level) > last_row ||
-                                 column == first_column || column + (1 << node.level) > last_column;
+                const int quad = 1 << node.level;
+                const bool rim = row < first_row + quad || row >= first_row + cells - quad ||
+                                 column < first_column + quad || column >= first_column + cells - quad;
                 if (rim) {
                     ASSERT_GE(at.error_m, error_m);
                 } else {
