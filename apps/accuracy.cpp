@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "core/parallel.h"
 
@@ -34,14 +35,26 @@ std::optional<double> stated_le90_m(const Region& region) {
     return std::nullopt;
 }
 
+// With its options written out.
+AccuracyBundle bundle_of(const char* name, double tau_px, HeightStorage heights, double refraction_k) {
+    char text[100];
+    std::snprintf(text, sizeof text, "--tau %g --heights %s --refraction %g", tau_px,
+                  heights == HeightStorage::i16 ? "i16" : "f32", refraction_k);
+    return {name, tau_px, heights, refraction_k, text};
+}
+
+bool is_as(const View& view, const AccuracyBundle& bundle) {
+    return view.tau_px == bundle.tau_px && view.heights == bundle.heights &&
+           view.model.refraction_k == bundle.refraction_k;
+}
+
 }  // namespace
 
 const std::vector<AccuracyBundle>& accuracy_bundles() {
     static const std::vector<AccuracyBundle> bundles{
-        {"draft", 4.0, HeightStorage::i16, 0.0, "--tau 4 --heights i16 --refraction 0"},
-        {"balanced", 0.5, HeightStorage::f32, usual_refraction_k,
-         "--tau 0.5 --heights f32 --refraction 0.13"},
-        {"survey", 0.0, HeightStorage::f32, usual_refraction_k, "--tau 0 --heights f32 --refraction 0.13"}};
+        bundle_of("draft", 4.0, HeightStorage::i16, 0.0),
+        bundle_of("balanced", 0.5, HeightStorage::f32, usual_refraction_k),
+        bundle_of("survey", 0.0, HeightStorage::f32, usual_refraction_k)};
     return bundles;
 }
 
@@ -57,6 +70,11 @@ void apply_bundle(const AccuracyBundle& bundle, View& view) {
     view.heights = bundle.heights;
     view.model.refraction_k = bundle.refraction_k;
     view.accuracy = bundle.name;
+}
+
+void forget_other_bundle(View& view) {
+    const Result<AccuracyBundle> named = accuracy_bundle(view.accuracy);
+    if (!named.ok() || !is_as(view, *named)) view.accuracy.clear();
 }
 
 Result<double> parse_tolerance(const std::string& text) {
@@ -119,13 +137,20 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueSurfa
 }
 
 Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueSurface& truth,
-                                       const RegionPages& pages, double tolerance_px) {
+                                       const RegionPages& pages, double tolerance_px,
+                                       const FixedAccuracy& fixed) {
+    const auto with_fixed = [&](const AccuracyBundle& bundle) {
+        return bundle_of(bundle.name, fixed.tau_px.value_or(bundle.tau_px),
+                         fixed.heights.value_or(bundle.heights),
+                         fixed.refraction_k.value_or(bundle.refraction_k));
+    };
     View with = view;
-    apply_bundle(accuracy_bundles().back(), with);
+    apply_bundle(with_fixed(accuracy_bundles().back()), with);
     ORO_TRY(const TrueWorld world, true_world(with, region, pages));
     const EffectPrediction prediction(truth, pages, true_camera(view, region), world, thread_count());
     AccuracyChoice choice{accuracy_bundles().back(), tolerance_px, 0.0, false};
-    for (const AccuracyBundle& bundle : accuracy_bundles()) {
+    for (const AccuracyBundle& each : accuracy_bundles()) {
+        const AccuracyBundle bundle = with_fixed(each);
         apply_bundle(bundle, with);
         ORO_TRY(const EffectSize total, prediction.total(drawing_model(with, world)));
         choice.bundle = bundle;

@@ -19,13 +19,15 @@ struct AccuracyBundle {
     double tau_px;
     HeightStorage heights;
     double refraction_k;
-    const char* options;  // the same, as one would write them out
+    std::string options{};  // the same, as one would write them out
 };
 // draft, balanced, survey: the cheapest first.
 const std::vector<AccuracyBundle>& accuracy_bundles();
 // Usage errors: no such bundle.
 Result<AccuracyBundle> accuracy_bundle(const std::string& name);
 void apply_bundle(const AccuracyBundle& bundle, View& view);
+// Takes the bundle's name out of a view that has become another than what the name stands for.
+void forget_other_bundle(View& view);
 
 // "1px", "0.5 px" or "1": pixels, 0.001 to 1000. Usage errors for anything else.
 Result<double> parse_tolerance(const std::string& text);
@@ -60,14 +62,22 @@ DrawingModel drawing_model(const View& view, const TrueWorld& world);
 Result<Budget> plan_view(const View& view, const Region& region, const TrueSurface& truth,
                          const RegionPages& pages, double tolerance_px);
 
+// What single options fix, whatever a bundle says.
+struct FixedAccuracy {
+    std::optional<double> tau_px;
+    std::optional<HeightStorage> heights;
+    std::optional<double> refraction_k;
+};
+
 // The cheapest bundle whose whole predicted error stays within a tolerance.
 struct AccuracyChoice {
-    AccuracyBundle bundle;
+    AccuracyBundle bundle;  // with what is fixed
     double tolerance_px{};
     double predicted_px{};  // of the chosen one
     bool holds{};           // false: not even survey does, and it was taken
 };
 Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueSurface& truth,
-                                       const RegionPages& pages, double tolerance_px);
+                                       const RegionPages& pages, double tolerance_px,
+                                       const FixedAccuracy& fixed = {});
 
 }  // namespace oro

@@ -127,6 +127,16 @@ void add_doctor(CLI::App& app, oro::DoctorOptions& options) {
     command.add_flag("--json", options.json, "Print one JSON object on standard output");
 }
 
+// `--tau "$TAU"` with nothing in TAU must not mean that there is no --tau.
+void refuse_empty_values(CLI::App& app) {
+    const auto fault = [](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); };
+    for (CLI::App* command : app.get_subcommands({})) {
+        for (CLI::Option* option : command->get_options()) {
+            if (option->get_items_expected_max() > 0) option->check(fault);
+        }
+    }
+}
+
 int told(const oro::Error& error) {
     std::fprintf(stderr, "orograph: %s\n", error.line().c_str());
     return static_cast<int>(error.kind);
@@ -188,6 +198,7 @@ int main(int argc, char** argv) {
     add_bake(app, bake);
     add_info(app, info);
     add_doctor(app, doctor);
+    refuse_empty_values(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -5,11 +5,6 @@
 namespace oro {
 namespace {
 
-// `--bbox "$BOX"` with nothing in BOX must not mean the whole region.
-std::string fault_if_empty(const std::string& text) {
-    return text.empty() ? "is empty" : "";
-}
-
 // What of the world is modelled, and how exactly.
 void add_model_options(CLI::App& command, ViewOptions& options) {
     command
@@ -41,10 +36,8 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
                        "Elevation data: files, folders, .zip, .gz; what GDAL opens and .hgt; or one .oro");
     CLI::Option* bbox = command.add_option(
         "--bbox", options.bbox, "Region as west,south,east,north in degrees; west > east crosses 180");
-    bbox->check(fault_if_empty);
     command
         .add_option("--tile", options.tile, "Region as a cell N46E008 or a range of cells N46E006:N47E010")
-        ->check(fault_if_empty)
         ->excludes(bbox);
     command.add_option("--height-unit", options.height_unit, "Unit of the heights, over what the files say")
         ->check(CLI::IsMember({"m", "ft", "us-ft", "cm"}));

@@ -138,7 +138,7 @@ Result<void> run_plan(const PlanOptions& options) {
     if (!budget.empty)
         std::printf("\ncheapest that %s %g px: --accuracy %s (%s), predicted %s px\n",
                     choice.holds ? "holds" : "comes near", tolerance_px, choice.bundle.name,
-                    choice.bundle.options, figure(choice.predicted_px).c_str());
+                    choice.bundle.options.c_str(), figure(choice.predicted_px).c_str());
     return {};
 }
 

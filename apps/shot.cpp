@@ -142,13 +142,13 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["tau_px"] = shot.view.tau_px;
     json["models"] = models_json(shot.view);
     json["accuracy"] = nullptr;
-    if (!shot.view.accuracy.empty()) json["accuracy"] = {{"bundle", shot.view.accuracy}};
+    if (shot.choice) json["accuracy"]["bundle"] = nullptr;
+    if (!shot.view.accuracy.empty()) json["accuracy"]["bundle"] = shot.view.accuracy;
     if (const auto& choice = shot.choice)
-        json["accuracy"] = {{"bundle", choice->bundle.name},
-                            {"options", choice->bundle.options},
-                            {"tolerance_px", choice->tolerance_px},
-                            {"predicted_px", choice->predicted_px},
-                            {"holds", choice->holds}};
+        json["accuracy"].update({{"options", choice->bundle.options},
+                                 {"tolerance_px", choice->tolerance_px},
+                                 {"predicted_px", choice->predicted_px},
+                                 {"holds", choice->holds}});
     json["models"]["height_step_m"] = shot.height_step_m;
     json["settled"] = counts.settled;
     json["tiles"] = shot.picture.tiles;
@@ -213,15 +213,17 @@ Result<void> verify_shot(const ShotOptions& options, const PictureFiles& files, 
 Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages, ShotResult& shot) {
     ORO_TRY(const double tolerance_px, parse_tolerance(*options.view.tolerance));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
-    ORO_TRY(shot.choice, choose_accuracy(shot.view, shot.region, truth->surface(), pages, tolerance_px));
+    FixedAccuracy fixed;
+    if (options.view.tau_px) fixed.tau_px = shot.view.tau_px;
+    if (options.view.heights) fixed.heights = shot.view.heights;
+    if (options.view.refraction_k) fixed.refraction_k = shot.view.model.refraction_k;
+    ORO_TRY(shot.choice,
+            choose_accuracy(shot.view, shot.region, truth->surface(), pages, tolerance_px, fixed));
     apply_bundle(shot.choice->bundle, shot.view);
-    ViewOptions single;
-    single.tau_px = options.view.tau_px;
-    single.heights = options.view.heights;
-    single.refraction_k = options.view.refraction_k;
-    ORO_CHECK(change_view(shot.view, single));
-    char text[160];
-    std::snprintf(text, sizeof text, "accuracy: %s, predicted error %.3g px%s", shot.choice->bundle.name,
+    forget_other_bundle(shot.view);
+    const std::string& chosen = shot.view.accuracy.empty() ? shot.choice->bundle.options : shot.view.accuracy;
+    char text[240];
+    std::snprintf(text, sizeof text, "accuracy: %s, predicted error %.3g px%s", chosen.c_str(),
                   shot.choice->predicted_px,
                   shot.choice->holds ? "" : ": more than the tolerance, and nothing here comes nearer");
     say(options.quiet, text);

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "apps/accuracy.h"
 #include "apps/json_fields.h"
 #include "apps/json_text.h"
 #include "apps/model_names.h"
@@ -86,8 +87,12 @@ View read_fields(const nlohmann::json& json) {
     // Nor have they a tau: they were drawn at full resolution.
     view.tau_px = json.contains("tau_px") ? json_number(json, "tau_px", 0, 1000) : 0.0;
     read_models(json, view);
-    // The bundle's name alone: what it stood for is in the fields themselves.
+    // The bundle's name alone: what it stood for is in the fields themselves, which somebody may have
+    // changed.
     if (json.contains("accuracy")) view.accuracy = json_string(json, "accuracy");
+    if (!view.accuracy.empty() && !accuracy_bundle(view.accuracy).ok())
+        throw JsonFault{"'accuracy' is '" + view.accuracy + "', none of draft, balanced, survey"};
+    forget_other_bundle(view);
     view.time_utc_s = json_whole(json, "time_utc_s", first_second, last_second);
     return view;
 }

@@ -26,7 +26,11 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     ORO_TRY(region, open_region(view.region, progress));
     if (!view.has_geoid) leave_geoid_out(region);
-    return place_eye(view, view_options, region);
+    const Result<void> placed = place_eye(view, view_options, region);
+    // A page that cannot be read is void until somebody asks why.
+    if (!placed.ok() && placed.error().kind == ErrorKind::no_data && region.file)
+        ORO_CHECK(region.file->verify());
+    return placed;
 }
 
 }  // namespace oro

@@ -74,8 +74,6 @@ Result<void> apply_models(View& view, const ViewOptions& options) {
     if (options.accuracy) {
         ORO_TRY(const AccuracyBundle bundle, accuracy_bundle(*options.accuracy));
         apply_bundle(bundle, view);
-    } else if (options.tau_px || options.heights || options.refraction_k) {
-        view.accuracy.clear();
     }
     if (options.earth) {
         ORO_TRY(view.model.earth, earth_named(*options.earth));
@@ -115,6 +113,7 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.tau_px) {
         ORO_TRY(view.tau_px, within("--tau", *options.tau_px, 0.0, 1000.0));
     }
+    forget_other_bundle(view);
     if (options.time) {
         ORO_TRY(view.time_utc_s, parse_time(*options.time));
     }

@@ -1,0 +1,156 @@
+// `trade` as users run it: its files, and what it refuses before it draws anything.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using oro::test::bytes_of;
+using oro::test::Circumstances;
+using oro::test::expect_refusal;
+using oro::test::names_in;
+using oro::test::Outcome;
+using oro::test::run_orograph;
+using oro::test::write_bytes;
+using Words = std::vector<std::string>;
+
+constexpr int failed = 1, usage = 2;
+
+std::string bundled() {
+    return (oro::test::bundled_data() / "jacksboro.tif").string();
+}
+
+class TradeCommand : public testing::Test {
+  protected:
+    const fs::path folder = oro::test::scratch_folder();
+
+    Outcome trade(const Words& more) const {
+        Words words{"trade", bundled(), "--repeats", "1", "--out", folder.string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_orograph(words);
+    }
+};
+
+// Lines of a CSV file, each split at commas that stand outside of quotes.
+std::vector<Words> table_of(const std::string& csv) {
+    std::vector<Words> table(1, Words(1));
+    bool quoted = false;
+    for (const char c : csv) {
+        if (c == '"') quoted = !quoted;
+        if (quoted || (c != ',' && c != '\r' && c != '\n')) {
+            table.back().back() += c;
+        } else if (c == ',') {
+            table.back().emplace_back();
+        } else if (c == '\n') {
+            table.emplace_back(1);
+        }
+    }
+    table.pop_back();
+    return table;
+}
+
+void expect_numbers(const Words& header, const Words& row) {
+    ASSERT_EQ(row.size(), header.size());
+    for (std::size_t i = 2; i < row.size(); ++i)
+        EXPECT_EQ(row[i].find_first_not_of("0123456789.e+-"), std::string::npos)
+            << header[i] << " " << row[i];
+}
+
+TEST_F(TradeCommand, WritesATableAndAPage) {
+    const Outcome outcome = trade({"--views", "2", "--size", "96x54"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(names_in(folder), (Words{"trade.csv", "trade.html"}));
+    EXPECT_NE(outcome.err.find("trade.html"), std::string::npos) << outcome.err;
+    const std::vector<Words> table = table_of(bytes_of(folder / "trade.csv"));
+    EXPECT_EQ(table[0][0], "view");
+    EXPECT_EQ(table[0][1], "setting");
+    std::set<std::string> views, settings;
+    for (std::size_t i = 1; i < table.size(); ++i) {
+        expect_numbers(table[0], table[i]);
+        views.insert(table[i][0]);
+        settings.insert(table[i][1]);
+    }
+    EXPECT_EQ(views.size(), 2U);
+    EXPECT_EQ(table.size() - 1, views.size() * settings.size());
+    const std::string page = bytes_of(folder / "trade.html");
+    for (const char* setting :
+         {"full detail", "tau 0.5", "tau 1", "tau 2", "tau 4", "no geoid", "sphere", "flat", "no refraction",
+          "naive float32", "16-bit heights", "draft", "balanced", "survey"}) {
+        EXPECT_TRUE(settings.contains(setting)) << setting;
+        EXPECT_NE(outcome.out.find(setting), std::string::npos) << setting << " in\n" << outcome.out;
+        EXPECT_NE(page.find(setting), std::string::npos) << setting;
+    }
+    EXPECT_NE(outcome.out.find("Pareto front"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("96 x 54 px"), std::string::npos) << outcome.out;
+    EXPECT_EQ(page.find("NaN"), std::string::npos);
+    for (const char* elsewhere : {"src=\"http", "href=\"http", "url(http", "@import"})
+        EXPECT_EQ(page.find(elsewhere), std::string::npos) << elsewhere;
+    EXPECT_NE(page.find("--views 2 --size 96x54"), std::string::npos) << "the command that made it";
+}
+
+TEST_F(TradeCommand, AViewOfTheSkyHasNoErrorsToTell) {
+    const Outcome outcome =
+        trade({"-q", "--at", "36.6,-84.2", "--above", "300", "--pitch", "90", "--size", "16x9"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_NE(outcome.out.find("n/a"), std::string::npos) << outcome.out;
+    const std::vector<Words> table = table_of(bytes_of(folder / "trade.csv"));
+    ASSERT_GT(table.size(), 10U);
+    for (std::size_t i = 1; i < table.size(); ++i) expect_numbers(table[0], table[i]);
+    EXPECT_EQ(bytes_of(folder / "trade.html").find("nan"), std::string::npos);
+}
+
+TEST_F(TradeCommand, ReplacesOnlyWhenTold) {
+    for (const char* name : {"trade.csv", "trade.html"}) {
+        SCOPED_TRACE(name);
+        write_bytes(folder / name, "mine");
+        expect_refusal(trade({"--size", "16x9", "--views", "1"}), failed, {name, "--overwrite"});
+        EXPECT_EQ(bytes_of(folder / name), "mine");
+        EXPECT_EQ(names_in(folder), Words{name}) << "refused before anything was written";
+        fs::remove(folder / name);
+    }
+    write_bytes(folder / "trade.csv", "mine");
+    const Outcome outcome = trade({"--size", "16x9", "--views", "1", "--overwrite", "-q"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(bytes_of(folder / "trade.csv").rfind("view,setting,", 0), 0U);
+    EXPECT_EQ(names_in(folder), (Words{"trade.csv", "trade.html"}));
+}
+
+TEST_F(TradeCommand, FoldersThatAreNone) {
+    write_bytes(folder / "file", "mine");
+    for (const fs::path& out : {folder / "missing", folder / "file", fs::path("/dev/null")})
+        expect_refusal(run_orograph({"trade", bundled(), "--out", out}), failed, {out, "is no folder"});
+    expect_refusal(run_orograph({"trade", bundled(), "--out", ""}), usage, {"--out"});
+    ASSERT_TRUE(oro::test::permissions_bind()) << "this process cannot be made to heed permissions";
+    Circumstances bound;
+    bound.bound_by_permissions = true;
+    fs::create_directory(folder / "locked");
+    fs::permissions(folder / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+    expect_refusal(run_orograph({"trade", bundled(), "--out", folder / "locked"}, bound), failed,
+                   {"locked", "ermission"});
+    EXPECT_EQ(bytes_of(folder / "file"), "mine");
+}
+
+TEST_F(TradeCommand, RefusesWhatItTriesItself) {
+    const std::vector<Words> own{{"--tau", "1"},          {"--earth", "flat"},   {"--refraction", "0.1"},
+                                 {"--geoid", "none"},     {"--heights", "i16"},  {"--precision", "naive"},
+                                 {"--accuracy", "draft"}, {"--tolerance", "1px"}};
+    for (const Words& option : own) expect_refusal(trade(option), usage, {"trade", option[0]});
+    for (const Words& bad :
+         {Words{"--views", "0"}, Words{"--views", "-1"}, Words{"--views", "1001"}, Words{"--views", "nan"},
+          Words{"--views", "1.5"}, Words{"--views", ""}, Words{"--size", "0x0"}})
+        expect_refusal(trade(bad), usage, {bad[0]});
+    expect_refusal(run_orograph({"trade", bundled(), "--repeats", "0"}), usage, {"--repeats"});
+    expect_refusal(run_orograph({"trade", "--out", folder}), usage, {"PATH"});
+    EXPECT_EQ(names_in(folder), Words{});
+}
+
+}  // namespace
