@@ -1,4 +1,5 @@
-// orograph compare: how far a picture's view is from the truth, without drawing the picture again.
+// orograph compare: how far the picture of a view is from the truth: drawn again with depths, measured, and
+// not written.
 #include <cstdio>
 #include <filesystem>
 #include <memory>

@@ -78,15 +78,12 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
         "--tau", options.tau_px,
         "Largest error of what is drawn, pixels (default 1, in a window 0.5; 0: every post that there is)");
     add_model_options(command, options);
-    CLI::Option* accuracy =
-        command
-            .add_option("--accuracy", options.accuracy,
-                        "A bundle of --tau, --heights and --refraction; single ones win over it")
-            ->check(CLI::IsMember({"draft", "balanced", "survey"}));
     command
-        .add_option("--tolerance", options.tolerance,
-                    "Largest error on the picture, e.g. 1px: takes the cheapest bundle that holds it")
-        ->excludes(accuracy);
+        .add_option("--accuracy", options.accuracy,
+                    "A bundle of --tau, --heights and --refraction; single ones win over it")
+        ->check(CLI::IsMember({"draft", "balanced", "survey"}));
+    command.add_option("--tolerance", options.tolerance,
+                       "Largest error on the picture, e.g. 1px: takes the cheapest bundle that holds it");
     command.add_option("--time", options.time,
                        "The picture's time, e.g. 2026-11-21T09:00:00Z (default: now)");
 }

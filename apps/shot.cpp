@@ -233,7 +233,11 @@ Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages,
 // `told` are the files that messages and --json name: those of a check are in a scratch folder and soon gone.
 Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, const PictureFiles& told) {
     ORO_CHECK(check_out(options, files));
-    if (options.view.tolerance) ORO_CHECK(parse_tolerance(*options.view.tolerance));
+    if (options.view.tolerance) {
+        if (options.view.accuracy)
+            return Error{ErrorKind::usage, "--tolerance", "chooses what --accuracy says: give one of them"};
+        ORO_CHECK(parse_tolerance(*options.view.tolerance));
+    }
     ProgressBar bar(options.quiet);
     ShotResult shot;
     const auto reading = Clock::now();

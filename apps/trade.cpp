@@ -36,7 +36,7 @@ std::string machine_name() {
     return name + ", " + std::to_string(std::thread::hardware_concurrency()) + " processors";
 }
 
-// "2.3 km over 46.21,8.33, heading 120, pitch -30, 45 degrees wide"
+// "2.3 km over 46.21,8.33, heading 120, pitch -30, 45 degrees high"
 std::string view_name(const Camera& camera, double ground_h_m) {
     const double above_m = camera.eye.h_m - ground_h_m;
     char text[160];
@@ -53,16 +53,11 @@ std::vector<Camera> cameras_of(const TradeOptions& options, const View& view, co
                                const TrueSurface& surface) {
     std::vector<Camera> cameras{true_camera(view, region)};
     if (options.view.at || !options.view_file.empty()) return cameras;
-    const std::vector<Camera> made = made_cameras(view_seed, surface.field(), options.views - 1,
-                                                  view.camera.width_px, view.camera.height_px);
+    const std::vector<Camera> made =
+        made_cameras(view_seed, surface.field(), options.views - 1, view.camera.width_px,
+                     view.camera.height_px, view.exaggeration);
     cameras.insert(cameras.end(), made.begin(), made.end());
     return cameras;
-}
-
-Result<void> write_text(const std::string& path, const std::string& text, bool overwrite) {
-    ORO_TRY(WholeFile file, WholeFile::create(path, overwrite));
-    ORO_CHECK(file.write(text.data(), text.size()));
-    return file.commit();
 }
 
 void describe(const TradeOptions& options, const View& view, const Gpu& gpu, RasterPath path,
@@ -105,10 +100,18 @@ Result<void> check_options(const TradeOptions& options, const std::string& csv, 
     return {};
 }
 
+// Both are on the disk before either gets its name: they belong together.
 Result<void> write_report(const TradeReport& report, const std::string& csv, const std::string& html,
                           bool overwrite) {
-    ORO_CHECK(write_text(csv, trade_csv(report), overwrite));
-    return write_text(html, trade_html(report), overwrite);
+    ORO_TRY(WholeFile table, WholeFile::create(csv, overwrite));
+    ORO_TRY(WholeFile page, WholeFile::create(html, overwrite));
+    const std::string lines = trade_csv(report), text = trade_html(report);
+    ORO_CHECK(table.write(lines.data(), lines.size()));
+    ORO_CHECK(page.write(text.data(), text.size()));
+    ORO_CHECK(table.settle());
+    ORO_CHECK(page.settle());
+    ORO_CHECK(table.commit());
+    return page.commit();
 }
 
 }  // namespace

@@ -58,6 +58,8 @@ Result<void> Trade::prepare() {
     ORO_TRY(truth_, TrueScene::of(view_, region_));
     ORO_TRY(pages_, region_pages(region_, view_.exaggeration));
     ORO_TRY(world_, true_world(view_, region_, *pages_));
+    // Whatever air the view asks for: settings are drawn in the usual one, but those that leave it out.
+    world_.refraction_k = usual_refraction_k;
     return {};
 }
 
@@ -65,6 +67,14 @@ Camera Trade::camera_of(const Camera& camera, const TradeCase& one) const {
     Camera from = camera;
     if (!one.has_geoid) from.eye.h_m -= region_.field.undulation.at_m(from.eye.lat_deg, from.eye.lon_deg);
     return from;
+}
+
+// There are three scenes at a time: as tiles have it, in 16 bits, without a geoid.
+MemoryOptions Trade::share_of_memory() const {
+    constexpr int scenes = 3, least_mb = 16;
+    MemoryOptions share = memory_;
+    if (share.gpu_memory_mb) share.gpu_memory_mb = std::max(least_mb, *share.gpu_memory_mb / scenes);
+    return share;
 }
 
 Result<Scene*> Trade::scene_of(const TradeCase& one) {
@@ -76,7 +86,7 @@ Result<Scene*> Trade::scene_of(const TradeCase& one) {
     }
     const Region& region = one.has_geoid ? region_ : *without_geoid_;
     ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(region, view_.exaggeration));
-    ORO_TRY(Scene scene, create_scene(gpu_, std::move(pages), memory_, one.heights));
+    ORO_TRY(Scene scene, create_scene(gpu_, std::move(pages), share_of_memory(), one.heights));
     return &scenes_.emplace(key, std::move(scene)).first->second;
 }
 

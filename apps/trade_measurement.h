@@ -39,6 +39,7 @@ class Trade {
 
   private:
     [[nodiscard]] Camera camera_of(const Camera& camera, const TradeCase& one) const;
+    [[nodiscard]] MemoryOptions share_of_memory() const;
     Result<Scene*> scene_of(const TradeCase& one);
     Result<TradeShot> shoot(const TradeCase& one, const Camera& camera, const Sight& sight,
                             Verification& drawn);

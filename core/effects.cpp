@@ -207,6 +207,10 @@ EffectSize EffectPrediction::on_flat_earth() const {
                      [&](const Sample& sample) { return model_offset_m(flat, camera_.eye, sample.point); });
 }
 
+double EffectPrediction::left_out_N_m(double lat_deg, double lon_deg) const {
+    return pages_.facts().undulation.N_m.empty() ? surface_.field().undulation.at_m(lat_deg, lon_deg) : 0.0;
+}
+
 EffectSize EffectPrediction::without_geoid() const {
     const UndulationField& undulation = surface_.field().undulation;
     Geodetic eye = camera_.eye;
@@ -244,7 +248,9 @@ EffectSize EffectPrediction::interpolation(int apart) const {
 }
 
 Result<EffectSize> EffectPrediction::detail(double tau_px) const {
-    SampledDetail detail(pages_, camera_, tau_px);
+    Camera drawn = camera_;
+    drawn.eye.h_m -= left_out_N_m(drawn.eye.lat_deg, drawn.eye.lon_deg);
+    SampledDetail detail(pages_, drawn, tau_px);
     Sizes sizes;
     for (const Sample& sample : samples_) {
         ORO_TRY(const SampledDetail::Bound bound, detail.at(sample.row, sample.column));

@@ -45,8 +45,11 @@ std::array<EffectPrediction::PostShare, 3> EffectPrediction::shares_of(const Sam
 
 // Rounding of heights is no chance either: whole metres of H have all the same rest where N hardly changes.
 EffectSize EffectPrediction::in_sixteen_bits() const {
+    const PostGrid& grid = surface_.field().grid;
     const auto off_m = [&](int row, int column) {
-        const double h_m = surface_.post_h_m(row, column).value_or(0.0);
+        // As it is drawn: without a geoid, if that is how pages have it.
+        const double h_m = surface_.post_h_m(row, column).value_or(0.0) -
+                           left_out_N_m(row_lat_deg(grid, row), grid.lon.at_deg(column));
         return world_.sixteen.steps(world_.sixteen.code(height_steps(h_m))) * height_step_m - h_m;
     };
     return displaced(samples_, [&](const Sample& sample) {

@@ -66,7 +66,8 @@ class Oracle::Search {
     };
 
     [[nodiscard]] Place place(double t_m, double near_column) const;
-    void search_block(const Block& block, const Span& span);
+    [[nodiscard]] Span between_meridians(const Block& block, Span span) const;
+    void search_block(const Block& block, const Span& box);
     void walk(const Block& block, const Place& from, const Place& to, int depth);
     // A piece of the line that is all but straight in rows and columns, and a parabola in height: its places
     // at shares 0, 1/2 and 1.
@@ -148,11 +149,53 @@ std::optional<SightHit> Oracle::Search::first_hit() {
     return hit_;
 }
 
-void Oracle::Search::search_block(const Block& block, const Span& span) {
-    const double end_m = std::min(span.end_m, nearest_m_);
-    if (end_m < span.begin_m) return;
+namespace {
+
+// The part of a span in which a parabola is at least -slack: all of it that lies between the first and the
+// last such place.
+Span where_positive(double at_0, double slope, double square, Span span, double slack) {
+    const auto at = [&](double t) { return at_0 + slack + t * (slope + t * square); };
+    const double discriminant = slope * slope - 4.0 * square * (at_0 + slack);
+    const bool begins = at(span.begin_m) >= 0.0, ends = at(span.end_m) >= 0.0;
+    if (begins && ends) return span;
+    if (discriminant < 0.0) return {infinite, 0.0};
+    const double q = -0.5 * (slope + std::copysign(std::sqrt(discriminant), slope));
+    double first = q != 0.0 ? (at_0 + slack) / q : 0.0, last = square != 0.0 ? q / square : first;
+    if (last < first) std::swap(first, last);
+    const auto within = [&](double t) { return t >= span.begin_m && t <= span.end_m; };
+    if (!begins) span.begin_m = within(first) ? first : within(last) ? last : infinite;
+    if (!ends) span.end_m = within(last) ? last : within(first) ? first : 0.0;
+    return span;
+}
+
+}  // namespace
+
+// Over a pole the boxes of all blocks around it hold the same places: only between its own meridians a block
+// is met.
+Span Oracle::Search::between_meridians(const Block& block, Span span) const {
+    const Sight& sight = scenery_.sight;
+    const auto& meridians = scenery_.columns;
+    const SineCosine& west = meridians[static_cast<std::size_t>(block.column)];
+    const SineCosine& east =
+        meridians[std::min(static_cast<std::size_t>(block.column) + 1, meridians.size() - 1)];
+    constexpr double too_wide_deg = 170.0;  // a wedge that is not convex
+    if (TrueSurface::block_cells * grid_.lon.spacing_deg() > too_wide_deg) return span;
+    const glm::dvec3 fall = sight.refraction.straight()
+                                ? glm::dvec3(0.0)
+                                : -sight.refraction.lift_m(direction_) * sight.refraction.up();
+    constexpr double slack_m = 1.0e-3;
+    for (const glm::dvec3& inward :
+         {glm::dvec3(-west.sine, west.cosine, 0.0), glm::dvec3(east.sine, -east.cosine, 0.0)})
+        span = where_positive(glm::dot(inward, sight.eye.m), glm::dot(inward, direction_),
+                              glm::dot(inward, fall), span, slack_m);
+    return span;
+}
+
+void Oracle::Search::search_block(const Block& block, const Span& box) {
+    const Span span = between_meridians(block, {box.begin_m, std::min(box.end_m, nearest_m_)});
+    if (!(span.begin_m <= span.end_m)) return;
     const double middle_column = (block.column + 0.5) * TrueSurface::block_cells;
-    walk(block, place(span.begin_m, middle_column), place(end_m, middle_column), 0);
+    walk(block, place(span.begin_m, middle_column), place(span.end_m, middle_column), 0);
 }
 
 // Cuts the line until it is all but straight in rows and columns.

@@ -14,11 +14,12 @@ namespace oro {
 // from straight down to above the level (but not at the sky alone from far up), a third of them rolled; field
 // of view 10 to 90 degrees. Places over void posts count as sea level. The same engine gives the same cameras
 // on every machine up to rounding.
-Camera made_camera(std::mt19937_64& random, const HeightField& field, int width_px, int height_px);
+Camera made_camera(std::mt19937_64& random, const HeightField& field, int width_px, int height_px,
+                   double exaggeration = 1.0);
 
 // `count` of them from one seed, of which each sees ground in at least a tenth of its picture where 50 tries
 // find such a one.
 std::vector<Camera> made_cameras(std::uint64_t seed, const HeightField& field, int count, int width_px,
-                                 int height_px);
+                                 int height_px, double exaggeration = 1.0);
 
 }  // namespace oro

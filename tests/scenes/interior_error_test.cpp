@@ -3,15 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <random>
 
-#include "core/ground.h"
 #include "core/parallel.h"
 #include "core/picture_error.h"
+#include "core/view_set.h"
 #include "geo/region.h"
 #include "render/depth_picture.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -22,28 +21,6 @@ constexpr int width_px = 256, height_px = 144;
 constexpr std::array taus_px{0.5, 1.0, 2.0, 4.0};
 // Beside tau: what placement, subpixel snapping and the depths' own rounding may add.
 constexpr double slack_px = 0.05;
-constexpr unsigned seed = 401;
-
-// An eye over the region: from 2 m above the ground to 500 km, all headings, from straight down to the sky.
-Camera random_camera(std::mt19937_64& random, const HeightField& field) {
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    Camera camera;
-    camera.width_px = width_px;
-    camera.height_px = height_px;
-    camera.vertical_fov_deg = 10.0 + 80.0 * unit(random);
-    const PostGrid& grid = field.grid;
-    camera.eye.lat_deg =
-        grid.south_deg() + (0.02 + 0.96 * unit(random)) * (grid.north_deg() - grid.south_deg());
-    camera.eye.lon_deg = grid.west_deg() + (0.02 + 0.96 * unit(random)) * (grid.east_deg() - grid.west_deg());
-    const double above_m = 2.0 * std::pow(2.5e5, unit(random));
-    camera.eye.h_m = ground_h_m(field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0) + above_m;
-    // From far up a level view would be of the sky.
-    const bool level = above_m < 5000.0 && random() % 2 == 0;
-    camera.attitude = {360.0 * unit(random),
-                       level ? -25.0 + 30.0 * unit(random) : -89.0 + 64.0 * unit(random),
-                       random() % 3 == 0 ? 360.0 * unit(random) : 0.0};
-    return camera;
-}
 
 // All that was measured with one tau.
 struct Measured {
@@ -70,15 +47,9 @@ void print_row(const char* what, const ErrorSummary& of) {
                 static_cast<unsigned long long>(of.count));
 }
 
-int view_count() {
-    const char* const wanted = std::getenv("OROGRAPH_TEST_VIEWS");
-    return wanted ? std::max(1, std::atoi(wanted)) : 50;
-}
-
 class InteriorErrorOfPictures : public test::GpuTest {
   protected:
     std::array<Measured, taus_px.size()> measured;
-    std::mt19937_64 random{seed};
 
     void say_violation(const char* name, int view, const Camera& camera, double tau_px,
                        const InteriorError& error) {
@@ -98,8 +69,10 @@ class InteriorErrorOfPictures : public test::GpuTest {
         Scene scene = std::move(made).value();
         const TrueSurface surface(field, 1.0, thread_count());
         DepthPainter painter(*gpu_, RasterPath::compute);
+        const std::vector<Camera> cameras =
+            made_cameras(test::real_view_seed, field, views, width_px, height_px);
         for (int view = 0; view < views; ++view) {
-            const Camera camera = random_camera(random, field);
+            const Camera& camera = cameras[static_cast<std::size_t>(view)];
             const Sight sight = sight_from(camera.eye);
             const Skyline skyline = true_skyline(surface, sight, camera, thread_count());
             for (std::size_t i = 0; i < taus_px.size(); ++i) {
@@ -119,7 +92,8 @@ class InteriorErrorOfPictures : public test::GpuTest {
     }
 
     void print_all(const char* of, int views) {
-        std::printf("%s, seed %u, %d views of %d x %d px\n", of, seed, views, width_px, height_px);
+        std::printf("%s, seed %llu, %d views of %d x %d px\n", of,
+                    static_cast<unsigned long long>(test::real_view_seed), views, width_px, height_px);
         for (std::size_t i = 0; i < taus_px.size(); ++i) {
             const Measured& all = measured[i];
             std::printf("tau %.1f px         %12s %12s %12s %12s\n", taus_px[i], "largest", "99.99 %", "99 %",
@@ -152,19 +126,18 @@ class InteriorErrorOfPictures : public test::GpuTest {
 };
 
 TEST_F(InteriorErrorOfPictures, OfMadeTerrainIsWithinTau) {
-    const int views = (view_count() + 4) / 5;
+    const int views = (test::view_count(50) + 4) / 5;
     look("made terrain", test::rough_field(47.0, 8.0, 700, 900), views);
     print_all("made terrain", views);
 }
 
 TEST_F(InteriorErrorOfPictures, OfRealTerrainIsWithinTau) {
-    for (const char* folder : {"alps", "himalaya", "poland"}) {
-        if (!test::real_data(folder)) GTEST_SKIP() << "needs " << folder;
+    const int views = test::view_count(50);
+    for (std::size_t i = 0; i < test::real_regions.size(); ++i) {
+        const test::RealRegion& region = test::real_regions[i];
+        if (!test::real_data(region.folder)) GTEST_SKIP() << "needs " << region.folder;
+        look_over(region.folder, region.tiles, test::views_of(i, views));
     }
-    const int views = view_count();
-    look_over("alps", "N46E007:N46E008", (views + 2) / 3);
-    look_over("himalaya", "N28E082:N28E083", (views + 1) / 3);
-    look_over("poland", "N51E018:N51E019", views / 3);
     print_all("alps, himalaya, poland", views);
 }
 
