@@ -65,7 +65,8 @@ class TradeOfViews : public test::GpuTest {
         if (*effect.measured_px <= effect.predicted_px && *effect.measured_m <= effect.predicted_m) return;
         ++held.broken;
         ADD_FAILURE() << effect.view << ", " << effect.effect << ": " << *effect.measured_px
-                      << " px, predicted " << effect.predicted_px << "; eye " << camera.eye.lat_deg << ","
+                      << " px, predicted " << effect.predicted_px << "; " << *effect.measured_m
+                      << " m, predicted " << effect.predicted_m << "; eye " << camera.eye.lat_deg << ","
                       << camera.eye.lon_deg << " h " << camera.eye.h_m << " heading "
                       << camera.attitude.heading_deg << " pitch " << camera.attitude.pitch_deg << " fov "
                       << camera.vertical_fov_deg;
