@@ -96,13 +96,6 @@ Result<TrueWorld> true_world(const View& view, const Region& region, const Regio
     return world;
 }
 
-Camera true_camera(const View& view, const Region& region) {
-    Camera camera = view.camera;
-    if (!region.geoid_left_out.N_m.empty())
-        camera.eye.h_m += region.geoid_left_out.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
-    return camera;
-}
-
 DrawingModel drawing_model(const View& view, const TrueWorld& world) {
     return {view.model, view.has_geoid, view.heights == HeightStorage::i16 ? world.sixteen : HeightCoding{},
             view.tau_px};

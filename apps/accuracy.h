@@ -54,8 +54,6 @@ struct Budget {
 
 // The true world of a view: refraction is the view's own, or the usual one where it has none.
 Result<TrueWorld> true_world(const View& view, const Region& region, const RegionPages& pages);
-// The camera of the true eye.
-Camera true_camera(const View& view, const Region& region);
 DrawingModel drawing_model(const View& view, const TrueWorld& world);
 
 // Errors: pages that cannot be read.

@@ -5,10 +5,15 @@
 
 namespace oro {
 
+Camera true_camera(const View& view, const Region& region) {
+    Camera camera = view.camera;
+    // An empty field is N = 0.
+    camera.eye.h_m += region.geoid_left_out.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
+    return camera;
+}
+
 Sight true_sight(const View& view, const Region& region) {
-    Geodetic eye = view.camera.eye;
-    if (!region.geoid_left_out.N_m.empty()) eye.h_m += region.geoid_left_out.at_m(eye.lat_deg, eye.lon_deg);
-    return sight_from(eye, view.model.refraction_k);
+    return sight_from(true_camera(view, region).eye, view.model.refraction_k);
 }
 
 Result<std::unique_ptr<TrueScene>> TrueScene::of(const View& view, const Region& region) {

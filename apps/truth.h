@@ -11,8 +11,10 @@
 
 namespace oro {
 
-// From where a view really looks, and through what air: the view's own. A view without a geoid has its eye as
-// high above the geoid as it says, and so N higher above the ellipsoid.
+// A view's camera with the eye where it really is: a view without a geoid has its eye as high above the geoid
+// as it says, and so N higher above the ellipsoid.
+Camera true_camera(const View& view, const Region& region);
+// From there, through the view's own air.
 Sight true_sight(const View& view, const Region& region);
 
 // The full-resolution surface that a view really looks at: on WGS84, lifted by the geoid, exaggerated as the

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cassert>
 
+#include "render/picture_renderer.h"
+
 namespace oro {
 namespace {
-
-constexpr int preferred_tile_px = 4096;
 
 std::size_t pixels_of(const Camera& camera) {
     return static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
@@ -103,11 +103,9 @@ Result<void> DepthPainter::draw_tile(Scene& scene, const Camera& camera, const g
 Result<DepthPicture> DepthPainter::draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                         const DepthPictureOptions& options) {
     assert(camera.width_px > 0 && camera.height_px > 0);
-    int side =
-        static_cast<int>(std::min<std::uint32_t>(gpu_->report().max_picture_side_px, preferred_tile_px));
-    if (options.largest_tile_px > 0) side = std::min(side, options.largest_tile_px);
-    const int tile_width = std::min(camera.width_px, side), tile_height = std::min(camera.height_px, side);
-    ORO_CHECK(prepare({static_cast<std::uint32_t>(tile_width), static_cast<std::uint32_t>(tile_height)}));
+    const VkExtent2D extent = tile_extent(*gpu_, camera, options.largest_tile_px);
+    const int tile_width = static_cast<int>(extent.width), tile_height = static_cast<int>(extent.height);
+    ORO_CHECK(prepare(extent));
 
     DepthPicture picture;
     picture.width_px = camera.width_px;

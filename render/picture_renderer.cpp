@@ -56,6 +56,13 @@ void copy_rgb(const std::vector<std::uint8_t>& rgba, const Tile& tile, int pictu
 
 }  // namespace
 
+VkExtent2D tile_extent(const Gpu& gpu, const Camera& camera, int largest_tile_px) {
+    int side = static_cast<int>(std::min<std::uint32_t>(gpu.report().max_picture_side_px, preferred_tile_px));
+    if (largest_tile_px > 0) side = std::min(side, largest_tile_px);
+    return {static_cast<std::uint32_t>(std::min(camera.width_px, side)),
+            static_cast<std::uint32_t>(std::min(camera.height_px, side))};
+}
+
 glm::dvec2 sample_place(int index, int count) {
     if (count == 1) return {0.5, 0.5};
     constexpr double plastic = 1.32471795724474602596;
@@ -70,12 +77,10 @@ Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera&
                                      const gpu::FrameStyle& style, const PictureOptions& options,
                                      const RowSink& sink, const RenderProgress& progress) {
     assert(camera.width_px > 0 && camera.height_px > 0 && options.samples > 0);
-    int side = static_cast<int>(std::min<std::uint32_t>(gpu.report().max_picture_side_px, preferred_tile_px));
-    if (options.largest_tile_px > 0) side = std::min(side, options.largest_tile_px);
-    const int tile_width = std::min(camera.width_px, side), tile_height = std::min(camera.height_px, side);
     FrameRendererOptions renderer_options;
-    renderer_options.extent = {static_cast<std::uint32_t>(tile_width),
-                               static_cast<std::uint32_t>(tile_height)};
+    renderer_options.extent = tile_extent(gpu, camera, options.largest_tile_px);
+    const int tile_width = static_cast<int>(renderer_options.extent.width);
+    const int tile_height = static_cast<int>(renderer_options.extent.height);
     renderer_options.several_samples = options.samples > 1;
     renderer_options.path = options.path;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));

@@ -47,6 +47,10 @@ Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera&
                                      const gpu::FrameStyle& style, const PictureOptions& options,
                                      const RowSink& sink, const RenderProgress& progress = {});
 
+// Largest tile that a picture of the camera's size is drawn in. largest_tile_px: 0, or less than the device
+// can hold.
+VkExtent2D tile_extent(const Gpu& gpu, const Camera& camera, int largest_tile_px);
+
 // Where sample i of n goes through its pixel: the centre for n = 1, else a low-discrepancy pattern.
 // Source: M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018 (R2 sequence).
 glm::dvec2 sample_place(int index, int count);
