@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "core/ellipsoid.h"
 #include "geo/letter_case.h"
@@ -192,10 +194,12 @@ Result<Source> inspect_hgt(const SourcePath& path) {
 Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
     const auto side = static_cast<std::size_t>(source.lat_axis.count);
     const GdalMessages messages;
+    errno = 0;
     const File file(VSIFOpenL(source.file.c_str(), "rb"));
-    if (!file)
-        return Error{ErrorKind::failed, source.report.path,
-                     "cannot be opened: " + messages.last("it is gone")};
+    if (!file) {
+        const std::string reason = std::generic_category().message(errno != 0 ? errno : ENOENT);
+        return Error{ErrorKind::failed, source.report.path, "cannot be opened: " + messages.last(reason)};
+    }
     PostBlock block;
     block.window = window;
     block.height_m.reserve(static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns));

@@ -1,7 +1,5 @@
 #include "geo/source_paths.h"
 
-#include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "geo/archive_entries.h"
 #include "geo/letter_case.h"
 #include "geo/raster_library.h"
 
@@ -102,12 +101,8 @@ class Search {
         if (fault) return Error{ErrorKind::failed, path, "cannot be listed: " + fault.message()};
         for (; place != fs::recursive_directory_iterator(); place.increment(fault)) {
             std::error_code no_file;
-            if (!place->is_regular_file(no_file)) {
-                if (place->is_symlink(no_file) && !place->exists(no_file) &&
-                    may_hold_elevation(last_part(place->path().native())))
-                    return Error{ErrorKind::failed, place->path().string(), "is a symbolic link to nothing"};
-                continue;
-            }
+            if (place->is_directory(no_file)) continue;
+            // What is no file, or cannot be asked about, is told by add_file where its name says elevation.
             ORO_CHECK(add_file(place->path().string(), false));
         }
         if (fault) return Error{ErrorKind::failed, path, "cannot be listed: " + fault.message()};
@@ -121,7 +116,12 @@ class Search {
         const bool archive = wrapping == Wrapping::zip || wrapping == Wrapping::tar;
         if (!named && !archive && !may_hold_elevation(inner)) return {};
         std::error_code fault;
-        if (!fs::is_regular_file(path, fault)) return Error{ErrorKind::failed, path, "is no regular file"};
+        const fs::file_status status = fs::status(path, fault);
+        if (status.type() == fs::file_type::not_found && fs::is_symlink(fs::symlink_status(path, fault)))
+            return Error{ErrorKind::failed, path, "is a symbolic link to nothing"};
+        if (fault) return Error{ErrorKind::failed, path, "cannot be read: " + fault.message()};
+        if (status.type() != fs::file_type::regular)
+            return Error{ErrorKind::failed, path, "is no regular file"};
         if (access(path.c_str(), R_OK) != 0)
             return Error{ErrorKind::failed, path,
                          "cannot be read: " + std::generic_category().message(errno)};
@@ -137,22 +137,14 @@ class Search {
 
     Result<void> add_archive(const std::string& real, const std::string& shown, Wrapping wrapping,
                              bool named) {
-        const std::string root = (wrapping == Wrapping::zip ? "/vsizip/{" : "/vsitar/{") + real + "}";
-        GdalMessages messages;
-        char** const listed = VSIReadDirRecursive(root.c_str());
-        const CPLStringList entries(listed);
-        if (listed == nullptr) {
-            if (!named && messages.last("").empty()) return {};
-            return Error{ErrorKind::failed, shown,
-                         "cannot be read as an archive: " + messages.last("it is damaged or empty")};
-        }
+        const ArchiveKind kind = wrapping == Wrapping::zip ? ArchiveKind::zip : ArchiveKind::tar;
+        const std::string root = (kind == ArchiveKind::zip ? "/vsizip/{" : "/vsitar/{") + real + "}/";
+        ORO_TRY(const std::vector<ArchiveEntry> entries, archive_entries(real, shown, kind));
         bool any = false;
-        for (int i = 0; i < entries.size(); ++i) {
-            const std::string_view entry = entries[i];
-            const std::string_view name = last_part(entry);
-            if (entry.ends_with('/') || !may_hold_elevation(name)) continue;
-            SourcePath source =
-                described(root + "/" + std::string(entry), shown + "/" + std::string(entry), name, false);
+        for (const ArchiveEntry& entry : entries) {
+            const std::string_view name = last_part(entry.name);
+            if (!may_hold_elevation(name)) continue;
+            SourcePath source = described(root + entry.name, shown + "/" + entry.name, name, false);
             source.archive = std::string(last_part(shown));
             found_.push_back(std::move(source));
             any = true;
