@@ -1,13 +1,13 @@
 #include "apps/json_fields.h"
 
-#include <sys/stat.h>
-
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <system_error>
+#include <span>
+#include <utility>
+
+#include "core/json_bounds.h"
+#include "core/open_file.h"
 
 namespace oro {
 namespace {
@@ -35,10 +35,6 @@ std::string string_of(const json& value, const char* name) {
     if (text.find('\0') != std::string::npos) throw JsonFault{quoted(name) + " holds a zero byte"};
     return text;
 }
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 }  // namespace
 
@@ -97,6 +93,7 @@ const json& json_array(const json& object, const char* name, std::size_t count) 
 }
 
 json parsed_json(const std::string& text) {
+    if (auto much = beyond_json_bounds(text)) throw JsonFault{std::move(*much)};
     try {
         return json::parse(text);
     } catch (const json::exception& fault) {
@@ -108,18 +105,14 @@ json parsed_json(const std::string& text) {
 }
 
 Result<std::string> read_text_file(const std::string& path) {
-    const auto fault = [&](int why) {
-        return Error{ErrorKind::failed, path, "cannot be read: " + std::generic_category().message(why)};
-    };
-    struct stat found {};
-    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-    if (!file || fstat(fileno(file.get()), &found) != 0) return fault(errno);
-    if (!S_ISREG(found.st_mode)) return Error{ErrorKind::failed, path, "is not a file"};
-    std::string text;
-    std::array<char, 65536> part{};
-    for (std::size_t got = 0; (got = std::fread(part.data(), 1, part.size(), file.get())) > 0;)
-        text.append(part.data(), got);
-    if (std::ferror(file.get())) return fault(errno);
+    ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    ORO_TRY(const std::uint64_t size, file.size());
+    if (constexpr std::size_t most = JsonBounds{}.most_bytes; size > most)
+        return Error{ErrorKind::failed, path,
+                     "has " + std::to_string(size) + " bytes, more than the " + std::to_string(most) +
+                         " that are read"};
+    std::string text(size, '\0');
+    ORO_CHECK(file.read(0, std::as_writable_bytes(std::span(text))));
     return text;
 }
 

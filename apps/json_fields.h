@@ -30,10 +30,11 @@ std::vector<std::string> json_strings(const nlohmann::json& json, const char* na
 // An array of so many elements.
 const nlohmann::json& json_array(const nlohmann::json& json, const char* name, std::size_t count);
 
-// Parses a text; the fault says where it goes wrong.
+// Parses a text within the bounds of core/json_bounds.h; the fault says where it goes wrong.
 nlohmann::json parsed_json(const std::string& text);
 
-// All of a file. Errors: the file and the system's reason.
+// All of a file. Never waits: a pipe is refused. Errors: the file and the system's reason; no plain file;
+// more bytes than any JSON may have.
 Result<std::string> read_text_file(const std::string& path);
 
 }  // namespace oro

@@ -1,16 +1,14 @@
 #include "geo/picture_view.h"
 
-#include <sys/stat.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
+#include <cctype>
 #include <optional>
-#include <system_error>
+#include <span>
 
+#include "core/open_file.h"
 #include "geo/geotags_xmp.h"
 #include "geo/picture.h"
 
@@ -18,6 +16,9 @@ namespace oro {
 namespace {
 
 constexpr std::uint64_t largest_xmp = 64 << 20;
+// Chunks or segments that are passed on the way to the view: a picture of 65,500 x 65,500 has some 1.6
+// million. A file made of nothing but small ones would take hours.
+constexpr int most_parts = 4'000'000;
 
 // The walk through one picture to its XMP. Each format's function gives the packet, an empty one when there
 // is none.
@@ -34,6 +35,11 @@ class PictureWalk {
 
     [[nodiscard]] Error damaged(const std::string& what, std::uint64_t at) const {
         return {ErrorKind::failed, path_, "is damaged at byte " + std::to_string(at) + ": " + what};
+    }
+    // One more chunk, segment or byte between them is passed.
+    bool pass() { return ++passed_ <= most_parts; }
+    [[nodiscard]] Error endless(std::uint64_t at) const {
+        return damaged("more than " + std::to_string(most_parts) + " parts stand before a view", at);
     }
     [[nodiscard]] bool holds(std::uint64_t offset, std::uint64_t count) const {
         return offset <= bytes_.size() && count <= bytes_.size() - offset;
@@ -56,6 +62,7 @@ class PictureWalk {
     PictureBytes& bytes_;
     const std::string& path_;
     bool little_{false};  // TIFF's byte order
+    int passed_{0};
 };
 
 Result<std::string> PictureWalk::xmp() {
@@ -75,10 +82,14 @@ Result<std::string> PictureWalk::xmp() {
 Result<std::string> PictureWalk::png_xmp() {
     const std::string keyword("XML:com.adobe.xmp\0", 18);
     for (std::uint64_t at = 8; at < bytes_.size();) {
+        if (!pass()) return endless(at);
         const auto length = number(at, 4, false);
         const auto type = text(at + 4, 4);
         if (!length || !type || !holds(at + 8, *length + 4)) return damaged("a PNG chunk is cut off", at);
         if (*type == "IEND") break;
+        // Only letters; zeros, as where a file has a hole, would be a chunk every 12 bytes.
+        if (!std::all_of(type->begin(), type->end(), [](unsigned char c) { return std::isalpha(c) != 0; }))
+            return damaged("a PNG chunk has no type", at);
         if (*type == "iTXt" && *length >= keyword.size() && *length <= largest_xmp) {
             const auto chunk = text(at + 4, *length + 4);
             const auto sum = number(at + 8 + *length, 4, false);
@@ -107,6 +118,7 @@ Result<std::string> PictureWalk::png_xmp() {
 Result<std::string> PictureWalk::jpeg_xmp() {
     const std::string name("http://ns.adobe.com/xap/1.0/\0", 29);
     for (std::uint64_t at = 2; at < bytes_.size();) {
+        if (!pass()) return endless(at);
         const auto mark = number(at, 2, false);
         if (!mark || *mark >> 8 != 0xFF) return damaged("a JPEG marker is missing", at);
         const std::uint64_t kind = *mark & 0xFF;
@@ -160,15 +172,14 @@ Result<std::string> PictureWalk::tiff_packet(std::uint64_t entry, bool big) {
 
 class FileBytes final : public PictureBytes {
   public:
-    FileBytes(std::FILE* stream, std::uint64_t size) : stream_(stream), size_(size) {}
+    FileBytes(const OpenFile& file, std::uint64_t size) : file_(file), size_(size) {}
     [[nodiscard]] std::uint64_t size() const override { return size_; }
     bool read(std::uint64_t offset, void* to, std::size_t count) override {
-        return fseeko(stream_, static_cast<off_t>(offset), SEEK_SET) == 0 &&
-               std::fread(to, 1, count, stream_) == count;
+        return file_.read(offset, std::as_writable_bytes(std::span(static_cast<char*>(to), count))).ok();
     }
 
   private:
-    std::FILE* stream_;
+    const OpenFile& file_;
     std::uint64_t size_;
 };
 
@@ -180,16 +191,9 @@ Result<std::string> find_view_json(PictureBytes& bytes, const std::string& path)
 }
 
 Result<std::string> read_view_json(const std::string& path) {
-    const auto unreadable = [&](int why) {
-        return Error{ErrorKind::failed, path, "cannot be read: " + std::generic_category().message(why)};
-    };
-    struct stat about {};
-    if (stat(path.c_str(), &about) != 0) return unreadable(errno);
-    if (!S_ISREG(about.st_mode)) return Error{ErrorKind::failed, path, "is not a file"};
-    const std::unique_ptr<std::FILE, decltype(&std::fclose)> stream(std::fopen(path.c_str(), "rbe"),
-                                                                    std::fclose);
-    if (!stream) return unreadable(errno);
-    FileBytes bytes(stream.get(), static_cast<std::uint64_t>(about.st_size));
+    ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    ORO_TRY(const std::uint64_t size, file.size());
+    FileBytes bytes(file, size);
     return find_view_json(bytes, path);
 }
 

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/json_bounds.h"
+
 namespace oro {
 namespace {
 
@@ -13,8 +15,7 @@ using nlohmann::ordered_json;
 
 constexpr std::int64_t description_format = 1;
 // A source has some 30 values; more than 100,000 of them do not fit into the longest description.
-constexpr std::size_t most_values = 5'000'000;
-constexpr int deepest = 4;
+constexpr JsonBounds bounds{.most_values = 5'000'000, .most_bytes = std::numeric_limits<std::size_t>::max()};
 
 ordered_json seams_text(const SeamReport& seams) {
     return {{"shared_posts", seams.shared_posts},
@@ -141,14 +142,9 @@ SourceReport source_of(const Field& field) {
     return s;
 }
 
-// Stops while it parses: a text of nothing but brackets would take a hundred times its size in memory.
 json parsed(const std::string& text) {
-    std::size_t values = 0;
-    return json::parse(text, [&](int depth, json::parse_event_t, const json&) {
-        if (depth > deepest) throw Fault{"values are nested deeper than in any region"};
-        if (++values > most_values) throw Fault{"it holds more values than any region has"};
-        return true;
-    });
+    if (auto much = beyond_json_bounds(text, bounds)) throw Fault{std::move(*much)};
+    return json::parse(text);
 }
 
 Region region_of(const Field& field) {

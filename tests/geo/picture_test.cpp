@@ -334,7 +334,7 @@ TEST(Picture, FilesWithoutAViewSaySo) {
                 {"scan.jpg", "carries no view"},
                 {"nothing.jpg", "is damaged at byte 2"},
                 {"tiny.tif", "is damaged at byte 4"},
-                {"folder.png", "is not a file"},
+                {"folder.png", "is a folder"},
                 {"missing.png", "No such file or directory"}};
     for (const auto& row : rows) {
         const auto read = read_view_json(folder / row.name);
