@@ -4,9 +4,15 @@
 
 #include <cstddef>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <regex>
+#include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "shaders/shared.h"
 #include "spirv/live_pages_comp.h"
@@ -15,6 +21,7 @@
 #include "spirv/shade_comp.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_task.h"
+#include "tests/support/test_data.h"
 
 namespace oro {
 namespace {
@@ -55,149 +62,191 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
     return all;
 }
 
+// Where C++ puts each member of a shared struct.
+const std::map<std::string, std::size_t>& offsets_in_memory() {
+#define ORO_MEMBER(type, member) \
+    { #type "." #member, offsetof(gpu::type, member) }
+    static const std::map<std::string, std::size_t> table = {
+        ORO_MEMBER(RowTerms, R),
+        ORO_MEMBER(RowTerms, C),
+        ORO_MEMBER(RowTerms, S),
+        ORO_MEMBER(RowTerms, P),
+        ORO_MEMBER(RowTerms, Z),
+        ORO_MEMBER(RowTerms, Q),
+        ORO_MEMBER(RowTerms, cosine),
+        ORO_MEMBER(ColumnTerms, V),
+        ORO_MEMBER(ColumnTerms, W),
+        ORO_MEMBER(MeshletBounds, centre),
+        ORO_MEMBER(MeshletBounds, radius),
+        ORO_MEMBER(MeshletBounds, horizon_offset),
+        ORO_MEMBER(MeshletBounds, horizon_angle_rad),
+        ORO_MEMBER(MeshletBounds, error_m),
+        ORO_MEMBER(MeshletBounds, lod_radius),
+        ORO_MEMBER(PageBlock, meshlets),
+        ORO_MEMBER(PageBlock, row_spacing_m),
+        ORO_MEMBER(PageBlock, column_spacing_m),
+        ORO_MEMBER(PageBlock, heights),
+        ORO_MEMBER(FramePage, view_from_page),
+        ORO_MEMBER(FramePage, origin_view),
+        ORO_MEMBER(FramePage, planes),
+        ORO_MEMBER(FramePage, horizon_direction),
+        ORO_MEMBER(FramePage, block),
+        ORO_MEMBER(FramePage, cull),
+        ORO_MEMBER(FramePage, level),
+        ORO_MEMBER(FramePage, first_row),
+        ORO_MEMBER(FramePage, first_column),
+        ORO_MEMBER(FramePage, row_terms),
+        ORO_MEMBER(FramePage, column_terms),
+        ORO_MEMBER(FramePage, quarter),
+        ORO_MEMBER(FramePage, parent),
+        ORO_MEMBER(FramePage, beside),
+        ORO_MEMBER(FramePage, children),
+        ORO_MEMBER(FramePage, last_column),
+        ORO_MEMBER(FramePage, west_column),
+        ORO_MEMBER(FramePage, stand_in),
+        ORO_MEMBER(FrameCounts, pages_live),
+        ORO_MEMBER(FrameCounts, nodes_chosen),
+        ORO_MEMBER(FrameCounts, meshlets_beyond_frustum),
+        ORO_MEMBER(FrameCounts, meshlets_beyond_horizon),
+        ORO_MEMBER(FrameCounts, meshlets_drawn),
+        ORO_MEMBER(FrameCounts, triangles_drawn),
+        ORO_MEMBER(FrameCounts, mesh_groups),
+        ORO_MEMBER(FrameCounts, triangles_not_clipped),
+        ORO_MEMBER(LivePages, count),
+        ORO_MEMBER(LivePages, task_groups),
+        ORO_MEMBER(LivePages, cull_groups),
+        ORO_MEMBER(RasterLists, meshlets),
+        ORO_MEMBER(RasterLists, meshlet_groups),
+        ORO_MEMBER(RasterLists, clips),
+        ORO_MEMBER(RasterLists, clip_groups),
+        ORO_MEMBER(RasterLists, large),
+        ORO_MEMBER(RasterLists, tasks),
+        ORO_MEMBER(RasterLists, task_groups),
+        ORO_MEMBER(LargeTriangle, ax),
+        ORO_MEMBER(LargeTriangle, ay),
+        ORO_MEMBER(LargeTriangle, bx),
+        ORO_MEMBER(LargeTriangle, by),
+        ORO_MEMBER(LargeTriangle, cx),
+        ORO_MEMBER(LargeTriangle, cy),
+        ORO_MEMBER(LargeTriangle, az),
+        ORO_MEMBER(LargeTriangle, bz),
+        ORO_MEMBER(LargeTriangle, cz),
+        ORO_MEMBER(LargeTriangle, id),
+        ORO_MEMBER(LargeTask, triangle),
+        ORO_MEMBER(LargeTask, square),
+        ORO_MEMBER(TintStop, H_m),
+        ORO_MEMBER(TintStop, colour),
+        ORO_MEMBER(FrameStyle, tints),
+        ORO_MEMBER(FrameStyle, tint_count),
+        ORO_MEMBER(FrameStyle, sun_enu),
+        ORO_MEMBER(FrameStyle, ambient),
+        ORO_MEMBER(FrameStyle, relief),
+        ORO_MEMBER(FrameStyle, haze_colour),
+        ORO_MEMBER(FrameStyle, haze_distance_m),
+        ORO_MEMBER(FrameStyle, zenith_colour),
+        ORO_MEMBER(FrameStyle, no_data_colour),
+        ORO_MEMBER(FrameStyle, sky_scale_height_m),
+        ORO_MEMBER(UndulationTable, N_m),
+        ORO_MEMBER(UndulationTable, rows),
+        ORO_MEMBER(UndulationTable, columns),
+        ORO_MEMBER(UndulationTable, first),
+        ORO_MEMBER(UndulationTable, per_post),
+        ORO_MEMBER(FrameConstants, view_from_eye),
+        ORO_MEMBER(FrameConstants, reference_steps),
+        ORO_MEMBER(FrameConstants, projection_scale),
+        ORO_MEMBER(FrameConstants, projection_shift),
+        ORO_MEMBER(FrameConstants, near_m),
+        ORO_MEMBER(FrameConstants, horizon_angle_rad),
+        ORO_MEMBER(FrameConstants, horizon_stretch),
+        ORO_MEMBER(FrameConstants, refraction_per_m),
+        ORO_MEMBER(FrameConstants, placing),
+        ORO_MEMBER(FrameConstants, view_from_ecef),
+        ORO_MEMBER(FrameConstants, view_translation),
+        ORO_MEMBER(FrameConstants, eye_high),
+        ORO_MEMBER(FrameConstants, eye_low),
+        ORO_MEMBER(FrameConstants, eye_meridian),
+        ORO_MEMBER(FrameConstants, height_bits),
+        ORO_MEMBER(FrameConstants, height_shift),
+        ORO_MEMBER(FrameConstants, height_offset),
+        ORO_MEMBER(FrameConstants, up_view),
+        ORO_MEMBER(FrameConstants, eye_h_m),
+        ORO_MEMBER(FrameConstants, earth_radius_m),
+        ORO_MEMBER(FrameConstants, width_px),
+        ORO_MEMBER(FrameConstants, height_px),
+        ORO_MEMBER(FrameConstants, pixels_per_tangent),
+        ORO_MEMBER(FrameConstants, corner_tangent),
+        ORO_MEMBER(FrameConstants, tau_px),
+        ORO_MEMBER(FrameConstants, exaggeration),
+        ORO_MEMBER(FrameConstants, last_row),
+        ORO_MEMBER(FrameConstants, last_column),
+        ORO_MEMBER(FrameConstants, page_count),
+        ORO_MEMBER(FrameConstants, sample_index),
+        ORO_MEMBER(FrameConstants, sample_count),
+        ORO_MEMBER(FrameConstants, pages),
+        ORO_MEMBER(FrameConstants, row_terms),
+        ORO_MEMBER(FrameConstants, column_terms),
+        ORO_MEMBER(FrameConstants, accepted),
+        ORO_MEMBER(FrameConstants, edges),
+        ORO_MEMBER(FrameConstants, live),
+        ORO_MEMBER(FrameConstants, live_pages),
+        ORO_MEMBER(FrameConstants, counts),
+        ORO_MEMBER(FrameConstants, depths),
+        ORO_MEMBER(FrameConstants, recorded),
+        ORO_MEMBER(FrameConstants, record_view),
+        ORO_MEMBER(FrameConstants, visibility),
+        ORO_MEMBER(FrameConstants, lists),
+        ORO_MEMBER(FrameConstants, meshlet_list),
+        ORO_MEMBER(FrameConstants, clip_list),
+        ORO_MEMBER(FrameConstants, large_list),
+        ORO_MEMBER(FrameConstants, task_list),
+        ORO_MEMBER(FrameConstants, undulation),
+        ORO_MEMBER(FrameConstants, style),
+    };
+#undef ORO_MEMBER
+    return table;
+}
+
+// The structs that shaders/shared.h defines, read from its text: a struct that is added there is looked for
+// in the shaders without anyone naming it here.
+std::set<std::string> shared_structs() {
+    std::ifstream file(test::bundled_data().parent_path() / "shaders/shared.h");
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    static const std::regex definition(R"(struct\s+(\w+)\s*\{)");
+    std::set<std::string> names;
+    for (std::sregex_iterator at(text.begin(), text.end(), definition), end; at != end; ++at)
+        names.insert((*at)[1]);
+    return names;
+}
+
+// Members of the shared structs that a compiled shader has and `table` lacks or puts elsewhere.
+std::vector<std::string> members_amiss(const std::map<std::string, std::uint32_t>& spirv,
+                                       const std::set<std::string>& structs,
+                                       const std::map<std::string, std::size_t>& table) {
+    std::vector<std::string> amiss;
+    for (const auto& [name, offset] : spirv) {
+        if (!structs.contains(name.substr(0, name.find('.')))) continue;
+        const auto found = table.find(name);
+        if (found == table.end() || found->second != offset) amiss.push_back(name);
+    }
+    return amiss;
+}
+
 TEST(SharedLayout, SpirvOffsetsEqualOffsetof) {
     const auto spirv = offsets_of_all_shaders();
-    const auto expect = [&](const std::string& name, std::size_t offset) {
-        const auto found = spirv.find(name);
-        ASSERT_NE(found, spirv.end()) << name << " is in no shader";
-        EXPECT_EQ(found->second, offset) << name;
-    };
-#define ORO_MEMBER(type, member) expect(#type "." #member, offsetof(gpu::type, member))
-    ORO_MEMBER(RowTerms, R);
-    ORO_MEMBER(RowTerms, C);
-    ORO_MEMBER(RowTerms, S);
-    ORO_MEMBER(RowTerms, P);
-    ORO_MEMBER(RowTerms, Z);
-    ORO_MEMBER(RowTerms, Q);
-    ORO_MEMBER(RowTerms, cosine);
-    ORO_MEMBER(ColumnTerms, V);
-    ORO_MEMBER(ColumnTerms, W);
-    ORO_MEMBER(MeshletBounds, centre);
-    ORO_MEMBER(MeshletBounds, radius);
-    ORO_MEMBER(MeshletBounds, horizon_offset);
-    ORO_MEMBER(MeshletBounds, horizon_angle_rad);
-    ORO_MEMBER(MeshletBounds, error_m);
-    ORO_MEMBER(MeshletBounds, lod_radius);
-    ORO_MEMBER(PageBlock, meshlets);
-    ORO_MEMBER(PageBlock, row_spacing_m);
-    ORO_MEMBER(PageBlock, column_spacing_m);
-    ORO_MEMBER(PageBlock, heights);
-    ORO_MEMBER(FramePage, view_from_page);
-    ORO_MEMBER(FramePage, origin_view);
-    ORO_MEMBER(FramePage, planes);
-    ORO_MEMBER(FramePage, horizon_direction);
-    ORO_MEMBER(FramePage, block);
-    ORO_MEMBER(FramePage, cull);
-    ORO_MEMBER(FramePage, level);
-    ORO_MEMBER(FramePage, first_row);
-    ORO_MEMBER(FramePage, first_column);
-    ORO_MEMBER(FramePage, row_terms);
-    ORO_MEMBER(FramePage, column_terms);
-    ORO_MEMBER(FramePage, quarter);
-    ORO_MEMBER(FramePage, parent);
-    ORO_MEMBER(FramePage, beside);
-    ORO_MEMBER(FramePage, children);
-    ORO_MEMBER(FramePage, last_column);
-    ORO_MEMBER(FramePage, west_column);
-    ORO_MEMBER(FramePage, stand_in);
-    ORO_MEMBER(FrameCounts, pages_live);
-    ORO_MEMBER(FrameCounts, nodes_chosen);
-    ORO_MEMBER(FrameCounts, meshlets_beyond_frustum);
-    ORO_MEMBER(FrameCounts, meshlets_beyond_horizon);
-    ORO_MEMBER(FrameCounts, meshlets_drawn);
-    ORO_MEMBER(FrameCounts, triangles_drawn);
-    ORO_MEMBER(FrameCounts, mesh_groups);
-    ORO_MEMBER(FrameCounts, triangles_not_clipped);
-    ORO_MEMBER(LivePages, count);
-    ORO_MEMBER(LivePages, task_groups);
-    ORO_MEMBER(LivePages, cull_groups);
-    ORO_MEMBER(RasterLists, meshlets);
-    ORO_MEMBER(RasterLists, meshlet_groups);
-    ORO_MEMBER(RasterLists, clips);
-    ORO_MEMBER(RasterLists, clip_groups);
-    ORO_MEMBER(RasterLists, large);
-    ORO_MEMBER(RasterLists, tasks);
-    ORO_MEMBER(RasterLists, task_groups);
-    ORO_MEMBER(LargeTriangle, ax);
-    ORO_MEMBER(LargeTriangle, ay);
-    ORO_MEMBER(LargeTriangle, bx);
-    ORO_MEMBER(LargeTriangle, by);
-    ORO_MEMBER(LargeTriangle, cx);
-    ORO_MEMBER(LargeTriangle, cy);
-    ORO_MEMBER(LargeTriangle, az);
-    ORO_MEMBER(LargeTriangle, bz);
-    ORO_MEMBER(LargeTriangle, cz);
-    ORO_MEMBER(LargeTriangle, id);
-    ORO_MEMBER(LargeTask, triangle);
-    ORO_MEMBER(LargeTask, square);
-    ORO_MEMBER(TintStop, H_m);
-    ORO_MEMBER(TintStop, colour);
-    ORO_MEMBER(FrameStyle, tints);
-    ORO_MEMBER(FrameStyle, tint_count);
-    ORO_MEMBER(FrameStyle, sun_enu);
-    ORO_MEMBER(FrameStyle, ambient);
-    ORO_MEMBER(FrameStyle, relief);
-    ORO_MEMBER(FrameStyle, haze_colour);
-    ORO_MEMBER(FrameStyle, haze_distance_m);
-    ORO_MEMBER(FrameStyle, zenith_colour);
-    ORO_MEMBER(FrameStyle, no_data_colour);
-    ORO_MEMBER(FrameStyle, sky_scale_height_m);
-    ORO_MEMBER(UndulationTable, N_m);
-    ORO_MEMBER(UndulationTable, rows);
-    ORO_MEMBER(UndulationTable, columns);
-    ORO_MEMBER(UndulationTable, first);
-    ORO_MEMBER(UndulationTable, per_post);
-    ORO_MEMBER(FrameConstants, view_from_eye);
-    ORO_MEMBER(FrameConstants, reference_steps);
-    ORO_MEMBER(FrameConstants, projection_scale);
-    ORO_MEMBER(FrameConstants, projection_shift);
-    ORO_MEMBER(FrameConstants, near_m);
-    ORO_MEMBER(FrameConstants, horizon_angle_rad);
-    ORO_MEMBER(FrameConstants, horizon_stretch);
-    ORO_MEMBER(FrameConstants, refraction_per_m);
-    ORO_MEMBER(FrameConstants, placing);
-    ORO_MEMBER(FrameConstants, view_from_ecef);
-    ORO_MEMBER(FrameConstants, view_translation);
-    ORO_MEMBER(FrameConstants, eye_high);
-    ORO_MEMBER(FrameConstants, eye_low);
-    ORO_MEMBER(FrameConstants, eye_meridian);
-    ORO_MEMBER(FrameConstants, height_bits);
-    ORO_MEMBER(FrameConstants, height_shift);
-    ORO_MEMBER(FrameConstants, height_offset);
-    ORO_MEMBER(FrameConstants, up_view);
-    ORO_MEMBER(FrameConstants, eye_h_m);
-    ORO_MEMBER(FrameConstants, earth_radius_m);
-    ORO_MEMBER(FrameConstants, width_px);
-    ORO_MEMBER(FrameConstants, height_px);
-    ORO_MEMBER(FrameConstants, pixels_per_tangent);
-    ORO_MEMBER(FrameConstants, corner_tangent);
-    ORO_MEMBER(FrameConstants, tau_px);
-    ORO_MEMBER(FrameConstants, exaggeration);
-    ORO_MEMBER(FrameConstants, last_row);
-    ORO_MEMBER(FrameConstants, last_column);
-    ORO_MEMBER(FrameConstants, page_count);
-    ORO_MEMBER(FrameConstants, sample_index);
-    ORO_MEMBER(FrameConstants, sample_count);
-    ORO_MEMBER(FrameConstants, pages);
-    ORO_MEMBER(FrameConstants, row_terms);
-    ORO_MEMBER(FrameConstants, column_terms);
-    ORO_MEMBER(FrameConstants, accepted);
-    ORO_MEMBER(FrameConstants, edges);
-    ORO_MEMBER(FrameConstants, live);
-    ORO_MEMBER(FrameConstants, live_pages);
-    ORO_MEMBER(FrameConstants, counts);
-    ORO_MEMBER(FrameConstants, depths);
-    ORO_MEMBER(FrameConstants, recorded);
-    ORO_MEMBER(FrameConstants, record_view);
-    ORO_MEMBER(FrameConstants, visibility);
-    ORO_MEMBER(FrameConstants, lists);
-    ORO_MEMBER(FrameConstants, meshlet_list);
-    ORO_MEMBER(FrameConstants, clip_list);
-    ORO_MEMBER(FrameConstants, large_list);
-    ORO_MEMBER(FrameConstants, task_list);
-    ORO_MEMBER(FrameConstants, undulation);
-    ORO_MEMBER(FrameConstants, style);
-#undef ORO_MEMBER
+    const std::set<std::string> structs = shared_structs();
+    ASSERT_GE(structs.size(), 10U) << "shaders/shared.h was not read";
+    EXPECT_EQ(members_amiss(spirv, structs, offsets_in_memory()), std::vector<std::string>{});
+    for (const auto& [name, offset] : offsets_in_memory())
+        EXPECT_TRUE(spirv.contains(name)) << name << " is in no shader";
+}
+
+// The check can fail: a field that the table forgets, and one that lies elsewhere, are told.
+TEST(SharedLayout, AForgottenFieldIsFound) {
+    auto table = offsets_in_memory();
+    table.erase("FrameConstants.tau_px");
+    table.at("PageBlock.heights") += 4;
+    EXPECT_EQ(members_amiss(offsets_of_all_shaders(), shared_structs(), table),
+              (std::vector<std::string>{"FrameConstants.tau_px", "PageBlock.heights"}));
 }
 
 // The array strides: what follows an array must start where the C++ array ends.
