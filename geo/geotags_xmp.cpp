@@ -1,42 +1,24 @@
 #include "geo/geotags_xmp.h"
 
+#include <utf8.h>
 #include <array>
 #include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <pugixml.hpp>
 #include <string_view>
 
 namespace oro {
 namespace {
 
 constexpr std::string_view name_space = "urn:orograph:1.0/";
-constexpr std::string_view view_starts = "<orograph:View>";
-constexpr std::string_view view_ends = "</orograph:View>";
 
 std::string number(double value) {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
     return {digits.data(), end.ptr};
-}
-
-// The code point at `at`, which moves behind it; nothing for what is not UTF-8.
-std::optional<std::uint32_t> next_code_point(std::string_view text, std::size_t& at) {
-    const auto lead = static_cast<unsigned char>(text[at++]);
-    if (lead < 0x80) return lead;
-    const int following = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-    if (lead < 0xC2 || lead > 0xF4) return std::nullopt;
-    auto code = static_cast<std::uint32_t>(lead & (0x3F >> following));
-    for (int i = 0; i < following; ++i) {
-        if (at >= text.size()) return std::nullopt;
-        const auto byte = static_cast<unsigned char>(text[at++]);
-        if ((byte & 0xC0) != 0x80) return std::nullopt;
-        code = code << 6 | (byte & 0x3F);
-    }
-    constexpr std::array<std::uint32_t, 4> shortest{0, 0x80, 0x800, 0x10000};
-    if (code < shortest[static_cast<std::size_t>(following)]) return std::nullopt;
-    return code;
 }
 
 // XML 1.0 (fifth edition), production 2.
@@ -50,14 +32,16 @@ bool xml_allows(std::uint32_t code) {
 Result<std::string> escaped(const std::string& what, const std::string& text) {
     std::string xml;
     xml.reserve(text.size() + text.size() / 16);
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t start = at;
-        const auto code = next_code_point(text, at);
-        if (!code || !xml_allows(*code))
-            return Error{ErrorKind::failed, "geotags",
-                         "the " + what + " holds at byte " + std::to_string(start) +
-                             (code ? " a control character" : " something that is not UTF-8")};
-        switch (*code) {
+    const auto refused = [&](std::string::const_iterator at, const char* why) {
+        return Error{ErrorKind::failed, "geotags",
+                     "the " + what + " holds at byte " + std::to_string(at - text.begin()) + why};
+    };
+    const auto valid_end = utf8::find_invalid(text.begin(), text.end());
+    for (auto at = text.begin(); at != valid_end;) {
+        const auto start = at;
+        const std::uint32_t code = utf8::unchecked::next(at);
+        if (!xml_allows(code)) return refused(start, " a control character");
+        switch (code) {
             case '&':
                 xml += "&amp;";
                 break;
@@ -71,46 +55,65 @@ Result<std::string> escaped(const std::string& what, const std::string& text) {
                 xml += "&#xD;";
                 break;
             default:
-                xml.append(text, start, at - start);
+                xml.append(start, at);
         }
     }
+    if (valid_end != text.end()) return refused(valid_end, " something that is not UTF-8");
     return xml;
 }
 
-void append_utf8(std::string& text, std::uint32_t code) {
-    const auto put = [&](std::uint32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
-    if (code < 0x80) return put(code);
-    if (code < 0x800) {
-        put(0xC0 | code >> 6);
-    } else {
-        if (code < 0x10000) {
-            put(0xE0 | code >> 12);
-        } else {
-            put(0xF0 | code >> 18);
-            put(0x80 | (code >> 12 & 0x3F));
-        }
-        put(0x80 | (code >> 6 & 0x3F));
+// True where every & of a text begins one of XML's five entities or a number of a character that XML allows:
+// the parser passes over others as they stand, and a damaged view would be read as another one.
+bool entities_are_whole(std::string_view xml) {
+    constexpr std::size_t longest = 10;  // &#x10FFFF;
+    for (std::size_t at = xml.find('&'); at != std::string_view::npos; at = xml.find('&', at + 1)) {
+        const std::size_t stop = xml.substr(0, at + longest).find(';', at);
+        if (stop == std::string_view::npos) return false;
+        std::string_view name = xml.substr(at + 1, stop - at - 1);
+        if (name == "amp" || name == "lt" || name == "gt" || name == "quot" || name == "apos") continue;
+        if (!name.starts_with('#')) return false;
+        const bool hexadecimal = name.starts_with("#x");
+        name.remove_prefix(hexadecimal ? 2 : 1);
+        std::uint32_t code = 0;
+        const auto end = std::from_chars(name.data(), name.data() + name.size(), code, hexadecimal ? 16 : 10);
+        if (end.ec != std::errc{} || end.ptr != name.data() + name.size() || !xml_allows(code)) return false;
     }
-    put(0x80 | (code & 0x3F));
+    return true;
 }
 
-// "lt", "#38", "#x26": what stands between & and ;.
-std::optional<std::uint32_t> entity(std::string_view name) {
-    if (name == "amp") return '&';
-    if (name == "lt") return '<';
-    if (name == "gt") return '>';
-    if (name == "quot") return '"';
-    if (name == "apos") return '\'';
-    if (!name.starts_with('#')) return std::nullopt;
-    name.remove_prefix(1);
-    const bool hexadecimal = name.starts_with('x');
-    if (hexadecimal) name.remove_prefix(1);
-    std::uint32_t code = 0;
-    const auto end = std::from_chars(name.data(), name.data() + name.size(), code, hexadecimal ? 16 : 10);
-    if (end.ec != std::errc{} || end.ptr != name.data() + name.size() || !xml_allows(code))
-        return std::nullopt;
-    return code;
+// The prefix that an element or one around it binds to our name space; nothing where none does.
+std::optional<std::string> our_prefix(pugi::xml_node element) {
+    for (; element; element = element.parent()) {
+        for (const pugi::xml_attribute attribute : element.attributes()) {
+            const std::string_view name = attribute.name();
+            if (name.starts_with("xmlns:") && name_space == attribute.value())
+                return std::string(name.substr(6)) + ":";
+        }
+    }
+    return std::nullopt;
 }
+
+// Looks for the view in a packet. Other programs may have rewritten it: with another prefix, or with the view
+// as an attribute.
+class ViewSearch : public pugi::xml_tree_walker {
+  public:
+    bool for_each(pugi::xml_node& element) override {
+        constexpr int deepest = 100;  // packets have 5; each element asks all around it for its prefix
+        too_deep = depth() > deepest;
+        if (too_deep) return false;
+        const auto prefix = our_prefix(element);
+        if (!prefix) return true;
+        const std::string name = *prefix + "View";
+        const pugi::xml_attribute attribute = element.attribute(name.c_str());
+        found = attribute || name == element.name();
+        if (found) view = attribute ? attribute.value() : element.child_value();
+        return !found;
+    }
+
+    std::string view;
+    bool found{false};
+    bool too_deep{false};
+};
 
 std::string iso_time(std::int64_t time_utc_s) {
     using namespace std::chrono;
@@ -177,27 +180,21 @@ Result<std::string> xmp_packet(const Geotags& tags, PictureFormat format) {
 
 Result<std::string> view_in_xmp(const std::string& packet, const std::string& where) {
     const auto damaged = [&](const std::string& what) { return Error{ErrorKind::failed, where, what}; };
-    const std::size_t start = packet.find(view_starts);
-    if (start == std::string::npos || packet.find(name_space) == std::string::npos)
-        return damaged("carries no view of Orograph");
-    const std::size_t end = packet.find(view_ends, start);
-    if (end == std::string::npos) return damaged("carries a view that is cut off");
-    const std::string_view xml(packet.data() + start + view_starts.size(), end - start - view_starts.size());
-    std::string view;
-    view.reserve(xml.size());
-    for (std::size_t at = 0; at < xml.size(); ++at) {
-        if (xml[at] != '&') {
-            view += xml[at];
-            continue;
-        }
-        constexpr std::size_t longest = 10;  // &#x10FFFF;
-        const std::size_t stop = xml.substr(0, at + longest).find(';', at);
-        const auto code =
-            stop == std::string_view::npos ? std::nullopt : entity(xml.substr(at + 1, stop - at - 1));
-        if (!code) return damaged("carries a view that is damaged at its byte " + std::to_string(at));
-        append_utf8(view, *code);
-        at = stop;
-    }
+    if (packet.find(name_space) == std::string::npos) return damaged("carries no view of Orograph");
+    if (!entities_are_whole(packet)) return damaged("carries XMP with a damaged entity");
+    pugi::xml_document document;
+    // Line ends stay as they are: what was written comes back to the byte.
+    const pugi::xml_parse_result parsed = document.load_buffer(
+        packet.data(), packet.size(), (pugi::parse_default | pugi::parse_ws_pcdata) & ~pugi::parse_eol,
+        pugi::encoding_utf8);
+    if (!parsed)
+        return damaged("carries XMP that is damaged at its byte " + std::to_string(parsed.offset) + ": " +
+                       parsed.description());
+    ViewSearch search;
+    document.traverse(search);
+    if (search.too_deep) return damaged("carries XMP that is nested too deeply");
+    if (!search.found) return damaged("carries no view of Orograph");
+    std::string view = search.view;
     if (view.empty()) return damaged("carries an empty view");
     return view;
 }

@@ -5,7 +5,7 @@ build_packages=(
   glslang-tools libvulkan-dev
   libgdal-dev libgeographiclib-dev libproj-dev proj-data
   libglm-dev libglfw3-dev libcli11-dev nlohmann-json3-dev
-  libpng-dev libjpeg-dev libtiff-dev libexif-dev libzstd-dev
+  libpng-dev libjpeg-dev libtiff-dev libexif-dev libzstd-dev libxxhash-dev libpugixml-dev libutfcpp-dev
 )
 
 # To tell a GPU with mesh shaders from one without; only where there is a GPU.
