@@ -104,8 +104,11 @@ ordered_json doctor_json(const std::vector<Finding>& devices, const std::string&
         {"gdal", libraries.gdal}, {"proj", libraries.proj}, {"geographiclib", libraries.geographiclib}};
     json["geoids"] = ordered_json::array();
     for (const GeoidGridReport& g : libraries.geoids)
-        json["geoids"].push_back(
-            {{"name", g.name}, {"file", g.file}, {"found", g.found}, {"meaning", g.meaning}});
+        json["geoids"].push_back({{"name", g.name},
+                                  {"file", g.file},
+                                  {"found", g.found},
+                                  {"damage", g.damage.empty() ? ordered_json() : ordered_json(g.damage)},
+                                  {"meaning", g.meaning}});
     json["data_folder"] = {{"path", data_folder().string()}, {"found", has_data_folder()}};
     return json;
 }
@@ -147,9 +150,13 @@ void print_doctor(const std::vector<Finding>& devices, const std::string& no_dev
     if (!no_device.empty()) std::printf("GPU          none: %s\n", no_device.c_str());
     std::printf("GDAL         %s\nPROJ         %s\nGeographicLib %s\n", libraries.gdal.c_str(),
                 libraries.proj.c_str(), libraries.geographiclib.c_str());
-    for (const GeoidGridReport& g : libraries.geoids)
-        std::printf("geoid        %s: %s %s; %s\n", g.name.c_str(), g.file.c_str(),
-                    g.found ? "found" : "not found", g.meaning.c_str());
+    for (const GeoidGridReport& g : libraries.geoids) {
+        const std::string state = !g.found           ? "not found"
+                                  : g.damage.empty() ? "found"
+                                                     : "DAMAGED: " + g.damage;
+        std::printf("geoid        %s: %s %s; %s\n", g.name.c_str(), g.file.c_str(), one_line(state).c_str(),
+                    g.meaning.c_str());
+    }
     std::printf("data         %s%s\n", data_folder().c_str(),
                 has_data_folder() ? "" : " (not there: styles must be given by path)");
 }

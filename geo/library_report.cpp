@@ -5,21 +5,24 @@
 
 #include <GeographicLib/Config.h>
 
+#include "geo/vertical_datum.h"
+
 namespace oro {
 namespace {
 
-// True when PROJ can open a grid by this name (resource folders, PROJ_DATA).
-bool has_grid(const char* name) {
-    const PJ_GRID_INFO info = proj_grid_info(name);
-    return info.filename[0] != '\0';
+std::string file_name(const std::string& path) {
+    return path.substr(path.find_last_of('/') + 1);
 }
 
-GeoidGridReport look_for(const std::string& name, std::initializer_list<const char*> files,
+// `file` is the name of the grid where there is none.
+GeoidGridReport look_for(const std::string& name, const std::string& heights_crs, const std::string& file,
                          const std::string& with, const std::string& without) {
-    for (const char* file : files) {
-        if (has_grid(file)) return {name, file, true, with};
-    }
-    return {name, *files.begin(), false, without};
+    const GridState state = grid_state(heights_crs);
+    if (!state.damage.empty())
+        return {name, file_name(state.path), true, state.damage,
+                "nothing that needs it is drawn: install it anew (proj-data)"};
+    if (state.path.empty()) return {name, file, false, "", without};
+    return {name, file_name(state.path), true, "", with};
 }
 
 }  // namespace
@@ -31,10 +34,10 @@ LibraryReport report_libraries() {
     report.proj = proj.version;
     report.geographiclib = GEOGRAPHICLIB_VERSION_STRING;
     report.geoids = {
-        look_for("EGM96", {"egm96_15.gtx", "us_nga_egm96_15.tif"},
+        look_for("EGM96", "EPSG:4326+5773", "egm96_15.gtx",
                  "SRTM heights are lifted onto the ellipsoid by it",
                  "N = 0 stands in: heights above the ellipsoid are off by up to 107 m (install proj-data)"),
-        look_for("EGM2008", {"egm08_25.gtx", "us_nga_egm08_25.tif"},
+        look_for("EGM2008", "EPSG:4326+3855", "us_nga_egm08_25.tif",
                  "heights that state EGM2008 are honoured",
                  "EGM96 stands in for heights that state EGM2008 (differences are mostly below 1 m); "
                  "--strict-datum refuses them"),

@@ -10,6 +10,7 @@ struct GeoidGridReport {
     std::string name;  // "EGM96"
     std::string file;  // the grid's file name, found or looked for
     bool found{};
+    std::string damage;   // why what is there cannot be used, with its whole path; "" where all is well
     std::string meaning;  // what works with it, or what stands in without it
 };
 
@@ -20,6 +21,7 @@ struct LibraryReport {
     std::vector<GeoidGridReport> geoids;
 };
 
+// Reads all of the geoid grids that are there.
 LibraryReport report_libraries();
 
 }  // namespace oro

@@ -79,7 +79,10 @@ StatedDatum read_vertical(Source& source, GDALDatasetH dataset, OGRSpatialRefere
             source.report.vertical_datum = datum->name;
             return *datum;
         }
-        source.vertical_crs.clear();
+        // Kept: who asks for it later is told that it cannot be read.
+        source.report.vertical_datum =
+            "EGM96 height (assumed: PROJ cannot read what the CRS states of heights)";
+        return {};
     }
     const std::string dted = text_of(GDALGetMetadataItem(dataset, "DTED_VerticalDatum", nullptr));
     if (dted == "E96" || dted == "E08") {

@@ -148,8 +148,8 @@ Result<std::uint64_t> lay_source(Source& source, int turn, GeoidOfRegion::Shift&
         for (int row = first; row < std::min(first + strip, end); ++row) {
             placed.row(row, heights, beyond, inside);
             const double lat_deg = to.grid.lat.at_deg(row);
-            shift.apply(to.undulation, lat_deg, lon_deg, heights);
-            shift.apply(to.undulation, lat_deg, lon_deg, beyond);
+            ORO_CHECK(shift.apply(to.undulation, lat_deg, lon_deg, heights));
+            ORO_CHECK(shift.apply(to.undulation, lat_deg, lon_deg, beyond));
             const bool own_posts = placed.fit() == Fit::same_posts;
             const std::uint64_t filled =
                 to.surface.lay(row, rect.first_column, heights, inside, own_posts, report.seams);
@@ -191,7 +191,7 @@ Result<void> lay_sources(std::vector<Source>& sources, const GeoidOfRegion& geoi
         GeoidOfRegion::Shift shift;
         if (!source.vertical_crs.empty()) {
             auto found = geoid.shift_from(source.vertical_crs, box, strict);
-            if (!found) return Error{found.error().kind, report.path, found.error().what};
+            if (!found) return Error{found.error().kind, report.path, found.error().line()};
             shift = std::move(*found);
             if (!shift.note().empty()) {
                 add_note(notes, shift.note());
@@ -244,7 +244,7 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
     ORO_TRY(const PostGrid grid, region_grid(found.sources, *extent));
     const BoundingBox posts{grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()};
     region.field.grid = grid;
-    region.field.undulation = geoid.undulation(posts);
+    ORO_TRY(region.field.undulation, geoid.undulation(posts));
     region.geoid = geoid.name();
     add_note(region.notes, geoid.note());
     if (!request.height_unit.empty() && request.height_unit != "m" &&

@@ -1,44 +1,18 @@
 #include "geo/vertical_datum.h"
 
-#include <proj.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/ellipsoid.h"
+#include "geo/proj_operations.h"
+#include "geo/shift_grid.h"
 
 namespace oro {
 namespace {
 
-struct FreeContext {
-    void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
-};
-struct FreeProj {
-    void operator()(PJ* object) const { proj_destroy(object); }
-};
-struct FreeList {
-    void operator()(PJ_OBJ_LIST* list) const { proj_list_destroy(list); }
-};
-struct FreeFactory {
-    void operator()(PJ_OPERATION_FACTORY_CONTEXT* factory) const {
-        proj_operation_factory_context_destroy(factory);
-    }
-};
-using Context = std::unique_ptr<PJ_CONTEXT, FreeContext>;
-using Proj = std::unique_ptr<PJ, FreeProj>;
-
 constexpr const char* egm96_heights = "EPSG:4326+5773";
 constexpr double egm96_nodes_per_deg = 4.0;
-
-Context new_context() {
-    Context context(proj_context_create());
-    proj_log_level(context.get(), PJ_LOG_NONE);
-    // Some of PROJ's functions write to the log whatever its level, such as a missing proj.db.
-    proj_log_func(context.get(), nullptr, [](void*, int, const char*) {});
-    proj_context_set_enable_network(context.get(), 0);
-    return context;
-}
 
 std::string code_and_name(const PJ* object) {
     const char* const name = proj_get_name(object);
@@ -49,7 +23,7 @@ std::string code_and_name(const PJ* object) {
 }
 
 // A CRS without the wrapping that TOWGS84 parameters or a geoid model give it.
-Proj unbound(PJ_CONTEXT* context, Proj crs) {
+ProjObject unbound(PJ_CONTEXT* context, ProjObject crs) {
     while (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS)
         crs.reset(proj_get_source_crs(context, crs.get()));
     return crs;
@@ -61,12 +35,12 @@ std::string wkt(PJ_CONTEXT* context, const PJ* crs) {
 }
 
 int axis_count(PJ_CONTEXT* context, const PJ* crs) {
-    const Proj system(proj_crs_get_coordinate_system(context, crs));
+    const ProjObject system(proj_crs_get_coordinate_system(context, crs));
     return system ? proj_cs_get_axis_count(context, system.get()) : 0;
 }
 
 double metres_per_unit(PJ_CONTEXT* context, const PJ* crs, int axis) {
-    const Proj system(proj_crs_get_coordinate_system(context, crs));
+    const ProjObject system(proj_crs_get_coordinate_system(context, crs));
     double factor = 1.0;
     const char* direction = nullptr;
     if (!system || !proj_cs_get_axis_info(context, system.get(), axis, nullptr, nullptr, &direction, &factor,
@@ -77,22 +51,25 @@ double metres_per_unit(PJ_CONTEXT* context, const PJ* crs, int axis) {
 
 // The same heights over latitude and longitude: a geographic CRS with the vertical part of `crs`; null when
 // there is none.
-Proj geographic_with_heights(PJ_CONTEXT* context, const std::string& text, StatedDatum& datum) {
-    const Proj crs = unbound(context, Proj(proj_create(context, text.c_str())));
+ProjObject geographic_with_heights(PJ_CONTEXT* context, const std::string& text, StatedDatum& datum) {
+    const ProjObject crs = unbound(context, ProjObject(proj_create(context, text.c_str())));
     if (!crs) return nullptr;
     if (proj_get_type(crs.get()) == PJ_TYPE_COMPOUND_CRS) {
-        const Proj horizontal = unbound(context, Proj(proj_crs_get_sub_crs(context, crs.get(), 0)));
-        const Proj vertical = unbound(context, Proj(proj_crs_get_sub_crs(context, crs.get(), 1)));
+        const ProjObject horizontal =
+            unbound(context, ProjObject(proj_crs_get_sub_crs(context, crs.get(), 0)));
+        const ProjObject vertical = unbound(context, ProjObject(proj_crs_get_sub_crs(context, crs.get(), 1)));
         if (!horizontal || !vertical) return nullptr;
-        datum = {code_and_name(vertical.get()), metres_per_unit(context, vertical.get(), 0)};
-        const Proj geographic(proj_crs_get_geodetic_crs(context, horizontal.get()));
+        const char* const name = proj_get_name(vertical.get());
+        datum = {code_and_name(vertical.get()), metres_per_unit(context, vertical.get(), 0),
+                 name && std::string_view(name).find("EGM96 height") != std::string_view::npos};
+        const ProjObject geographic(proj_crs_get_geodetic_crs(context, horizontal.get()));
         if (!geographic) return nullptr;
         const std::string text_of_both = "COMPOUNDCRS[\"heights\"," + wkt(context, geographic.get()) + "," +
                                          wkt(context, vertical.get()) + "]";
-        return Proj(proj_create(context, text_of_both.c_str()));
+        return ProjObject(proj_create(context, text_of_both.c_str()));
     }
     if (axis_count(context, crs.get()) != 3) return nullptr;
-    Proj geographic(proj_crs_get_geodetic_crs(context, crs.get()));
+    ProjObject geographic(proj_crs_get_geodetic_crs(context, crs.get()));
     if (!geographic) return nullptr;
     datum = {"ellipsoidal height (" + code_and_name(geographic.get()) + ")",
              metres_per_unit(context, crs.get(), 2)};
@@ -102,87 +79,61 @@ Proj geographic_with_heights(PJ_CONTEXT* context, const std::string& text, State
     return geographic;
 }
 
-struct Found {
-    Proj operation;       // longitude, latitude, height to WGS84's; null when there is no usable one
-    std::string grids;    // files that it uses
-    std::string missing;  // what the best unusable one would need
-};
+// Two ways of asking, each with grids that it has opened for itself, must give the same to this.
+constexpr double same_answer_m = 1e-6;
 
-std::string file_name(const std::string& path) {
-    return path.substr(path.find_last_of('/') + 1);
-}
+constexpr BoundingBox whole_world{-180.0, -90.0, 180.0, 90.0};
 
-// Grids of an operation; false when one of them is not on this machine.
-bool grids_of(PJ_CONTEXT* context, const PJ* operation, std::string& names) {
-    bool all = true;
-    const int count = proj_coordoperation_get_grid_used_count(context, operation);
-    for (int i = 0; i < count; ++i) {
-        const char* short_name = nullptr;
-        const char* full_name = nullptr;
-        int available = 0;
-        proj_coordoperation_get_grid_used(context, operation, i, &short_name, &full_name, nullptr, nullptr,
-                                          nullptr, nullptr, &available);
-        const bool located = available && full_name && *full_name;
-        if (!names.empty()) names += ", ";
-        names += located ? file_name(full_name) : short_name ? short_name : "unnamed grid";
-        all = all && available;
+// Why there is no operation for EGM96 although something is there that should give one; nothing where PROJ's
+// database or the grid is not on this machine at all.
+std::optional<Error> egm96_fault(PJ_CONTEXT* context, const LiftingOperation& found) {
+    if (!found.unusable_grid.empty()) return damaged_grid(found.unusable_grid, "PROJ can do nothing with it");
+    if (proj_context_get_database_path(context) == nullptr) {
+        const std::string database = proj_file_there(context, {"proj.db"});
+        if (database.empty()) return std::nullopt;
+        return Error{
+            ErrorKind::failed, database,
+            "PROJ cannot read its own database, which is there (install it anew, package proj-data)"};
     }
-    return all;
-}
-
-Found find_operation(PJ_CONTEXT* context, const PJ* from, const BoundingBox& unwrapped) {
-    Found found;
-    const Proj to(proj_create(context, "EPSG:4979"));
-    const std::unique_ptr<PJ_OPERATION_FACTORY_CONTEXT, FreeFactory> factory(
-        proj_create_operation_factory_context(context, nullptr));
-    if (!to || !factory) return found;
-    PJ_OPERATION_FACTORY_CONTEXT* const f = factory.get();
-    // A "ballpark" operation is the one that leaves heights as they are: never acceptable here.
-    proj_operation_factory_context_set_allow_ballpark_transformations(context, f, 0);
-    proj_operation_factory_context_set_spatial_criterion(context, f,
-                                                         PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
-    proj_operation_factory_context_set_grid_availability_use(context, f,
-                                                             PROJ_GRID_AVAILABILITY_USED_FOR_SORTING);
-    if (unwrapped.east_deg - unwrapped.west_deg < 360.0)
-        proj_operation_factory_context_set_area_of_interest(
-            context, f, normalised_lon_deg(unwrapped.west_deg), unwrapped.south_deg,
-            normalised_lon_deg(unwrapped.east_deg), unwrapped.north_deg);
-    const std::unique_ptr<PJ_OBJ_LIST, FreeList> list(proj_create_operations(context, from, to.get(), f));
-    const int count = list ? proj_list_get_count(list.get()) : 0;
-    for (int i = 0; i < count; ++i) {
-        const Proj operation(proj_list_get(context, list.get(), i));
-        std::string grids;
-        const bool complete = grids_of(context, operation.get(), grids);
-        if (complete && proj_coordoperation_is_instantiable(context, operation.get()) &&
-            !proj_coordoperation_has_ballpark_transformation(context, operation.get())) {
-            found.operation.reset(proj_normalize_for_visualization(context, operation.get()));
-            found.grids = grids;
-            if (found.operation) return found;
-        }
-        if (!complete && found.missing.empty()) found.missing = grids;
-    }
-    return found;
-}
-
-// Lifts points in place; a point that the operation cannot take gets infinity.
-void lift(PJ* operation, std::vector<double>& lon_deg, std::vector<double>& lat_deg, std::vector<double>& z) {
-    proj_errno_reset(operation);
-    proj_trans_generic(operation, PJ_FWD, lon_deg.data(), sizeof(double), lon_deg.size(), lat_deg.data(),
-                       sizeof(double), lat_deg.size(), z.data(), sizeof(double), z.size(), nullptr, 0, 0);
+    const std::string grid = proj_file_there(context, {"us_nga_egm96_15.tif", "egm96_15.gtx"});
+    if (grid.empty()) return std::nullopt;
+    return damaged_grid(grid, "is there, and PROJ makes no use of it");
 }
 
 }  // namespace
 
 struct VerticalLibrary {
-    Context context;
-    Proj egm96;
+    ProjContext context;
+    ProjObject egm96;
+    std::string egm96_grid;  // its whole path
 };
 
 std::optional<StatedDatum> stated_datum(const std::string& crs) {
-    const Context context = new_context();
+    const ProjContext context = new_proj_context();
     StatedDatum datum;
     if (!geographic_with_heights(context.get(), crs, datum)) return std::nullopt;
     return datum;
+}
+
+GridState grid_state(const std::string& heights_crs) {
+    const ProjContext context = new_proj_context();
+    const ProjObject heights(proj_create(context.get(), heights_crs.c_str()));
+    const LiftingOperation found =
+        heights ? find_lifting_operation(context.get(), heights.get(), whole_world) : LiftingOperation{};
+    if (heights_crs == egm96_heights) {
+        const auto geoid = GeoidOfRegion::open(false);
+        if (!geoid) return {geoid.error().where, geoid.error().line()};
+        const auto N = geoid->undulation(whole_world);
+        return {found.grids.empty() ? "" : found.grids.front(), N ? "" : N.error().line()};
+    }
+    if (!found.unusable_grid.empty()) return {found.unusable_grid, "PROJ can do nothing with it"};
+    for (const std::string& path : found.grids) {
+        if (!ShiftGrid::can_read(path)) continue;
+        auto grid = ShiftGrid::open(path);
+        if (!grid) return {path, grid.error().line()};
+        if (const auto read = grid->read_all(); !read.ok()) return {path, read.error().line()};
+    }
+    return {found.grids.empty() ? "" : found.grids.front(), ""};
 }
 
 GeoidOfRegion::GeoidOfRegion() = default;
@@ -193,15 +144,18 @@ GeoidOfRegion::~GeoidOfRegion() = default;
 Result<GeoidOfRegion> GeoidOfRegion::open(bool strict) {
     GeoidOfRegion geoid;
     geoid.library_ = std::make_unique<VerticalLibrary>();
-    geoid.library_->context = new_context();
+    geoid.library_->context = new_proj_context();
     PJ_CONTEXT* const context = geoid.library_->context.get();
-    const Proj heights(proj_create(context, egm96_heights));
-    Found found = heights ? find_operation(context, heights.get(), {-180.0, -90.0, 180.0, 90.0}) : Found{};
-    if (found.operation) {
+    const ProjObject heights(proj_create(context, egm96_heights));
+    LiftingOperation found =
+        heights ? find_lifting_operation(context, heights.get(), whole_world) : LiftingOperation{};
+    if (found.operation && !found.grids.empty()) {
         geoid.library_->egm96 = std::move(found.operation);
-        geoid.name_ = "EGM96 (" + found.grids + ")";
+        geoid.library_->egm96_grid = found.grids.front();
+        geoid.name_ = "EGM96 (" + file_names(found.grids) + ")";
         return geoid;
     }
+    if (const auto fault = egm96_fault(context, found)) return *fault;
     const std::string missing =
         found.missing.empty() ? "its database or grid for EGM96 (egm96_15.gtx)" : found.missing;
     if (strict)
@@ -214,7 +168,7 @@ Result<GeoidOfRegion> GeoidOfRegion::open(bool strict) {
     return geoid;
 }
 
-UndulationField GeoidOfRegion::undulation(const BoundingBox& unwrapped) const {
+Result<UndulationField> GeoidOfRegion::undulation(const BoundingBox& unwrapped) const {
     UndulationField field;
     if (!library_->egm96) return field;
     const double per_deg = egm96_nodes_per_deg;
@@ -234,33 +188,60 @@ UndulationField GeoidOfRegion::undulation(const BoundingBox& unwrapped) const {
             z[c] = 0.0;
         }
         lift(library_->egm96.get(), lon, lat, z);
-        for (const double N_m : z) field.N_m.push_back(std::isfinite(N_m) ? static_cast<float>(N_m) : 0.0F);
+        for (const double N_m : z) field.N_m.push_back(static_cast<float>(N_m));
     }
+    ORO_TRY(ShiftGrid grid, ShiftGrid::open(library_->egm96_grid));
+    ORO_CHECK(check_undulation(field, grid));
     return field;
 }
+
+// PROJ's operation, the same once more with grids opened anew (null where it needs none), and these grids as
+// GDAL reads them.
+struct GeoidOfRegion::Shift::Ways {
+    ProjObject first;
+    ProjContext second_context;
+    ProjObject second;
+    std::vector<ShiftGrid> grids;
+};
 
 GeoidOfRegion::Shift::Shift() = default;
 GeoidOfRegion::Shift::Shift(Shift&&) noexcept = default;
 GeoidOfRegion::Shift& GeoidOfRegion::Shift::operator=(Shift&&) noexcept = default;
 GeoidOfRegion::Shift::~Shift() = default;
-void GeoidOfRegion::Shift::Free::operator()(void* operation) const {
-    proj_destroy(static_cast<PJ*>(operation));
-}
 
 Result<GeoidOfRegion::Shift> GeoidOfRegion::shift_from(const std::string& crs, const BoundingBox& unwrapped,
                                                        bool strict) const {
     Shift shift;
     PJ_CONTEXT* const context = library_->context.get();
     StatedDatum datum;
-    const Proj heights = geographic_with_heights(context, crs, datum);
-    if (!heights || datum.name.find("EGM96 height") != std::string::npos || !library_->egm96) return shift;
-    Found found = find_operation(context, heights.get(), unwrapped);
+    const ProjObject heights = geographic_with_heights(context, crs, datum);
+    if (!library_->egm96 || (heights && datum.is_egm96)) return shift;
+    LiftingOperation found =
+        heights ? find_lifting_operation(context, heights.get(), unwrapped) : LiftingOperation{};
+    if (!found.unusable_grid.empty())
+        return damaged_grid(found.unusable_grid, "PROJ can do nothing with it for " + datum.name);
     if (found.operation) {
-        shift.operation_.reset(found.operation.release());
+        auto ways = std::make_unique<Shift::Ways>();
+        ways->first = std::move(found.operation);
+        if (!found.grids.empty()) {
+            ways->second_context = new_proj_context();
+            ways->second.reset(proj_clone(ways->second_context.get(), ways->first.get()));
+            if (!ways->second)
+                return Error{ErrorKind::failed, "vertical datum " + datum.name,
+                             "PROJ cannot make its operation a second time (not enough memory?)"};
+        }
+        for (const std::string& path : found.grids) {
+            if (!ShiftGrid::can_read(path)) continue;
+            ORO_TRY(ShiftGrid grid, ShiftGrid::open(path));
+            ways->grids.push_back(std::move(grid));
+        }
+        shift.ways_ = std::move(ways);
         shift.metres_per_unit_ = datum.metres_per_unit;
+        shift.name_ = "vertical datum " + datum.name;
         return shift;
     }
-    const std::string why = found.missing.empty()
+    const std::string why = !heights ? "PROJ cannot read what the CRS states of heights"
+                            : found.missing.empty()
                                 ? "PROJ knows no way from " + datum.name + " to ellipsoidal heights"
                                 : "PROJ lacks " + found.missing + " for " + datum.name;
     if (strict) return Error{ErrorKind::failed, "vertical datum", why};
@@ -268,9 +249,20 @@ Result<GeoidOfRegion::Shift> GeoidOfRegion::shift_from(const std::string& crs, c
     return shift;
 }
 
-void GeoidOfRegion::Shift::apply(const UndulationField& undulation, double lat_deg,
-                                 std::span<const double> lon_deg, std::span<float> H_m) {
-    if (does_nothing()) return;
+Result<bool> GeoidOfRegion::Shift::is_beyond_grids(double lat_deg, double lon_deg) {
+    // The datums' degrees differ by less than this many cells.
+    constexpr double rim_cells = 2.0;
+    if (ways_->grids.empty()) return true;
+    for (ShiftGrid& grid : ways_->grids) {
+        ORO_TRY(const std::optional<double> value, grid.at_m(lat_deg, lon_deg, rim_cells));
+        if (!value) return true;
+    }
+    return false;
+}
+
+Result<void> GeoidOfRegion::Shift::apply(const UndulationField& undulation, double lat_deg,
+                                         std::span<const double> lon_deg, std::span<float> H_m) {
+    if (does_nothing()) return {};
     std::vector<std::size_t> where;
     std::vector<double> lon, lat, z;
     for (std::size_t i = 0; i < H_m.size(); ++i) {
@@ -280,15 +272,29 @@ void GeoidOfRegion::Shift::apply(const UndulationField& undulation, double lat_d
         lat.push_back(lat_deg);
         z.push_back(static_cast<double>(H_m[i]) / metres_per_unit_);
     }
-    if (where.empty()) return;
-    lift(static_cast<PJ*>(operation_.get()), lon, lat, z);
+    if (where.empty()) return {};
+    std::vector<double> lon_again = lon, lat_again = lat, z_again = z;
+    lift(ways_->first.get(), lon, lat, z);
+    if (ways_->second) lift(ways_->second.get(), lon_again, lat_again, z_again);
+    const std::string& grid = ways_->grids.empty() ? name_ : ways_->grids.front().path();
     for (std::size_t k = 0; k < where.size(); ++k) {
+        const double place_lon_deg = lon_deg[where[k]];
+        const auto place = [&] {
+            return " at " + std::to_string(lat_deg) + "," + std::to_string(place_lon_deg);
+        };
+        if (std::isfinite(z[k]) != std::isfinite(z_again[k]) || std::abs(z[k] - z_again[k]) > same_answer_m)
+            return damaged_grid(grid, "PROJ gives " + std::to_string(z[k]) + " m and " +
+                                          std::to_string(z_again[k]) + " m for the same post" + place());
         if (!std::isfinite(z[k])) {
+            ORO_TRY(const bool beyond, is_beyond_grids(lat_deg, place_lon_deg));
+            if (!beyond)
+                return damaged_grid(grid, "PROJ gives no height" + place() + ", which lies inside it");
             ++beyond_grid_;
             continue;
         }
-        H_m[where[k]] = static_cast<float>(z[k] - undulation.at_m(lat_deg, lon_deg[where[k]]));
+        H_m[where[k]] = static_cast<float>(z[k] - undulation.at_m(lat_deg, place_lon_deg));
     }
+    return {};
 }
 
 }  // namespace oro

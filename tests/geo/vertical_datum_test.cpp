@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "tests/geo/proj_folder.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -38,22 +39,6 @@ class PlainProj {
     PJ_CONTEXT* context_;
     PJ* operation_;
 };
-
-// PROJ finds its files only in this folder while it lives.
-class ProjFolder {
-  public:
-    explicit ProjFolder(const std::string& folder) { setenv("PROJ_DATA", folder.c_str(), 1); }
-    ~ProjFolder() { unsetenv("PROJ_DATA"); }
-    ProjFolder(const ProjFolder&) = delete;
-    ProjFolder& operator=(const ProjFolder&) = delete;
-};
-
-std::optional<fs::path> proj_file(const std::string& name) {
-    for (const char* folder : {"/usr/share/proj", "/usr/local/share/proj"}) {
-        if (fs::exists(fs::path(folder) / name)) return fs::path(folder) / name;
-    }
-    return std::nullopt;
-}
 
 std::string write_flat(const fs::path& folder, const std::string& crs, double height, double west_deg = 7.95,
                        double north_deg = 46.55) {
@@ -91,7 +76,9 @@ TEST(Geoid, UndulationIsExactlyWhatProjGives) {
     for (const BoundingBox& box :
          {BoundingBox{8, 46, 9, 47}, BoundingBox{-180, -90, 180, 90}, BoundingBox{175, -20, 185, -15},
           BoundingBox{-84.41, 36.44, -84.07, 36.74}, BoundingBox{100, 88.3, 140, 90}}) {
-        const UndulationField field = geoid->undulation(box);
+        const auto asked = geoid->undulation(box);
+        ASSERT_TRUE(asked.ok()) << asked.error().line();
+        const UndulationField& field = *asked;
         std::uniform_real_distribution<double> lat(box.south_deg, box.north_deg),
             lon(box.west_deg, box.east_deg);
         for (int i = 0; i < 4000; ++i) {
