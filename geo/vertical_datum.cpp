@@ -49,34 +49,43 @@ double metres_per_unit(PJ_CONTEXT* context, const PJ* crs, int axis) {
     return direction && std::string_view(direction) == "down" ? -factor : factor;
 }
 
-// The same heights over latitude and longitude: a geographic CRS with the vertical part of `crs`; null when
-// there is none.
-ProjObject geographic_with_heights(PJ_CONTEXT* context, const std::string& text, StatedDatum& datum) {
+// A CRS's heights over latitude and longitude.
+struct GeographicHeights {
+    StatedDatum datum;
+    ProjObject crs;  // geographic, with the vertical part of the CRS; null when it has none
+    // Of the height that operations from `crs` take: a projected CRS may count in feet what the geographic
+    // one below it counts in metres.
+    double metres_per_unit{1.0};
+};
+
+GeographicHeights geographic_with_heights(PJ_CONTEXT* context, const std::string& text) {
+    GeographicHeights heights;
     const ProjObject crs = unbound(context, ProjObject(proj_create(context, text.c_str())));
-    if (!crs) return nullptr;
+    if (!crs) return heights;
     if (proj_get_type(crs.get()) == PJ_TYPE_COMPOUND_CRS) {
         const ProjObject horizontal =
             unbound(context, ProjObject(proj_crs_get_sub_crs(context, crs.get(), 0)));
         const ProjObject vertical = unbound(context, ProjObject(proj_crs_get_sub_crs(context, crs.get(), 1)));
-        if (!horizontal || !vertical) return nullptr;
+        if (!horizontal || !vertical) return heights;
         const char* const name = proj_get_name(vertical.get());
-        datum = {code_and_name(vertical.get()), metres_per_unit(context, vertical.get(), 0),
-                 name && std::string_view(name).find("EGM96 height") != std::string_view::npos};
+        heights.metres_per_unit = metres_per_unit(context, vertical.get(), 0);
+        heights.datum = {code_and_name(vertical.get()), heights.metres_per_unit,
+                         name && std::string_view(name).find("EGM96 height") != std::string_view::npos};
         const ProjObject geographic(proj_crs_get_geodetic_crs(context, horizontal.get()));
-        if (!geographic) return nullptr;
+        if (!geographic) return heights;
         const std::string text_of_both = "COMPOUNDCRS[\"heights\"," + wkt(context, geographic.get()) + "," +
                                          wkt(context, vertical.get()) + "]";
-        return ProjObject(proj_create(context, text_of_both.c_str()));
+        heights.crs.reset(proj_create(context, text_of_both.c_str()));
+        return heights;
     }
-    if (axis_count(context, crs.get()) != 3) return nullptr;
+    if (axis_count(context, crs.get()) != 3) return heights;
     ProjObject geographic(proj_crs_get_geodetic_crs(context, crs.get()));
-    if (!geographic) return nullptr;
-    datum = {"ellipsoidal height (" + code_and_name(geographic.get()) + ")",
-             metres_per_unit(context, crs.get(), 2)};
-    if (axis_count(context, geographic.get()) != 3) return nullptr;
-    // Heights are fed to the operation in the unit of the file's own axis.
-    if (std::abs(datum.metres_per_unit) != 1.0) datum.metres_per_unit = 1.0;
-    return geographic;
+    if (!geographic || axis_count(context, geographic.get()) != 3) return heights;
+    heights.datum = {"ellipsoidal height (" + code_and_name(geographic.get()) + ")",
+                     metres_per_unit(context, crs.get(), 2)};
+    heights.metres_per_unit = metres_per_unit(context, geographic.get(), 2);
+    heights.crs = std::move(geographic);
+    return heights;
 }
 
 // Two ways of asking, each with grids that it has opened for itself, must give the same to this.
@@ -110,9 +119,9 @@ struct VerticalLibrary {
 
 std::optional<StatedDatum> stated_datum(const std::string& crs) {
     const ProjContext context = new_proj_context();
-    StatedDatum datum;
-    if (!geographic_with_heights(context.get(), crs, datum)) return std::nullopt;
-    return datum;
+    GeographicHeights heights = geographic_with_heights(context.get(), crs);
+    if (!heights.crs) return std::nullopt;
+    return std::move(heights.datum);
 }
 
 GridState grid_state(const std::string& heights_crs) {
@@ -213,11 +222,11 @@ Result<GeoidOfRegion::Shift> GeoidOfRegion::shift_from(const std::string& crs, c
                                                        bool strict) const {
     Shift shift;
     PJ_CONTEXT* const context = library_->context.get();
-    StatedDatum datum;
-    const ProjObject heights = geographic_with_heights(context, crs, datum);
-    if (!library_->egm96 || (heights && datum.is_egm96)) return shift;
+    const GeographicHeights heights = geographic_with_heights(context, crs);
+    const StatedDatum& datum = heights.datum;
+    if (!library_->egm96 || (heights.crs && datum.is_egm96)) return shift;
     LiftingOperation found =
-        heights ? find_lifting_operation(context, heights.get(), unwrapped) : LiftingOperation{};
+        heights.crs ? find_lifting_operation(context, heights.crs.get(), unwrapped) : LiftingOperation{};
     if (!found.unusable_grid.empty())
         return damaged_grid(found.unusable_grid, "PROJ can do nothing with it for " + datum.name);
     if (found.operation) {
@@ -236,11 +245,11 @@ Result<GeoidOfRegion::Shift> GeoidOfRegion::shift_from(const std::string& crs, c
             ways->grids.push_back(std::move(grid));
         }
         shift.ways_ = std::move(ways);
-        shift.metres_per_unit_ = datum.metres_per_unit;
+        shift.metres_per_unit_ = heights.metres_per_unit;
         shift.name_ = "vertical datum " + datum.name;
         return shift;
     }
-    const std::string why = !heights ? "PROJ cannot read what the CRS states of heights"
+    const std::string why = !heights.crs ? "PROJ cannot read what the CRS states of heights"
                             : found.missing.empty()
                                 ? "PROJ knows no way from " + datum.name + " to ellipsoidal heights"
                                 : "PROJ lacks " + found.missing + " for " + datum.name;
@@ -282,7 +291,8 @@ Result<void> GeoidOfRegion::Shift::apply(const UndulationField& undulation, doub
         const auto place = [&] {
             return " at " + std::to_string(lat_deg) + "," + std::to_string(place_lon_deg);
         };
-        if (std::isfinite(z[k]) != std::isfinite(z_again[k]) || std::abs(z[k] - z_again[k]) > same_answer_m)
+        if (ways_->second &&
+            (std::isfinite(z[k]) != std::isfinite(z_again[k]) || std::abs(z[k] - z_again[k]) > same_answer_m))
             return damaged_grid(grid, "PROJ gives " + std::to_string(z[k]) + " m and " +
                                           std::to_string(z_again[k]) + " m for the same post" + place());
         if (!std::isfinite(z[k])) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "geo/source.h"
 #include "tests/geo/proj_folder.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
@@ -127,6 +128,76 @@ TEST(VerticalDatum, EllipsoidalHeightsLoseTheUndulation) {
         EXPECT_NEAR(H_at_centre(*region), 1000.0, 0.02) << crs;
         EXPECT_NE(region->sources[0].vertical_datum.find("ellipsoidal"), std::string::npos);
         fs::remove(folder / "flat.tif");
+    }
+}
+
+// WGS84 with heights in feet: three axes, latitude and longitude or UTM.
+std::string three_axes_in_feet(bool projected) {
+    const std::string axis_ft = "AXIS[\"ellipsoidal height (h)\",up,ORDER[3],LENGTHUNIT[\"foot\",0.3048]]";
+    const std::string datum =
+        "[\"WGS 84 in feet\",DATUM[\"World Geodetic System 1984\",ELLIPSOID[\"WGS "
+        "84\",6378137,298.257223563]],"
+        "PRIMEM[\"Greenwich\",0]";
+    const std::string degrees =
+        "CS[ellipsoidal,3],AXIS[\"latitude\",north,ORDER[1],ANGLEUNIT[\"degree\",0.0174532925199433]],"
+        "AXIS[\"longitude\",east,ORDER[2],ANGLEUNIT[\"degree\",0.0174532925199433]],";
+    if (!projected) return "GEOGCRS" + datum + "," + degrees + axis_ft + "]";
+    return "PROJCRS[\"UTM 32 in feet\",BASEGEOGCRS" + datum +
+           "],CONVERSION[\"UTM zone 32N\",METHOD[\"Transverse Mercator\",ID[\"EPSG\",9807]],"
+           "PARAMETER[\"Latitude of natural "
+           "origin\",0,ANGLEUNIT[\"degree\",0.0174532925199433],ID[\"EPSG\",8801]],"
+           "PARAMETER[\"Longitude of natural "
+           "origin\",9,ANGLEUNIT[\"degree\",0.0174532925199433],ID[\"EPSG\",8802]],"
+           "PARAMETER[\"Scale factor at natural origin\",0.9996,SCALEUNIT[\"unity\",1],ID[\"EPSG\",8805]],"
+           "PARAMETER[\"False easting\",500000,LENGTHUNIT[\"metre\",1],ID[\"EPSG\",8806]],"
+           "PARAMETER[\"False northing\",0,LENGTHUNIT[\"metre\",1],ID[\"EPSG\",8807]]],"
+           "CS[Cartesian,3],AXIS[\"(E)\",east,ORDER[1],LENGTHUNIT[\"metre\",1]],"
+           "AXIS[\"(N)\",north,ORDER[2],LENGTHUNIT[\"metre\",1]]," +
+           axis_ft + "]";
+}
+
+// A VRT over data.tif beside it, with a CRS that GeoTIFF cannot hold.
+std::string write_vrt(const fs::path& file, const Raster& raster, std::string crs) {
+    for (std::size_t at = 0; (at = crs.find('"', at)) != std::string::npos;) crs.replace(at, 1, "&quot;");
+    std::ofstream vrt(file);
+    vrt.precision(17);
+    vrt << "<VRTDataset rasterXSize=\"" << raster.columns << "\" rasterYSize=\"" << raster.rows
+        << "\"><SRS dataAxisToSRSAxisMapping=\"2,1,3\">" << crs << "</SRS><GeoTransform>";
+    for (std::size_t i = 0; i < 6; ++i) vrt << (i > 0 ? "," : "") << raster.cell_corners[i];
+    vrt << "</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"><UnitType>" << raster.unit
+        << "</UnitType><SimpleSource><SourceFilename relativeToVRT=\"1\">data.tif</SourceFilename>"
+           "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    return file.string();
+}
+
+TEST(VerticalDatum, HeightsInFeetOfThreeAxesAreConvertedOnce) {
+    const fs::path folder = scratch_folder();
+    Raster raster;
+    raster.rows = raster.columns = 21;
+    raster.crs = "";
+    for (const bool projected : {false, true}) {
+        raster.cell_corners = projected ? std::array{419000.0, 500.0, 0.0, 5155000.0, 0.0, -500.0}
+                                        : posts_from(7.9, 46.6, 100.0);
+        for (const char* unit : {"", "ft", "m"}) {
+            raster.unit = unit;
+            for (const double stored : {3000.0, 12000.0, 29000.0}) {
+                const double h_m = stored * (std::string(unit) == "m" ? 1.0 : 0.3048);
+                if (h_m > highest_plausible_m) continue;
+                write_raster(folder / "data.tif", raster, [=](int, int) { return stored; });
+                const std::string file =
+                    write_vrt(folder / "feet.vrt", raster, three_axes_in_feet(projected));
+                RegionRequest request = request_for({file});
+                request.strict_datum = true;
+                std::string reason;
+                const auto region = opened(request, &reason);
+                ASSERT_TRUE(region) << projected << unit << stored << ": " << reason;
+                EXPECT_EQ(region->sources[0].implausible, 0U) << projected << unit << stored;
+                EXPECT_NEAR(H_at_centre(*region), h_m - region->field.undulation.at_m(46.5, 8.0), 0.01)
+                    << projected << " '" << unit << "' " << stored << ", " << region->sources[0].height_unit;
+                EXPECT_NE(region->sources[0].vertical_datum.find("ellipsoidal"), std::string::npos);
+                fs::remove(file);
+            }
+        }
     }
 }
 
