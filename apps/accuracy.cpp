@@ -1,7 +1,6 @@
 #include "apps/accuracy.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -10,17 +9,6 @@
 
 namespace oro {
 namespace {
-
-// In the order in which tables have them.
-constexpr std::array all_effects{EffectKind::geoid,      EffectKind::sphere,        EffectKind::flat,
-                                 EffectKind::refraction, EffectKind::float32_posts, EffectKind::float32_view,
-                                 EffectKind::steps_i16,  EffectKind::steps_f32,     EffectKind::detail,
-                                 EffectKind::placement,  EffectKind::depth,         EffectKind::pixel_grid,
-                                 EffectKind::flat_cells, EffectKind::interpolation, EffectKind::source};
-
-bool can_be_helped(EffectKind kind) {
-    return kind != EffectKind::interpolation && kind != EffectKind::source;
-}
 
 // What sources are known to promise: half the interval that holds 90 % of height errors.
 std::optional<double> stated_le90_m(const Region& region) {
@@ -36,25 +24,21 @@ std::optional<double> stated_le90_m(const Region& region) {
 }
 
 // With its options written out.
-AccuracyBundle bundle_of(const char* name, double tau_px, HeightStorage heights, double refraction_k) {
+AccuracyBundle bundle_of(Bundle kind, const char* name, double tau_px, HeightStorage heights,
+                         double refraction_k) {
     char text[100];
     std::snprintf(text, sizeof text, "--tau %g --heights %s --refraction %g", tau_px,
                   heights == HeightStorage::i16 ? "i16" : "f32", refraction_k);
-    return {name, tau_px, heights, refraction_k, text};
-}
-
-bool is_as(const View& view, const AccuracyBundle& bundle) {
-    return view.tau_px == bundle.tau_px && view.heights == bundle.heights &&
-           view.model.refraction_k == bundle.refraction_k;
+    return {kind, name, tau_px, heights, refraction_k, text};
 }
 
 }  // namespace
 
 const std::vector<AccuracyBundle>& accuracy_bundles() {
     static const std::vector<AccuracyBundle> bundles{
-        bundle_of("draft", 4.0, HeightStorage::i16, 0.0),
-        bundle_of("balanced", 0.5, HeightStorage::f32, usual_refraction_k),
-        bundle_of("survey", 0.0, HeightStorage::f32, usual_refraction_k)};
+        bundle_of(Bundle::draft, "draft", 4.0, HeightStorage::i16, 0.0),
+        bundle_of(Bundle::balanced, "balanced", 0.5, HeightStorage::f32, usual_refraction_k),
+        bundle_of(Bundle::survey, "survey", 0.0, HeightStorage::f32, usual_refraction_k)};
     return bundles;
 }
 
@@ -72,9 +56,14 @@ void apply_bundle(const AccuracyBundle& bundle, View& view) {
     view.accuracy = bundle.name;
 }
 
+bool is_drawn_as(const AccuracyBundle& bundle, const View& view) {
+    return view.tau_px == bundle.tau_px && view.heights == bundle.heights &&
+           view.model.refraction_k == bundle.refraction_k;
+}
+
 void forget_other_bundle(View& view) {
     const Result<AccuracyBundle> named = accuracy_bundle(view.accuracy);
-    if (!named.ok() || !is_as(view, *named)) view.accuracy.clear();
+    if (!named.ok() || !is_drawn_as(*named, view)) view.accuracy.clear();
 }
 
 Result<double> parse_tolerance(const std::string& text) {
@@ -114,16 +103,17 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueSurfa
         budget.median_distance_m = prediction.median_distance_m();
     }
     double largest_px = 0.0;
-    for (const EffectKind kind : all_effects) {
+    for (const EffectFacts& effect : effect_table()) {
         // At full resolution, what the default would leave out.
         const double tau_px = view.tau_px > 0.0 ? view.tau_px : 1.0;
-        ORO_TRY(const std::optional<EffectSize> size, prediction.size(kind, tau_px));
-        const bool in_picture = EffectPrediction::is_in(kind, drawing, world);
+        ORO_TRY(const std::optional<EffectSize> size, prediction.size(effect.kind, tau_px));
+        const bool in_picture = effect.in_picture(drawing, world);
+        const bool modelled = effect.group == EffectGroup::model && is_modelled(effect.kind, drawing, world);
         budget.lines.push_back(
-            {kind, size, in_picture, can_be_helped(kind), !size || size->worst_px <= tolerance_px});
+            {effect.kind, size, in_picture, modelled, !size || size->worst_px <= tolerance_px});
         if (!in_picture || !size || size->worst_px <= largest_px) continue;
         largest_px = size->worst_px;
-        budget.dominant = kind;
+        budget.dominant = effect.kind;
     }
     ORO_TRY(budget.total, prediction.total(drawing));
     return budget;
@@ -133,7 +123,7 @@ Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, c
                                        const RegionPages& pages, double tolerance_px,
                                        const FixedAccuracy& fixed) {
     const auto with_fixed = [&](const AccuracyBundle& bundle) {
-        return bundle_of(bundle.name, fixed.tau_px.value_or(bundle.tau_px),
+        return bundle_of(bundle.kind, bundle.name, fixed.tau_px.value_or(bundle.tau_px),
                          fixed.heights.value_or(bundle.heights),
                          fixed.refraction_k.value_or(bundle.refraction_k));
     };
@@ -141,7 +131,8 @@ Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, c
     apply_bundle(with_fixed(accuracy_bundles().back()), with);
     ORO_TRY(const TrueWorld world, true_world(with, region, pages));
     const EffectPrediction prediction(truth, pages, true_camera(view, region), world, thread_count());
-    AccuracyChoice choice{accuracy_bundles().back(), tolerance_px, 0.0, false};
+    AccuracyChoice choice;
+    choice.tolerance_px = tolerance_px;
     for (const AccuracyBundle& each : accuracy_bundles()) {
         const AccuracyBundle bundle = with_fixed(each);
         apply_bundle(bundle, with);
@@ -150,6 +141,12 @@ Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, c
         choice.predicted_px = total.worst_px;
         choice.holds = total.worst_px <= tolerance_px;
         if (choice.holds) break;
+    }
+    for (const EffectFacts& effect : effect_table()) {
+        if (effect.group != EffectGroup::model || !effect.in_picture(drawing_model(with, world), world))
+            continue;
+        ORO_TRY(const std::optional<EffectSize> size, prediction.size(effect.kind, with.tau_px));
+        if (size && size->worst_px > tolerance_px) choice.left_out.push_back(effect.kind);
     }
     return choice;
 }

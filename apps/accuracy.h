@@ -13,8 +13,11 @@
 
 namespace oro {
 
+enum class Bundle { draft, balanced, survey };
+
 // What --accuracy stands for.
 struct AccuracyBundle {
+    Bundle kind;
     const char* name;
     double tau_px;
     HeightStorage heights;
@@ -26,6 +29,8 @@ const std::vector<AccuracyBundle>& accuracy_bundles();
 // Usage errors: no such bundle.
 Result<AccuracyBundle> accuracy_bundle(const std::string& name);
 void apply_bundle(const AccuracyBundle& bundle, View& view);
+// Whether a view is drawn as the bundle says.
+bool is_drawn_as(const AccuracyBundle& bundle, const View& view);
 // Takes the bundle's name out of a view that has become another than what the name stands for.
 void forget_other_bundle(View& view);
 
@@ -36,12 +41,16 @@ Result<double> parse_tolerance(const std::string& text);
 struct BudgetLine {
     EffectKind kind;
     std::optional<EffectSize> size;  // nothing where the source says nothing
-    bool in_picture;                 // left out, or rounded: else it is modelled, and this is what that saves
-    bool can_be_helped;              // by some way of drawing
-    bool below_tolerance;
+    bool in_picture;                 // it is an error of this picture
+    bool modelled;                   // group model: the picture has the part that it would be without
+    bool within_tolerance;           // true where there is no size
+    // Without this part of the model no picture of this view is within the tolerance.
+    [[nodiscard]] bool needed() const {
+        return facts_of(kind).group == EffectGroup::model && !within_tolerance;
+    }
 };
 
-// All effects of a view. total: of those in the picture that can be helped.
+// All effects of a view. total: of those in the picture, but for those of the data.
 struct Budget {
     double tolerance_px{};
     std::vector<BudgetLine> lines;
@@ -73,6 +82,8 @@ struct AccuracyChoice {
     double tolerance_px{};
     double predicted_px{};  // of the chosen one
     bool holds{};           // false: not even survey does, and it was taken
+    // What the view leaves out whatever its bundle, and is beyond the tolerance by itself.
+    std::vector<EffectKind> left_out{};
 };
 Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueSurface& truth,
                                        const RegionPages& pages, double tolerance_px,

@@ -4,6 +4,7 @@
 #include "apps/accuracy.h"
 #include "apps/commands.h"
 #include "apps/json_text.h"
+#include "apps/plan_text.h"
 #include "apps/progress_bar.h"
 #include "apps/region_scene.h"
 #include "core/parallel.h"
@@ -13,62 +14,30 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// "12", "0.031", "<0.001": three digits, nothing finer than a thousandth.
-std::string figure(double value) {
-    char text[40];
-    if (value == 0.0) return "0";
-    if (value < 0.001) return "<0.001";
-    if (value >= 9999.5) {
-        std::snprintf(text, sizeof text, "%.0f", value);
-        return text;
+const char* key_of(EffectGroup group) {
+    switch (group) {
+        case EffectGroup::model:
+            return "model";
+        case EffectGroup::drawing:
+            return "drawing";
+        case EffectGroup::data:
+            return "data";
     }
-    std::snprintf(text, sizeof text, "%.*f",
-                  value >= 100.0  ? 0
-                  : value >= 10.0 ? 1
-                  : value >= 1.0  ? 2
-                                  : 3,
-                  value);
-    return text;
+    return "";
 }
 
-// What a line says of its effect, in a few words.
-std::string verdict(const BudgetLine& line) {
-    if (!line.can_be_helped) return line.size ? "limit of the data" : "not stated by the source";
-    if (line.in_picture)
-        return line.below_tolerance ? "in the picture, below the tolerance"
-                                    : "in the picture, ABOVE the tolerance";
-    return line.below_tolerance ? "modelled, can be left out" : "modelled, needed";
-}
-
-std::string plan_text(const Budget& budget, const View& view) {
-    char text[240];
-    std::string out;
-    if (budget.empty) return "nothing of the region is in view: there is nothing to predict\n";
-    std::snprintf(text, sizeof text,
-                  "ground from %s m, half of it beyond %s m; %d x %d px, %g degrees; tolerance %g px\n\n",
-                  figure(budget.nearest_m).c_str(), figure(budget.median_distance_m).c_str(),
-                  view.camera.width_px, view.camera.height_px, view.camera.vertical_fov_deg,
-                  budget.tolerance_px);
-    out += text;
-    std::snprintf(text, sizeof text, "%-30s %10s %10s %10s %10s\n", "effect", "worst m", "typical m",
-                  "worst px", "typical px");
-    out += text;
-    for (const BudgetLine& line : budget.lines) {
-        const EffectSize size = line.size.value_or(EffectSize{});
-        const auto shown = [&](double value) { return line.size ? figure(value) : std::string("-"); };
-        std::snprintf(text, sizeof text, "%-30s %10s %10s %10s %10s  %s%s\n", name_of(line.kind),
-                      shown(size.worst_m).c_str(), shown(size.typical_m).c_str(),
-                      shown(size.worst_px).c_str(), shown(size.typical_px).c_str(), verdict(line).c_str(),
-                      budget.dominant == line.kind ? "  <- dominates" : "");
-        out += text;
+const char* key_of(EffectMeasure measure) {
+    switch (measure) {
+        case EffectMeasure::picture:
+            return "picture";
+        case EffectMeasure::full_detail:
+            return "full_detail";
+        case EffectMeasure::thinned:
+            return "thinned";
+        case EffectMeasure::stated:
+            return "stated";
     }
-    std::snprintf(
-        text, sizeof text, "%-30s %10s %10s %10s %10s  %s\n", "this picture, all but the data",
-        figure(budget.total.worst_m).c_str(), figure(budget.total.typical_m).c_str(),
-        figure(budget.total.worst_px).c_str(), figure(budget.total.typical_px).c_str(),
-        budget.total.worst_px <= budget.tolerance_px ? "within the tolerance" : "beyond the tolerance");
-    out += text;
-    return out;
+    return "";
 }
 
 ordered_json size_json(const EffectSize& size) {
@@ -78,6 +47,26 @@ ordered_json size_json(const EffectSize& size) {
             {"typical_px", size.typical_px}};
 }
 
+ordered_json effect_json(const BudgetLine& line) {
+    const EffectFacts& facts = facts_of(line.kind);
+    ordered_json effect{{"effect", facts.name}, {"kind", facts.key}, {"group", key_of(facts.group)}};
+    effect["meaning"] = facts.meaning;
+    effect["measured_by"] = key_of(facts.measured_by);
+    effect["size"] = nullptr;
+    if (line.size) effect["size"] = size_json(*line.size);
+    effect["in_picture"] = line.in_picture;
+    effect["limit_of_the_data"] = facts.group == EffectGroup::data;
+    effect["below_tolerance"] = line.within_tolerance;
+    // Of parts of the model alone.
+    effect["modelled"] = nullptr;
+    effect["needed"] = nullptr;
+    if (facts.group == EffectGroup::model) {
+        effect["modelled"] = line.modelled;
+        effect["needed"] = line.needed();
+    }
+    return effect;
+}
+
 ordered_json plan_json(const Budget& budget, const View& view, const AccuracyChoice& choice) {
     ordered_json json;
     json["tolerance_px"] = budget.tolerance_px;
@@ -85,22 +74,20 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     json["nearest_m"] = budget.nearest_m;
     json["median_distance_m"] = budget.median_distance_m;
     json["effects"] = ordered_json::array();
-    for (const BudgetLine& line : budget.lines) {
-        ordered_json effect{{"effect", name_of(line.kind)}};
-        effect["size"] = nullptr;
-        if (line.size) effect["size"] = size_json(*line.size);
-        effect["in_picture"] = line.in_picture;
-        effect["limit_of_the_data"] = !line.can_be_helped;
-        effect["below_tolerance"] = line.below_tolerance;
-        json["effects"].push_back(effect);
-    }
+    for (const BudgetLine& line : budget.lines) json["effects"].push_back(effect_json(line));
     json["total"] = size_json(budget.total);
     json["dominates"] = nullptr;
-    if (budget.dominant) json["dominates"] = name_of(*budget.dominant);
+    json["dominates_kind"] = nullptr;
+    if (budget.dominant) {
+        json["dominates"] = facts_of(*budget.dominant).name;
+        json["dominates_kind"] = facts_of(*budget.dominant).key;
+    }
     json["cheapest"] = {{"accuracy", choice.bundle.name},
                         {"options", choice.bundle.options},
                         {"predicted_px", choice.predicted_px},
-                        {"holds", choice.holds}};
+                        {"holds", choice.holds},
+                        {"left_out", ordered_json::array()}};
+    for (const EffectKind kind : choice.left_out) json["cheapest"]["left_out"].push_back(facts_of(kind).key);
     json["view"] = ordered_json::parse(view_to_json(view, false));
     return json;
 }
@@ -134,11 +121,7 @@ Result<void> run_plan(const PlanOptions& options) {
         std::printf("%s\n", json_text(plan_json(budget, view, choice), true).c_str());
         return {};
     }
-    std::fputs(plan_text(budget, view).c_str(), stdout);
-    if (!budget.empty)
-        std::printf("\ncheapest that %s %g px: --accuracy %s (%s), predicted %s px\n",
-                    choice.holds ? "holds" : "comes near", tolerance_px, choice.bundle.name,
-                    choice.bundle.options.c_str(), figure(choice.predicted_px).c_str());
+    std::fputs(plan_text(budget, view, choice).c_str(), stdout);
     return {};
 }
 

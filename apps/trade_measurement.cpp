@@ -29,11 +29,11 @@ Result<void> add_data_effects(const EffectPrediction& prediction, const std::str
                               TradeReport& report) {
     // What every second post would hide: predicted from every second post, and as it is.
     const EffectSize guess = prediction.interpolation(2), known = prediction.interpolation(1);
-    report.effects.push_back({view, name_of(EffectKind::interpolation), guess.worst_m, guess.worst_px,
+    report.effects.push_back({view, facts_of(EffectKind::interpolation).name, guess.worst_m, guess.worst_px,
                               known.worst_m, known.worst_px, "tried on every second post"});
     ORO_TRY(const std::optional<EffectSize> source, prediction.size(EffectKind::source, 0.0));
     if (source)
-        report.effects.push_back({view, name_of(EffectKind::source), source->worst_m, source->worst_px,
+        report.effects.push_back({view, facts_of(EffectKind::source).name, source->worst_m, source->worst_px,
                                   std::nullopt, std::nullopt, "stated by the source, not measured here"});
     return {};
 }

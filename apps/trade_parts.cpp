@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace oro {
@@ -34,25 +33,6 @@ bool is_control(std::string_view sequence) {
     return lead == 0xC2 && static_cast<unsigned char>(sequence[1]) < 0xA0;
 }
 
-std::string fixed(double value, int decimals) {
-    std::array<char, 400> text{};
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
-    return {text.data(), end.ptr};
-}
-
-// "4.2e-5": to_chars writes two digits of the power at least, and a plus.
-std::string in_powers(double value) {
-    std::array<char, 32> text{};
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, 1);
-    std::string power(text.data(), end.ptr);
-    const std::size_t at = power.find('e') + 1;
-    const bool small = power[at] == '-';
-    power.erase(at, power[at + 1] == '0' ? 2 : 1);
-    return small ? power.insert(at, "-") : power;
-}
-
 void widen(std::optional<RatioRange>& range, const std::optional<double>& ratio) {
     if (!ratio) return;
     if (!range) range = RatioRange{*ratio, *ratio};
@@ -79,33 +59,6 @@ void add(EffectWorst& worst, const TradeEffect& effect) {
 }
 
 }  // namespace
-
-std::string figure(double value) {
-    if (std::isnan(value)) return "n/a";
-    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-    if (value == 0.0) return "0";
-    const double size = std::abs(value);
-    if (size < 1e-3 || size >= 1e6) return in_powers(value);
-    if (size >= 100.0) return fixed(value, 0);
-    if (size >= 10.0) return fixed(value, 1);
-    return fixed(value, 1 - static_cast<int>(std::floor(std::log10(size))));
-}
-
-std::string figure(const std::optional<double>& value) {
-    return value ? figure(*value) : "n/a";
-}
-
-std::string all_digits(double value) {
-    std::array<char, 64> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
-    return {text.data(), end.ptr};
-}
-
-std::string grouped(std::uint64_t count) {
-    std::string text = std::to_string(count);
-    for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, ",");
-    return text;
-}
 
 double megabytes(std::uint64_t bytes) {
     return static_cast<double>(bytes) / 1e6;

@@ -8,18 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/figures.h"
 #include "apps/trade_report.h"
 
 namespace oro {
 
-// For people: "0", "0.012", "1.3", "12.4", "316", "4.2e-5"; "n/a" for what is no number, "inf" beyond all.
-std::string figure(double value);
-// The same, "n/a" for nothing.
-std::string figure(const std::optional<double>& value);
-// The fewest digits that read back as the same number.
-std::string all_digits(double value);
-// "12,345,678"
-std::string grouped(std::uint64_t count);
 // 10^6 bytes.
 double megabytes(std::uint64_t bytes);
 // The largest error, or nothing where no place was measured: then the summary's 0 means nothing.

@@ -20,7 +20,7 @@ void add_levels(std::vector<TradeCase>& cases) {
         TradeCase one{level.name, "--tau" + std::string(level.name).substr(3), level.tau_px, true_air};
         one.options += " --refraction 0.13";
         one.promised_px = level.tau_px + slack_px;
-        one.effect = std::string(name_of(EffectKind::detail)) + ", " + level.name;
+        one.effect = std::string(facts_of(EffectKind::detail).name) + ", " + level.name;
         cases.push_back(one);
     }
 }
@@ -28,7 +28,7 @@ void add_levels(std::vector<TradeCase>& cases) {
 void add_models(std::vector<TradeCase>& cases) {
     const auto add = [&](const char* name, const char* options, EffectKind effect) -> TradeCase& {
         cases.push_back({name, options, 0.0, true_air});
-        cases.back().effect = name_of(effect);
+        cases.back().effect = facts_of(effect).name;
         return cases.back();
     };
     add("no geoid", "--tau 0 --refraction 0.13 --geoid none", EffectKind::geoid).has_geoid = false;

@@ -3,16 +3,10 @@
 #include <utility>
 
 #include "apps/trade_parts.h"
+#include "core/median.h"
 
 namespace oro {
 namespace {
-
-double median_of(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2.0;
-}
 
 TradeSetting sum_of(const std::vector<TradeShot>& shots, const std::string& name) {
     TradeSetting sum;

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/drawn_heights.h"
+#include "core/median.h"
 #include "core/parallel.h"
 #include "core/sampled_detail.h"
 
@@ -18,13 +19,6 @@ constexpr int samples_across = 160;
 constexpr double between_samples = 2.5;
 // Half a unit in the last place of a float, relative.
 constexpr double float_rounding = 1.0 / 16777216.0;
-
-double median(std::vector<double>& values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 EffectSize larger(const EffectSize& a, const EffectSize& b) {
     return {std::max(a.worst_m, b.worst_m), std::max(a.typical_m, b.typical_m),
@@ -38,12 +32,13 @@ class Sizes {
         height_m_.push_back(height_m);
         px_.push_back(px);
     }
-    // The bound is the largest times `margin`.
+    // The bound is the largest times `margin`. Uses the values up.
     EffectSize size(double margin) {
         if (px_.empty()) return {};
         const double worst_m = *std::max_element(height_m_.begin(), height_m_.end());
         const double worst_px = *std::max_element(px_.begin(), px_.end());
-        return {margin * worst_m, median(height_m_), margin * worst_px, median(px_)};
+        return {margin * worst_m, median_of(std::move(height_m_)), margin * worst_px,
+                median_of(std::move(px_))};
     }
 
   private:
@@ -52,42 +47,6 @@ class Sizes {
 };
 
 }  // namespace
-
-const char* name_of(EffectKind kind) {
-    switch (kind) {
-        case EffectKind::geoid:
-            return "geoid left out";
-        case EffectKind::sphere:
-            return "sphere for ellipsoid";
-        case EffectKind::flat:
-            return "curvature left out";
-        case EffectKind::refraction:
-            return "refraction left out";
-        case EffectKind::float32_posts:
-            return "posts in float32 ECEF";
-        case EffectKind::float32_view:
-            return "view transform in float32";
-        case EffectKind::steps_f32:
-            return "heights in steps of 0.5 mm";
-        case EffectKind::steps_i16:
-            return "heights in 16 bits";
-        case EffectKind::detail:
-            return "level of detail";
-        case EffectKind::placement:
-            return "float32 relative to the eye";
-        case EffectKind::depth:
-            return "depth resolution";
-        case EffectKind::pixel_grid:
-            return "triangles on 1/256 px";
-        case EffectKind::flat_cells:
-            return "flat triangles between posts";
-        case EffectKind::interpolation:
-            return "interpolation between posts";
-        case EffectKind::source:
-            return "the source's own accuracy";
-    }
-    return "";
-}
 
 EffectPrediction::EffectPrediction(const TrueSurface& surface, const RegionPages& pages, const Camera& camera,
                                    const TrueWorld& world, int threads)
@@ -154,7 +113,7 @@ double EffectPrediction::nearest_m() const {
 double EffectPrediction::median_distance_m() const {
     std::vector<double> distances;
     for (const Sample& sample : samples_) distances.push_back(sample.distance_m);
-    return median(distances);
+    return median_of(std::move(distances));
 }
 
 // Points that are drawn elsewhere: how far over the surface they then are.
@@ -277,114 +236,105 @@ Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double
     return made;
 }
 
+EffectSize EffectPrediction::as_sphere() const {
+    const WorldModel sphere{Earth::sphere, world_.refraction_k, Precision::relative};
+    return displaced(samples_,
+                     [&](const Sample& sample) { return model_offset_m(sphere, camera_.eye, sample.point); });
+}
+
+EffectSize EffectPrediction::in_straight_light() const {
+    return displaced(samples_,
+                     [&](const Sample& sample) { return sight_.refraction.true_m(sample.apparent_m); });
+}
+
+EffectSize EffectPrediction::in_flat_cells() const {
+    const PostGrid& grid = surface_.field().grid;
+    return bounded([&](const Sample& sample) {
+        const double tall = radians_from_deg(grid.lat.spacing_deg()).rad;
+        const double wide =
+            radians_from_deg(grid.lon.spacing_deg()).rad * sine_cosine_deg(sample.point.lat_deg).cosine;
+        return (tall * tall + wide * wide) / 8.0 * (wgs84_a_m + std::max(0.0, sample.point.h_m));
+    });
+}
+
+std::optional<EffectSize> EffectPrediction::stated_by_source() const {
+    if (!world_.source_le90_m) return std::nullopt;
+    // Of a normal distribution: half of all errors are within 0.41 of what holds 90 %.
+    constexpr double half_of_all = 0.41;
+    const double le90_m = *world_.source_le90_m;
+    EffectSize size = bounded([&](const Sample&) { return le90_m; });
+    size.typical_m = half_of_all * le90_m;
+    size.typical_px *= half_of_all;
+    size.worst_m = le90_m;
+    return size;
+}
+
+// What drawing rounds off, by no more than is known beforehand; nothing for other effects.
+std::optional<EffectSize> EffectPrediction::known_bound(EffectKind kind) const {
+    const auto of_distance = [&](double share) {
+        return bounded([share](const Sample& sample) {
+            return share * sample.distance_m * std::hypot(1.0, sample.slope);
+        });
+    };
+    switch (kind) {
+        case EffectKind::steps_f32:
+            return bounded([](const Sample&) { return 0.5 * height_step_m; });
+        // Measured: at most 3.2e-7 of the distance, in any direction (docs/ARCHITECTURE.md, Placement).
+        case EffectKind::placement:
+            return of_distance(3.2e-7);
+        // A depth is rounded twice, and the triangle's plane that it comes from.
+        case EffectKind::depth:
+            return of_distance(4.0 * float_rounding);
+        // Two corners of a triangle may move apart by a step along each axis.
+        case EffectKind::pixel_grid:
+            return of_distance(std::sqrt(2.0) / 256.0 / pixels_per_tangent_);
+        case EffectKind::flat_cells:
+            return in_flat_cells();
+        default:
+            return std::nullopt;
+    }
+}
+
 Result<std::optional<EffectSize>> EffectPrediction::new_size(EffectKind kind, double tau_px) const {
     using Size = std::optional<EffectSize>;
-    const auto steep = [](const Sample& sample) { return std::hypot(1.0, sample.slope); };
     switch (kind) {
         case EffectKind::geoid:
             return Size(without_geoid());
         case EffectKind::sphere:
-            return Size(displaced(samples_, [&](const Sample& sample) {
-                return model_offset_m({Earth::sphere, world_.refraction_k, Precision::relative}, camera_.eye,
-                                      sample.point);
-            }));
+            return Size(as_sphere());
         case EffectKind::flat:
             return Size(on_flat_earth());
         case EffectKind::refraction:
-            return Size(displaced(
-                samples_, [&](const Sample& sample) { return sight_.refraction.true_m(sample.apparent_m); }));
+            return Size(in_straight_light());
         case EffectKind::float32_posts:
             return Size(in_float32(Precision::rounded_posts, false));
         case EffectKind::float32_view:
             return Size(larger(in_float32(Precision::naive, false), in_float32(Precision::naive, true)));
-        case EffectKind::steps_f32:
-            return Size(bounded([](const Sample&) { return 0.5 * height_step_m; }));
         case EffectKind::steps_i16:
             return Size(in_sixteen_bits());
         case EffectKind::detail: {
             ORO_TRY(const EffectSize size, detail(tau_px));
             return Size(size);
         }
-        // Measured: at most 3.2e-7 of the distance, in any direction (docs/ARCHITECTURE.md, Placement).
+        case EffectKind::steps_f32:
         case EffectKind::placement:
-            return Size(
-                bounded([&](const Sample& sample) { return 3.2e-7 * sample.distance_m * steep(sample); }));
-        // A depth is rounded twice, and the triangle's plane that it comes from: along the ray.
         case EffectKind::depth:
-            return Size(bounded([&](const Sample& sample) {
-                return 4.0 * float_rounding * sample.distance_m * steep(sample);
-            }));
-        // Two corners of a triangle may move apart by a step along each axis.
         case EffectKind::pixel_grid:
-            return Size(bounded([&](const Sample& sample) {
-                return std::sqrt(2.0) / 256.0 / pixels_per_tangent_ * sample.distance_m * steep(sample);
-            }));
-        case EffectKind::flat_cells: {
-            const PostGrid& grid = surface_.field().grid;
-            return Size(bounded([&](const Sample& sample) {
-                const double tall = radians_from_deg(grid.lat.spacing_deg()).rad;
-                const double wide = radians_from_deg(grid.lon.spacing_deg()).rad *
-                                    sine_cosine_deg(sample.point.lat_deg).cosine;
-                return (tall * tall + wide * wide) / 8.0 * (wgs84_a_m + std::max(0.0, sample.point.h_m));
-            }));
-        }
+        case EffectKind::flat_cells:
+            return known_bound(kind);
         case EffectKind::interpolation:
             return Size(interpolation(1));
-        case EffectKind::source: {
-            if (!world_.source_le90_m) return Size(std::nullopt);
-            // Of a normal distribution: half of all errors are within 0.41 of what holds 90 %.
-            const double le90_m = *world_.source_le90_m;
-            EffectSize size = bounded([&](const Sample&) { return le90_m; });
-            size.typical_m = 0.41 * le90_m;
-            size.typical_px *= 0.41;
-            size.worst_m = le90_m;
-            return Size(size);
-        }
+        case EffectKind::source:
+            return stated_by_source();
     }
     return Size(std::nullopt);
 }
 
-bool EffectPrediction::is_in(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world) {
-    switch (kind) {
-        case EffectKind::geoid:
-            return !drawing.geoid;
-        case EffectKind::sphere:
-            return drawing.world.earth == Earth::sphere;
-        case EffectKind::flat:
-            return drawing.world.earth == Earth::flat;
-        case EffectKind::refraction:
-            return drawing.world.refraction_k != world.refraction_k;
-        case EffectKind::float32_posts:
-            return drawing.world.precision == Precision::rounded_posts;
-        case EffectKind::float32_view:
-            return drawing.world.precision == Precision::naive;
-        case EffectKind::steps_f32:
-            return !drawing.coding.sixteen;
-        case EffectKind::steps_i16:
-            return drawing.coding.sixteen;
-        case EffectKind::detail:
-            return drawing.tau_px > 0.0;
-        case EffectKind::placement:
-            return drawing.world.precision == Precision::relative;
-        case EffectKind::depth:
-        case EffectKind::pixel_grid:
-        case EffectKind::flat_cells:
-        case EffectKind::interpolation:
-        case EffectKind::source:
-            return true;
-    }
-    return true;
-}
-
 Result<EffectSize> EffectPrediction::total(const DrawingModel& drawing) const {
     EffectSize sum;
-    for (const EffectKind kind :
-         {EffectKind::geoid, EffectKind::sphere, EffectKind::flat, EffectKind::refraction,
-          EffectKind::float32_posts, EffectKind::float32_view, EffectKind::steps_f32, EffectKind::steps_i16,
-          EffectKind::detail, EffectKind::placement, EffectKind::depth, EffectKind::pixel_grid,
-          EffectKind::flat_cells}) {
-        if (!is_in(kind, drawing, world_)) continue;
-        ORO_TRY(const std::optional<EffectSize> one, size(kind, drawing.tau_px));
+    for (const EffectFacts& effect : effect_table()) {
+        if (effect.group == EffectGroup::data || !effect.in_picture(drawing, world_)) continue;
+        ORO_TRY(const std::optional<EffectSize> one, size(effect.kind, drawing.tau_px));
         if (!one) continue;
         sum.worst_m += one->worst_m;
         sum.typical_m += one->typical_m;

@@ -10,34 +10,13 @@
 #include <vector>
 
 #include "core/camera.h"
-#include "core/height_coding.h"
+#include "core/effect_table.h"
 #include "core/oracle.h"
 #include "core/picture_error.h"
 #include "core/region_pages.h"
 #include "core/true_surface.h"
-#include "core/world_model.h"
 
 namespace oro {
-
-enum class EffectKind {
-    geoid,          // H taken for h, the eye's, too
-    sphere,         // Earth::sphere
-    flat,           // Earth::flat
-    refraction,     // light that goes straight
-    float32_posts,  // Precision::rounded_posts
-    float32_view,   // Precision::naive, its rounded posts included
-    steps_f32,      // heights in steps of 2^-11 m
-    steps_i16,      // heights in 16 bits
-    detail,         // levels at tau
-    placement,      // float32 relative to the eye
-    depth,          // what a depth in float32 resolves
-    pixel_grid,     // corners of triangles on a grid of 1/256 px
-    flat_cells,     // triangles of full resolution are flat, the surface is curved
-    interpolation,  // between posts nobody has measured
-    source,         // what the source says of its own accuracy
-};
-// "sphere for ellipsoid": as tables call it.
-const char* name_of(EffectKind kind);
 
 // How large an effect is in a view: heights at the drawn points in metres, and what that is on the picture.
 // worst is a bound, typical the median of what is in view.
@@ -46,21 +25,6 @@ struct EffectSize {
     double typical_m{};
     double worst_px{};
     double typical_px{};
-};
-
-// How a view is to be drawn.
-struct DrawingModel {
-    WorldModel world;
-    bool geoid{true};     // false: N = 0
-    HeightCoding coding;  // of the heights on the GPU
-    double tau_px{1.0};
-};
-
-// What is known of the world and of the region, besides its posts.
-struct TrueWorld {
-    double refraction_k{usual_refraction_k};
-    std::optional<double> source_le90_m;  // half the height interval that holds 90 % of the source's errors
-    HeightCoding sixteen;                 // what i16 would be for the region
 };
 
 // Predicts the effects in one view. Casts up to 160 x 640 sight lines (14,400 for 16:9) when it is made; asks
@@ -85,9 +49,6 @@ class EffectPrediction {
     // What lies between posts that are `apart` of the region's apart: 1 for the data as they are. 2 predicts
     // what every second post would hide, which is known.
     [[nodiscard]] EffectSize interpolation(int apart) const;
-
-    // Whether an effect is in a picture that is drawn so. Interpolation and source are in all of them.
-    [[nodiscard]] static bool is_in(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world);
 
     // Bound of the whole error of a picture that is drawn so: the sum of the effects that are in it, but for
     // interpolation and source, which no drawing can help. Errors: as size().
@@ -121,6 +82,11 @@ class EffectPrediction {
     [[nodiscard]] EffectSize in_float32(Precision precision, bool backwards) const;
     [[nodiscard]] Result<EffectSize> detail(double tau_px) const;
     [[nodiscard]] Result<std::optional<EffectSize>> new_size(EffectKind kind, double tau_px) const;
+    [[nodiscard]] std::optional<EffectSize> known_bound(EffectKind kind) const;
+    [[nodiscard]] EffectSize as_sphere() const;
+    [[nodiscard]] EffectSize in_straight_light() const;
+    [[nodiscard]] EffectSize in_flat_cells() const;
+    [[nodiscard]] std::optional<EffectSize> stated_by_source() const;
     [[nodiscard]] EffectSize on_flat_earth() const;
     [[nodiscard]] EffectSize without_geoid() const;
     // N that the pages go without.

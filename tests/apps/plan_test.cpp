@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -23,20 +25,32 @@ using Words = std::vector<std::string>;
 constexpr int failed = 1, usage = 2, no_data = 3;
 
 const std::set<std::string> effects{"geoid left out",
-                                    "sphere for ellipsoid",
-                                    "curvature left out",
+                                    "Earth as a sphere",
+                                    "Earth as a plane",
                                     "refraction left out",
-                                    "posts in float32 ECEF",
-                                    "view transform in float32",
+                                    "posts rounded to float32",
+                                    "posts and view in float32",
                                     "heights in 16 bits",
                                     "heights in steps of 0.5 mm",
                                     "level of detail",
-                                    "float32 relative to the eye",
-                                    "depth resolution",
-                                    "triangles on 1/256 px",
+                                    "positions rounded to float32",
+                                    "distances rounded to float32",
+                                    "corners in steps of 1/256 px",
                                     "flat triangles between posts",
-                                    "interpolation between posts",
-                                    "the source's own accuracy"};
+                                    "ground between the posts",
+                                    "errors of the source"};
+// As the table has them: parts of the model by what they are, errors by their names.
+const Words parts{"geoid (heights above sea level)",
+                  "ellipsoid, not a sphere",
+                  "curve of the Earth",
+                  "refraction (air bends light)",
+                  "posts in double precision",
+                  "view in double precision",
+                  "heights finer than 16 bits",
+                  "full detail"};
+const Words errors{"heights in steps of 0.5 mm",   "positions rounded to float32",
+                   "distances rounded to float32", "corners in steps of 1/256 px",
+                   "flat triangles between posts", "ground between the posts"};
 
 std::string bundled() {
     return (oro::test::bundled_data() / "jacksboro.tif").string();
@@ -68,7 +82,7 @@ json planned(const Outcome& outcome) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const json said = json::parse(outcome.out, nullptr, false);
     EXPECT_TRUE(said.is_object()) << outcome.out;
-    expect_numbers(said, "", {"size", "dominates", "bbox", "sun"});
+    expect_numbers(said, "", {"size", "dominates", "dominates_kind", "modelled", "needed", "bbox", "sun"});
     return said.is_object() ? said : json::object();
 }
 
@@ -90,27 +104,86 @@ bool says(const std::string& text, const std::string& words) {
     return text.find(words) != std::string::npos;
 }
 
-TEST(Plan, TableNamesEveryEffectWithFiguresAndWhatDominates) {
+// The words that follow a row's name: its columns.
+Words columns_of(const std::string& text, const std::string& name) {
+    std::istringstream rest(line_of(text, name).substr(name.size()));
+    return {std::istream_iterator<std::string>(rest), {}};
+}
+
+// Three columns: in this picture, needed (or within the tolerance), and how large.
+TEST(Plan, TableNamesEveryEffectWithFiguresAndWhatIsLargest) {
     const Outcome outcome = plan({"--accuracy", "draft"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    for (const std::string& effect : effects) {
-        const std::string line = line_of(outcome.out, effect);
-        if (effect == "the source's own accuracy") {
-            EXPECT_TRUE(says(line, "not stated by the source")) << line;
-        } else {
-            EXPECT_NE(line.find_first_of("0123456789", effect.size()), std::string::npos) << line;
+    for (const Words* names : {&parts, &errors}) {
+        for (const std::string& name : *names) {
+            SCOPED_TRACE(name);
+            const Words columns = columns_of(outcome.out, name);
+            ASSERT_GE(columns.size(), 6U);
+            for (std::size_t i = 0; i < 2; ++i)
+                EXPECT_TRUE(columns[i] == "yes" || columns[i] == "no") << columns[i];
+            for (std::size_t i = 2; i < 6; ++i)
+                EXPECT_EQ(columns[i].find_first_not_of("<0123456789.e"), std::string::npos) << columns[i];
         }
     }
+    EXPECT_TRUE(says(line_of(outcome.out, "errors of the source"), "not stated by the source"));
     EXPECT_TRUE(says(outcome.out, "96 x 54 px, 45 degrees; tolerance 1 px")) << outcome.out;
+    const auto begins = [&](const std::string& name, const Words& expected) {
+        const Words columns = columns_of(outcome.out, name);
+        EXPECT_EQ(Words(columns.begin(), columns.begin() + 2), expected) << name;
+    };
     // 4 px of detail are more than anything else that the draft leaves out.
-    const std::string detail = line_of(outcome.out, "level of detail");
-    EXPECT_TRUE(says(detail, "in the picture, ABOVE the tolerance  <- dominates")) << detail;
-    EXPECT_TRUE(says(line_of(outcome.out, "heights in 16 bits"), "in the picture, below the tolerance"));
-    EXPECT_TRUE(says(line_of(outcome.out, "geoid left out"), "modelled, can be left out"));
-    EXPECT_TRUE(says(line_of(outcome.out, "interpolation between posts"), "limit of the data"));
-    EXPECT_TRUE(says(line_of(outcome.out, "this picture, all but the data"), "beyond the tolerance"));
-    EXPECT_TRUE(says(line_of(outcome.out, "cheapest that holds 1 px"), "--accuracy balanced (--tau 0.5"));
-    EXPECT_EQ(outcome.out.find("<- dominates"), outcome.out.rfind("<- dominates")) << "one of them only";
+    begins("full detail", {"no", "yes"});
+    EXPECT_TRUE(says(line_of(outcome.out, "full detail"), "--tau 4  <- largest here")) << outcome.out;
+    begins("heights finer than 16 bits", {"no", "no"});
+    begins("geoid (heights above sea level)", {"yes", "no"});
+    begins("refraction (air bends light)", {"no", "no"});
+    begins("heights in steps of 0.5 mm", {"no", "yes"});
+    begins("positions rounded to float32", {"yes", "yes"});
+    EXPECT_EQ(columns_of(outcome.out, "this picture, but for its data").front(), "no");
+    EXPECT_EQ(outcome.out.find("<- largest"), outcome.out.rfind("<- largest")) << "one of them only";
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120U) << line;
+}
+
+// Figures stand below each other by their decimal points.
+TEST(Plan, FiguresAreAligned) {
+    const std::string table = plan({}).out;
+    std::set<std::size_t> points;
+    for (const Words* names : {&parts, &errors}) {
+        for (const std::string& name : *names) {
+            const std::string line = line_of(table, name);
+            const std::size_t point = line.find('.', 52);
+            if (point < 62) points.insert(point);
+        }
+    }
+    EXPECT_EQ(points.size(), 1U) << table;
+}
+
+// What this view is good to, what to use, what no setting can help.
+TEST(Plan, EndsInASentence) {
+    const auto end_of = [](const Words& more) {
+        const std::string text = plan(more).out;
+        return text.substr(text.find("\n\nGood to ") + 2);
+    };
+    const std::string draft = end_of({"--accuracy", "draft"});
+    EXPECT_EQ(draft.rfind("Good to ", 0), 0U) << draft;
+    EXPECT_TRUE(says(draft, "`--accuracy balanced` makes it 0.5")) << draft;
+    EXPECT_TRUE(says(draft, "px (--tau 0.5 --heights f32 --refraction 0.13)")) << draft;
+    EXPECT_TRUE(says(draft, "The data themselves may be off by ")) << draft;
+    EXPECT_TRUE(says(draft, " px, which no setting can help; and the source does not say")) << draft;
+    const std::string balanced = end_of({"--accuracy", "balanced"});
+    EXPECT_TRUE(says(balanced, ": within the tolerance of 1 px.")) << balanced;
+    EXPECT_TRUE(says(balanced, "That is what `--accuracy balanced` draws, the cheapest within 1 px."))
+        << balanced;
+    const std::string survey = end_of({"--accuracy", "survey"});
+    EXPECT_TRUE(says(survey, "The cheapest within 1 px is `--accuracy balanced`: 0.5")) << survey;
+    const std::string tight = end_of({"--accuracy", "survey", "--tolerance", "0.001px"});
+    EXPECT_TRUE(says(tight, "That is what `--accuracy survey` draws, and nothing else is closer.")) << tight;
+    const std::string naive =
+        end_of({"--accuracy", "draft", "--precision", "naive", "--tolerance", "0.02px"});
+    EXPECT_TRUE(says(naive, "`--accuracy survey` makes it ")) << naive;
+    EXPECT_TRUE(says(naive, ", more than the tolerance.")) << naive;
+    EXPECT_TRUE(says(naive, "Leave `--precision naive` out: it alone costs ")) << naive;
 }
 
 TEST(Plan, JsonHasEveryEffectWithNumbers) {
@@ -139,10 +212,45 @@ TEST(Plan, JsonHasEveryEffectWithNumbers) {
     EXPECT_EQ(said.at("view").at("size_px"), json({96, 54}));
     // tau bounds what levels may do; the sphere is off by kilometres at the eye, and metres from it.
     EXPECT_LE(effect_in(said, "level of detail")["size"]["worst_px"].get<double>(), 1.0);
-    EXPECT_TRUE(effect_in(said, "the source's own accuracy")["size"].is_null());
-    EXPECT_EQ(effect_in(said, "interpolation between posts")["limit_of_the_data"], true);
+    EXPECT_TRUE(effect_in(said, "errors of the source")["size"].is_null());
+    EXPECT_EQ(effect_in(said, "ground between the posts")["limit_of_the_data"], true);
     EXPECT_EQ(effect_in(said, "refraction left out")["in_picture"], true);
+    EXPECT_EQ(effect_in(said, "refraction left out")["modelled"], false);
     EXPECT_EQ(effect_in(said, "geoid left out")["in_picture"], false);
+    EXPECT_EQ(effect_in(said, "geoid left out")["modelled"], true);
+    EXPECT_EQ(effect_in(said, "geoid left out")["needed"], false);
+}
+
+// Facts with names of their own, for programs: what is shown to people may be worded anew.
+TEST(Plan, JsonHasTypedFacts) {
+    const json said = planned(plan({"--json", "-q", "--earth", "flat", "--tolerance", "0.01px"}));
+    std::set<std::string> kinds;
+    int of_model = 0;
+    for (const json& effect : said.at("effects")) {
+        SCOPED_TRACE(effect.at("kind"));
+        kinds.insert(effect.at("kind").get<std::string>());
+        const std::string group = effect.at("group");
+        EXPECT_TRUE(group == "model" || group == "drawing" || group == "data") << group;
+        EXPECT_EQ(effect.at("limit_of_the_data"), group == "data");
+        EXPECT_EQ(effect.at("modelled").is_boolean(), group == "model");
+        EXPECT_EQ(effect.at("needed").is_boolean(), group == "model");
+        EXPECT_TRUE(effect.at("meaning").get<std::string>().ends_with("."));
+        EXPECT_TRUE(effect.at("measured_by").is_string());
+        if (group == "model") {
+            ++of_model;
+            EXPECT_EQ(effect.at("needed"), !effect.at("below_tolerance").get<bool>());
+        }
+    }
+    EXPECT_EQ(kinds, (std::set<std::string>{"geoid", "sphere", "flat", "refraction", "float32_posts",
+                                            "float32_view", "steps_i16", "detail", "steps_f32", "placement",
+                                            "depth", "pixel_grid", "flat_cells", "interpolation", "source"}));
+    EXPECT_EQ(of_model, 8);
+    EXPECT_EQ(effect_in(said, said.at("dominates")).at("kind"), said.at("dominates_kind"));
+    EXPECT_EQ(said.at("cheapest").at("left_out"), json({"flat"}));
+    // A plane is no ellipsoid either, though only the plane's error counts.
+    EXPECT_EQ(effect_in(said, "Earth as a sphere").at("modelled"), false);
+    EXPECT_EQ(effect_in(said, "Earth as a sphere").at("in_picture"), false);
+    EXPECT_EQ(effect_in(said, "Earth as a plane").at("modelled"), false);
 }
 
 TEST(Plan, ToleranceJudges) {
@@ -162,8 +270,11 @@ TEST(Plan, ToleranceJudges) {
     EXPECT_EQ(wide.at("cheapest").at("accuracy"), "draft");
     EXPECT_EQ(narrow.at("cheapest").at("accuracy"), "survey");
     const Outcome table = plan({"--tolerance", "0.01 px"});
-    EXPECT_TRUE(says(line_of(table.out, "view transform in float32"), "modelled, needed")) << table.out;
-    EXPECT_TRUE(says(line_of(table.out, "level of detail"), "ABOVE the tolerance")) << table.out;
+    EXPECT_EQ(columns_of(table.out, "view in double precision")[0], "yes") << table.out;
+    EXPECT_EQ(columns_of(table.out, "view in double precision")[1], "yes") << table.out;
+    EXPECT_EQ(columns_of(table.out, "full detail")[0], "no") << table.out;
+    EXPECT_EQ(columns_of(table.out, "full detail")[1], "yes") << table.out;
+    EXPECT_TRUE(says(table.out, "for 0.01 px")) << table.out;
 }
 
 TEST(Plan, NothingInViewIsSaid) {
@@ -201,7 +312,7 @@ TEST(Plan, QuietLeavesTheTableAlone) {
     const Outcome outcome = plan({"-q"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.err, "");
-    EXPECT_TRUE(says(outcome.out, "level of detail")) << outcome.out;
+    EXPECT_TRUE(says(outcome.out, "full detail")) << outcome.out;
     EXPECT_EQ(plan({}).out, outcome.out);
 }
 

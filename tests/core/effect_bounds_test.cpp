@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,7 +19,7 @@
 namespace oro {
 namespace {
 
-using test::all_kinds, test::half_way_down, test::sea_level, test::undulation;
+using test::half_way_down, test::sea_level, test::undulation;
 using Scene = test::EffectScene;
 
 // A picture of rough ground, 90 km of it, from above its summits.
@@ -61,8 +63,8 @@ TEST(EffectBounds, AreInTheDrawingsThatLeaveThingsOut) {
     const TrueWorld world;
     const auto in = [&](const DrawingModel& drawing) {
         std::vector<EffectKind> kinds;
-        for (const EffectKind kind : all_kinds) {
-            if (EffectPrediction::is_in(kind, drawing, world)) kinds.push_back(kind);
+        for (const EffectFacts& effect : effect_table()) {
+            if (is_in_picture(effect.kind, drawing, world)) kinds.push_back(effect.kind);
         }
         return kinds;
     };
@@ -70,7 +72,7 @@ TEST(EffectBounds, AreInTheDrawingsThatLeaveThingsOut) {
     using Kinds = std::vector<EffectKind>;
     const DrawingModel usual = balanced();
     EXPECT_EQ(in(usual),
-              (Kinds{steps_f32, detail, placement, depth, pixel_grid, flat_cells, interpolation, source}));
+              (Kinds{detail, steps_f32, placement, depth, pixel_grid, flat_cells, interpolation, source}));
     DrawingModel drawing = usual;
     drawing.geoid = false;
     drawing.tau_px = 0.0;
@@ -78,13 +80,51 @@ TEST(EffectBounds, AreInTheDrawingsThatLeaveThingsOut) {
               (Kinds{geoid, steps_f32, placement, depth, pixel_grid, flat_cells, interpolation, source}));
     drawing = usual;
     drawing.world = {Earth::sphere, 0.0, Precision::rounded_posts};
-    EXPECT_EQ(in(drawing), (Kinds{sphere, refraction, float32_posts, steps_f32, detail, depth, pixel_grid,
+    EXPECT_EQ(in(drawing), (Kinds{sphere, refraction, float32_posts, detail, steps_f32, depth, pixel_grid,
                                   flat_cells, interpolation, source}));
     drawing = usual;
     drawing.world = {Earth::flat, usual_refraction_k, Precision::naive};
     drawing.coding = {true, 3, 0};
     EXPECT_EQ(in(drawing), (Kinds{flat, float32_view, steps_i16, detail, depth, pixel_grid, flat_cells,
                                   interpolation, source}));
+}
+
+// A flat Earth is no ellipsoid either: the picture has neither, though only the plane's error counts.
+TEST(EffectBounds, WhatALargerEffectContainsIsNotModelled) {
+    const TrueWorld world;
+    const auto not_modelled = [&](const DrawingModel& drawing) {
+        std::vector<EffectKind> kinds;
+        for (const EffectFacts& effect : effect_table()) {
+            if (effect.group == EffectGroup::model && !is_modelled(effect.kind, drawing, world))
+                kinds.push_back(effect.kind);
+        }
+        return kinds;
+    };
+    using enum EffectKind;
+    using Kinds = std::vector<EffectKind>;
+    DrawingModel drawing = balanced();
+    EXPECT_EQ(not_modelled(drawing), (Kinds{detail}));
+    drawing.world = {Earth::sphere, usual_refraction_k, Precision::rounded_posts};
+    EXPECT_EQ(not_modelled(drawing), (Kinds{sphere, float32_posts, detail}));
+    drawing.world = {Earth::flat, 0.0, Precision::naive};
+    drawing.tau_px = 0.0;
+    EXPECT_EQ(not_modelled(drawing), (Kinds{sphere, flat, refraction, float32_posts, float32_view}));
+}
+
+// One table: every effect has a name of its own, a key of its own and a sentence.
+TEST(EffectTable, SaysAllOfEveryEffect) {
+    std::set<std::string> keys, names;
+    for (const EffectFacts& effect : effect_table()) {
+        SCOPED_TRACE(effect.key);
+        EXPECT_EQ(&facts_of(effect.kind), &effect);
+        EXPECT_TRUE(keys.insert(effect.key).second);
+        EXPECT_TRUE(names.insert(effect.name).second);
+        EXPECT_TRUE(std::string(effect.meaning).ends_with("."));
+        EXPECT_EQ(*effect.part != '\0', effect.group == EffectGroup::model);
+        EXPECT_TRUE(*effect.left_out_by == '\0' || effect.group == EffectGroup::model);
+        EXPECT_TRUE(!effect.contained_in || facts_of(*effect.contained_in).group == EffectGroup::model);
+    }
+    EXPECT_EQ(keys.size(), effect_kinds);
 }
 
 // The sum of what is in, but for what no drawing can help.
@@ -106,14 +146,15 @@ TEST(EffectBounds, TotalIsTheSum) {
         drawing.world.earth = (i & 2) == 0 ? Earth::ellipsoid : Earth::sphere;
         drawing.coding = (i & 4) == 0 ? HeightCoding{} : world.sixteen;
         EffectSize sum;
-        for (const EffectKind kind : all_kinds) {
+        for (const EffectFacts& effect : effect_table()) {
+            const EffectKind kind = effect.kind;
             if (kind == EffectKind::interpolation || kind == EffectKind::source ||
-                !EffectPrediction::is_in(kind, drawing, world))
+                !is_in_picture(kind, drawing, world))
                 continue;
             const EffectSize one = scene.size(kind, 2.0);
-            EXPECT_GT(one.worst_m, 0.0) << name_of(kind);
-            EXPECT_GE(one.worst_m, one.typical_m) << name_of(kind);
-            EXPECT_GE(one.worst_px, one.typical_px) << name_of(kind);
+            EXPECT_GT(one.worst_m, 0.0) << facts_of(kind).name;
+            EXPECT_GE(one.worst_m, one.typical_m) << facts_of(kind).name;
+            EXPECT_GE(one.worst_px, one.typical_px) << facts_of(kind).name;
             sum.worst_m += one.worst_m;
             sum.typical_m += one.typical_m;
             sum.worst_px += one.worst_px;
@@ -142,16 +183,17 @@ TEST(EffectBounds, OfTheSkyThereAreNone) {
     EXPECT_TRUE(scene.prediction.empty());
     EXPECT_FALSE(std::isnan(scene.prediction.nearest_m()));
     EXPECT_FALSE(std::isnan(scene.prediction.median_distance_m()));
-    for (const EffectKind kind : all_kinds) {
+    for (const EffectFacts& effect : effect_table()) {
+        const EffectKind kind = effect.kind;
         const EffectSize size = scene.size(kind);
         // A curved Earth's sky may be the plane's ground; not at 60 degrees. What a source states it states
         // of itself.
         if (kind != EffectKind::source) {
-            EXPECT_EQ(size.worst_m, 0.0) << name_of(kind);
-            EXPECT_EQ(size.typical_m, 0.0) << name_of(kind);
+            EXPECT_EQ(size.worst_m, 0.0) << facts_of(kind).name;
+            EXPECT_EQ(size.typical_m, 0.0) << facts_of(kind).name;
         }
-        EXPECT_EQ(size.worst_px, 0.0) << name_of(kind);
-        EXPECT_EQ(size.typical_px, 0.0) << name_of(kind);
+        EXPECT_EQ(size.worst_px, 0.0) << facts_of(kind).name;
+        EXPECT_EQ(size.typical_px, 0.0) << facts_of(kind).name;
     }
     const auto total = scene.prediction.total(balanced());
     ASSERT_TRUE(total.ok());
@@ -206,12 +248,12 @@ TEST(EffectBounds, HoldBetweenTheSamples) {
         for (const EffectKind kind : {EffectKind::refraction, EffectKind::sphere, EffectKind::geoid}) {
             const PointError worst = measured_worst(surface, camera, kind, picture);
             const EffectSize size = prediction.size(kind, 1.0).value().value();
-            EXPECT_GE(size.worst_m, worst.height_m) << name_of(kind);
-            EXPECT_GE(size.worst_px, worst.px) << name_of(kind);
+            EXPECT_GE(size.worst_m, worst.height_m) << facts_of(kind).name;
+            EXPECT_GE(size.worst_px, worst.px) << facts_of(kind).name;
             // Heights below a micrometre are rounding.
-            EXPECT_LE(size.worst_m, 10.0 * worst.height_m + 1.0e-6) << name_of(kind);
+            EXPECT_LE(size.worst_m, 10.0 * worst.height_m + 1.0e-6) << facts_of(kind).name;
             if (worst.px < 1.0e-6) continue;
-            EXPECT_LE(size.worst_px, 10.0 * worst.px) << name_of(kind);
+            EXPECT_LE(size.worst_px, 10.0 * worst.px) << facts_of(kind).name;
             loosest = std::max(loosest, size.worst_px / worst.px);
         }
     }

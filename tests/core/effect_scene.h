@@ -10,12 +10,6 @@
 
 namespace oro::test {
 
-inline constexpr EffectKind all_kinds[] = {
-    EffectKind::geoid,         EffectKind::sphere,        EffectKind::flat,      EffectKind::refraction,
-    EffectKind::float32_posts, EffectKind::float32_view,  EffectKind::steps_f32, EffectKind::steps_i16,
-    EffectKind::detail,        EffectKind::placement,     EffectKind::depth,     EffectKind::pixel_grid,
-    EffectKind::flat_cells,    EffectKind::interpolation, EffectKind::source};
-
 // A prediction with all that must outlive it.
 struct EffectScene {
     HeightField field;

@@ -1,0 +1,26 @@
+// Numbers as people read them: few digits, points below each other.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace oro {
+
+// Two digits or three: "0", "0.012", "1.3", "12.4", "316", "4.2e-5"; "n/a" for what is no number, "inf"
+// beyond all.
+std::string figure(double value);
+// The same, "n/a" for nothing.
+std::string figure(const std::optional<double>& value);
+// Two digits, as one says a size in a sentence: "0", "0.12", "2", "66", "3400"; below 0.001 "less than
+// 0.001".
+std::string about(double value);
+// For tables: three digits, nothing finer than a thousandth, and the decimal point `before` characters from
+// the left: "  362    ", "   13.3  ", "   <0.001". Needs before + 4 characters; larger numbers need more.
+std::string point_aligned(double value, int before);
+// The fewest digits that read back as the same number.
+std::string all_digits(double value);
+// "12,345,678"
+std::string grouped(std::uint64_t count);
+
+}  // namespace oro
