@@ -253,6 +253,20 @@ TEST(Plan, JsonHasTypedFacts) {
     EXPECT_EQ(effect_in(said, "Earth as a plane").at("modelled"), false);
 }
 
+TEST(Plan, ItsPageExplainsEveryErrorAndColumn) {
+    const std::string page =
+        bytes_of(oro::test::bundled_data().parent_path() / "docs" / "commands" / "plan.md");
+    for (const json& effect : planned(plan({"--json", "-q"})).at("effects")) {
+        const std::string row = "| " + effect.at("effect").get<std::string>() + " (`" +
+                                effect.at("kind").get<std::string>() + "`) | " +
+                                effect.at("meaning").get<std::string>() + " |";
+        EXPECT_TRUE(says(page, row)) << row;
+    }
+    for (const char* word : {"**in this picture**", "**needed for 1 px**", "**within**", "**worst**",
+                             "**typical**", "**this picture, but for its data**"})
+        EXPECT_TRUE(says(page, word)) << word;
+}
+
 TEST(Plan, ToleranceJudges) {
     const json wide = planned(plan({"--json", "--tolerance", "1000px"}));
     const json narrow = planned(plan({"--json", "--tolerance", "0.01px"}));
