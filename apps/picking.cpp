@@ -10,12 +10,14 @@
 
 namespace oro {
 
-std::optional<SeenPlace> place_seen(const View& view, const Region& region, const TrueSurface& surface,
-                                    glm::dvec2 point_px) {
+Result<std::optional<SeenPlace>> place_seen(const View& view, const Region& region,
+                                            const TrueSurface& surface, glm::dvec2 point_px) {
     const Camera& camera = view.camera;
     const auto hit = first_hit(surface, sight_from(camera.eye, view.model.refraction_k),
                                camera.ecef_direction_at(point_px), sight_reach_m(camera.eye.h_m));
-    if (!hit) return std::nullopt;
+    // What could not be read counts as void: the sight line went through it.
+    ORO_CHECK(surface.field().health());
+    if (!hit) return std::optional<SeenPlace>();
     SeenPlace place;
     place.lat_deg = hit->point.lat_deg;
     place.lon_deg = hit->point.lon_deg;
@@ -31,10 +33,10 @@ std::optional<SeenPlace> place_seen(const View& view, const Region& region, cons
     place.column = hit->column;
     if (const SourceReport* const source = source_at(region, place.lat_deg, place.lon_deg))
         place.source = source->path;
-    return place;
+    return std::optional(place);
 }
 
-std::optional<SeenPlace> place_in_middle(const View& view, const Region& region) {
+Result<std::optional<SeenPlace>> place_in_middle(const View& view, const Region& region) {
     const TrueSurface surface(region.field, view.exaggeration, thread_count());
     return place_seen(view, region, surface, {0.5 * view.camera.width_px, 0.5 * view.camera.height_px});
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/view.h"
+#include "core/result.h"
 #include "core/true_surface.h"
 
 namespace oro {
@@ -29,11 +30,12 @@ struct SeenPlace {
 // What a view sees at a point of its picture (pixels from the top left corner, (0.5, 0.5) is the centre of
 // the first); nothing where the sight line meets no ground. Asked of the full resolution, with the view's
 // exaggeration and refraction; views of another Earth than WGS84 are drawn elsewhere than this looks.
-// `surface`: of the region's field, with the view's exaggeration. Exact as Oracle::first_hit is.
-std::optional<SeenPlace> place_seen(const View& view, const Region& region, const TrueSurface& surface,
-                                    glm::dvec2 point_px);
+// `surface`: of the region's field, with the view's exaggeration. Exact as Oracle::first_hit is. Errors: a
+// post of the region that could not be read, now or earlier.
+Result<std::optional<SeenPlace>> place_seen(const View& view, const Region& region,
+                                            const TrueSurface& surface, glm::dvec2 point_px);
 // The same at the picture's middle, with a surface made for this one question.
-std::optional<SeenPlace> place_in_middle(const View& view, const Region& region);
+Result<std::optional<SeenPlace>> place_in_middle(const View& view, const Region& region);
 
 // On one line for people: latitude and longitude with 6 decimals, both heights, distance along the sight
 // line, bearing, cell and the source's file name; or that there is nothing.

@@ -43,6 +43,8 @@ Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, c
                                     const Region& region, const std::optional<SeenPlace>& middle,
                                     const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
                                     const RenderProgress& progress) {
+    // The eye and the tags come from heights that were asked for by now.
+    ORO_CHECK(region.field.health());
     PictureOptions options;
     ORO_TRY(options.path, choose_path(view.pipeline, gpu));
     // Drawn again another day, when auto may come to another answer, the view gives the same bytes.

@@ -263,7 +263,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     shot.triangles_at_full_resolution = scene.pages().facts().triangles;
     shot.times.pages_s = seconds_since(start);
     const auto drawing = Clock::now();
-    shot.middle = place_in_middle(shot.view, shot.region);
+    ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
     ORO_TRY(shot.picture,
             write_picture(files, options.overwrite, shot.view, shot.region, shot.middle, *gpu, scene,
                           style.frame, [&](double share) { bar.show(share, "drawing"); }));

@@ -27,9 +27,8 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_TRY(region, open_region(view.region, progress));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
-    // A page that cannot be read is void until somebody asks why.
-    if (!placed.ok() && placed.error().kind == ErrorKind::no_data && region.file)
-        ORO_CHECK(region.file->verify());
+    // Ground that could not be read is no ground to stand on, but that is not why there is none.
+    ORO_CHECK(region.field.health());
     return placed;
 }
 

@@ -40,7 +40,7 @@ struct Viewer {
     std::optional<TrueSurface> surface;  // made when it is first asked, for all questions after
 };
 
-std::optional<SeenPlace> seen_at(Viewer& viewer, glm::dvec2 point_px) {
+Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px) {
     if (!viewer.surface)
         viewer.surface.emplace(viewer.region.field, viewer.view.exaggeration, thread_count());
     return place_seen(viewer.view, viewer.region, *viewer.surface, point_px);
@@ -126,24 +126,27 @@ std::string free_picture_name(std::int64_t time_utc_s) {
     }
 }
 
-void take_picture(Viewer& viewer) {
+Result<void> take_picture(Viewer& viewer) {
     viewer.view.time_utc_s =
         std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
             .count();
     const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
     const Camera& camera = viewer.view.camera;
-    const auto middle = seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px});
+    ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
     const auto written = write_picture(files, false, viewer.view, viewer.region, middle, viewer.gpu,
                                        viewer.scene, viewer.style, {});
     viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
     say(viewer.options.quiet && written.ok(), viewer.message);
+    return {};
 }
 
 // Tells what the picture that is shown has under the cursor.
-void pick(Viewer& viewer, glm::dvec2 point_px) {
-    viewer.message = line_of(seen_at(viewer, point_px));
+Result<void> pick(Viewer& viewer, glm::dvec2 point_px) {
+    ORO_TRY(const auto place, seen_at(viewer, point_px));
+    viewer.message = line_of(place);
     std::printf("%s\n", viewer.message.c_str());
     std::fflush(stdout);  // whoever reads along has it now
+    return {};
 }
 
 // One turn of the loop: input, then a frame where something has changed. False when the user leaves.
@@ -169,7 +172,7 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
         changed = changed || !viewer.asking_place;
     } else {
         // What is clicked at is the picture that is shown, before the eye moves on.
-        if (input.picked_px) pick(viewer, *input.picked_px);
+        if (input.picked_px) ORO_CHECK(pick(viewer, *input.picked_px));
         const FlightStep step = step_of(input, viewer.view.camera);
         if (moves(step)) {
             viewer.view.camera =
@@ -177,8 +180,10 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
             viewer.message.clear();
             changed = true;
         }
-        if (input.take_picture) take_picture(viewer);
+        if (input.take_picture) ORO_CHECK(take_picture(viewer));
     }
+    // The eye stands on ground that was asked for: it ends as a page does that cannot be drawn.
+    ORO_CHECK(viewer.region.field.health());
     if (title_of(viewer) != title_before) viewer.window.set_title(title_of(viewer));
     return true;
 }
@@ -237,6 +242,7 @@ Result<void> run_view(const WindowOptions& options) {
     // moves by more than twice that.
     if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
     view.camera = above_ground(view.camera, region.field, view.exaggeration);
+    ORO_CHECK(region.field.health());
     ORO_TRY(const Style style, load_style(view.style, view.sun));
     GpuOptions gpu_options = gpu_options_from_environment();
     gpu_options.instance_extensions = extensions;

@@ -26,7 +26,8 @@ int canonical_column(const HeightField& field, int row, int column) {
     if (is_void(field.H_at_post_m(row, column))) return column;
     if (at_pole(grid, row)) {
         int first = 0;
-        while (is_void(field.H_at_post_m(row, first))) ++first;
+        // No further than the post itself, also where a page can no longer be read that could be just now.
+        while (first < column && is_void(field.H_at_post_m(row, first))) ++first;
         return first;
     }
     const bool twin = column == grid.columns() - 1 && grid.goes_round();

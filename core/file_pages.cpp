@@ -5,6 +5,7 @@
 #include <iterator>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -72,6 +73,11 @@ class FilePosts : public PostSource {
             page)[static_cast<std::size_t>(in_row * static_cast<int>(gpu::height_stride) + in_column)];
     }
 
+    [[nodiscard]] Result<void> health() const override {
+        const std::scoped_lock lock(mutex_);
+        return fault_ ? Result<void>(*fault_) : Result<void>();
+    }
+
   private:
     using Posts = std::array<float, gpu::page_heights>;
     struct Kept {
@@ -92,7 +98,10 @@ class FilePosts : public PostSource {
             kept_.pop_back();
         }
         const auto payload = std::make_unique<PagePayload>();
-        if (!file_->payload(page, *payload).ok()) payload->H_m.fill(void_height_m);
+        if (const Result<void> read = file_->payload(page, *payload); !read.ok()) {
+            if (!fault_) fault_ = read.error();
+            payload->H_m.fill(void_height_m);
+        }
         kept_.push_front({number, std::make_unique<Posts>(payload->H_m)});
         places_[number] = kept_.begin();
         return *kept_.front().posts;
@@ -103,6 +112,7 @@ class FilePosts : public PostSource {
     mutable std::mutex mutex_;
     mutable std::list<Kept> kept_;
     mutable std::unordered_map<std::uint64_t, std::list<Kept>::iterator> places_;
+    mutable std::optional<Error> fault_;  // the first
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ std::unique_ptr<RegionPages> pages_of_file(std::shared_ptr<const RegionFile> fil
 
 // The surface of a region file, to the bit the one that was baked: its posts are read page by page when they
 // are asked for, and up to memory_bytes of them are kept (at least some pages). A page that cannot be read is
-// void, and told by the file's verify().
+// void, and told by the field's health().
 HeightField field_of_file(std::shared_ptr<const RegionFile> file, std::size_t memory_bytes);
 
 // The same with all posts in memory: for what goes through every one of them. Errors: damage.

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/result.h"
+
 namespace oro {
 
 // Posts along one axis of a region, evenly spaced in degrees. A post's angle depends on its *index in the
@@ -92,8 +94,11 @@ struct HeightRange {
 class PostSource {
   public:
     virtual ~PostSource() = default;
-    // H of a post of the grid, void_height_m where there is none.
+    // H of a post of the grid, void_height_m where there is none, and where it cannot be read: then health()
+    // tells so.
     [[nodiscard]] virtual float H_m(int row, int column) const = 0;
+    // The first error that stood in the way of a post, from whichever thread it was asked for; it stays.
+    [[nodiscard]] virtual Result<void> health() const = 0;
 };
 
 // The true surface of a scene: orthometric heights H on a post grid, and the undulation N that lifts them
@@ -112,6 +117,10 @@ struct HeightField {
         return H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
                    static_cast<std::size_t>(column)];
     }
+    // Whether every post that was asked for so far could be read. A post that could not be read counts as
+    // void, so that an answer about the surface is one only when this is asked afterwards: before it is
+    // shown, and before anything that it decides is written. Always well where the posts are in memory.
+    [[nodiscard]] Result<void> health() const { return posts ? posts->health() : Result<void>(); }
     // Height above the ellipsoid of a post that is not void.
     [[nodiscard]] double h_at_post_m(int row, int column) const;
     // H of the surface at a place, or void_height_m outside the region and on triangles with a void post.

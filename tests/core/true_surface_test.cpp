@@ -35,6 +35,7 @@ class OtherPosts : public PostSource {
   public:
     explicit OtherPosts(HeightField of) : of_(std::move(of)) {}
     [[nodiscard]] float H_m(int row, int column) const override { return of_.H_at_post_m(row, column); }
+    [[nodiscard]] Result<void> health() const override { return {}; }
 
   private:
     HeightField of_;
