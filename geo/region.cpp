@@ -122,14 +122,18 @@ struct Reading {
     JoinedSurface& surface;
 };
 
-// Lays one source into the surface, at one whole turn, in strips that fit memory. Gives how many void posts
-// of finer sources it filled.
-Result<std::uint64_t> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, const Reading& to) {
+struct Laid {
+    std::uint64_t lent{};  // void posts of finer sources that it filled
+    Fit fit{Fit::elsewhere};
+};
+
+// Lays one source into the surface, at one whole turn, in strips that fit memory.
+Result<Laid> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, const Reading& to) {
     constexpr std::size_t posts_a_strip = std::size_t{1} << 26;
     ORO_TRY(SourceOnGrid placed, SourceOnGrid::create(source, to.grid, turn));
     const GridRect& rect = placed.rect();
-    std::uint64_t lent = 0;
-    if (rect.rows <= 0 || rect.columns <= 0) return lent;
+    Laid laid{0, placed.fit()};
+    if (rect.rows <= 0 || rect.columns <= 0) return laid;
     SourceReport& report = source.report;
     report.placement = placed.placement();
     const auto columns = static_cast<std::size_t>(rect.columns);
@@ -153,7 +157,7 @@ Result<std::uint64_t> lay_source(Source& source, int turn, GeoidOfRegion::Shift&
             const bool own_posts = placed.fit() == Fit::same_posts;
             const std::uint64_t filled =
                 to.surface.lay(row, rect.first_column, heights, inside, own_posts, report.seams);
-            lent += own_posts ? 0 : filled;
+            laid.lent += own_posts ? 0 : filled;
             if (placed.fit() == Fit::elsewhere) to.surface.lay_later(row, rect.first_column, beyond);
             for (const float height : heights) {
                 if (is_void(height)) continue;
@@ -162,7 +166,7 @@ Result<std::uint64_t> lay_source(Source& source, int turn, GeoidOfRegion::Shift&
             }
         }
     }
-    return lent;
+    return laid;
 }
 
 // All turns at which a source meets the grid. A source round the Earth whose posts are not copied finds every
@@ -202,10 +206,10 @@ Result<void> lay_sources(std::vector<Source>& sources, const GeoidOfRegion& geoi
         report.highest_m = std::numeric_limits<double>::lowest();
         std::uint64_t lent = 0;
         for (const int turn : turns_of(source, to.grid)) {
-            ORO_TRY(const std::uint64_t filled, lay_source(source, turn, shift, to));
-            lent += filled;
+            ORO_TRY(const Laid laid, lay_source(source, turn, shift, to));
+            lent += laid.lent;
             // One pass is the whole circle unless posts are copied column by column.
-            if (source.full_circle && report.placement.find("copied") == std::string::npos) break;
+            if (source.full_circle && laid.fit != Fit::same_posts) break;
         }
         if (lent > 0)
             add_note(notes, std::to_string(lent) + " void posts of finer sources take their height from " +
@@ -232,6 +236,7 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
         return Error{
             ErrorKind::no_data, where,
             "no elevation data" + (found.first_skipped.empty() ? "" : " (" + found.first_skipped + ")")};
+    if (request.box) reach_over_seams(found.sources);
     const auto extent = region_extent(found.sources, request.box);
     if (!extent)
         return Error{ErrorKind::no_data, where,

@@ -50,6 +50,17 @@ LonSpan narrowest(std::span<const Source> sources) {
     return {start, start + 360.0 - largest_gap};
 }
 
+// Bounds of a source with its reach over seams; not unwrapped.
+BoundingBox reached(const Source& source) {
+    return {source.lon.west_deg - source.reach.west_deg, source.south_deg - source.reach.south_deg,
+            source.lon.east_deg + source.reach.east_deg, source.north_deg + source.reach.north_deg};
+}
+
+LonSpan reached_lon(const Source& source) {
+    const BoundingBox box = reached(source);
+    return {box.west_deg, box.east_deg};
+}
+
 double finest_per_deg(std::span<const Source> sources, bool latitude, double lat_nearest_equator_deg) {
     double finest = 0.0;
     for (const Source& source : sources) {
@@ -165,10 +176,37 @@ std::vector<int> turns_that_meet(const LonSpan& span, double west_deg, double ea
     return turns;
 }
 
+void reach_over_seams(std::span<Source> sources) {
+    // Posts of neighbours are this far apart, where their cells touch; rounding may add a little.
+    constexpr double slack = 1.01;
+    for (Source& source : sources) {
+        for (const Source& other : sources) {
+            const double lat_gap = 0.5 * (source.lat_spacing_deg + other.lat_spacing_deg) * slack;
+            const double lon_gap = 0.5 * (source.lon_spacing_deg + other.lon_spacing_deg) * slack;
+            const double north_gap = other.south_deg - source.north_deg;
+            const double south_gap = source.south_deg - other.north_deg;
+            if (north_gap > lat_gap || south_gap > lat_gap) continue;
+            const LonSpan widened{source.lon.west_deg - lon_gap, source.lon.east_deg + lon_gap};
+            const std::vector<int> turns = turns_that_meet(other.lon, widened.west_deg, widened.east_deg);
+            if (turns.empty() && !source.full_circle && !other.full_circle) continue;
+            if (north_gap > 0.0) source.reach.north_deg = std::max(source.reach.north_deg, north_gap);
+            if (south_gap > 0.0) source.reach.south_deg = std::max(source.reach.south_deg, south_gap);
+            for (const int turn : turns) {
+                const double east_gap = other.lon.west_deg + 360.0 * turn - source.lon.east_deg;
+                const double west_gap = source.lon.west_deg - other.lon.east_deg - 360.0 * turn;
+                if (east_gap > 0.0) source.reach.east_deg = std::max(source.reach.east_deg, east_gap);
+                if (west_gap > 0.0) source.reach.west_deg = std::max(source.reach.west_deg, west_gap);
+            }
+        }
+    }
+}
+
 bool meets(const Source& source, const BoundingBox& box) {
-    if (std::min(source.north_deg, box.north_deg) - std::max(source.south_deg, box.south_deg) <= line_deg)
+    if (std::min(reached(source).north_deg, box.north_deg) -
+            std::max(reached(source).south_deg, box.south_deg) <=
+        line_deg)
         return false;
-    return source.full_circle || !turns_that_meet(source.lon, box.west_deg, box.east_deg).empty();
+    return source.full_circle || !turns_that_meet(reached_lon(source), box.west_deg, box.east_deg).empty();
 }
 
 std::optional<RegionExtent> region_extent(std::span<const Source> sources,
@@ -186,18 +224,19 @@ std::optional<RegionExtent> region_extent(std::span<const Source> sources,
     for (const Source& source : sources) {
         if (!meets(source, limits)) continue;
         any = true;
-        hull.south_deg = std::min(hull.south_deg, std::max(source.south_deg, limits.south_deg));
-        hull.north_deg = std::max(hull.north_deg, std::min(source.north_deg, limits.north_deg));
+        const BoundingBox bounds = reached(source);
+        hull.south_deg = std::min(hull.south_deg, std::max(bounds.south_deg, limits.south_deg));
+        hull.north_deg = std::max(hull.north_deg, std::min(bounds.north_deg, limits.north_deg));
         if (source.full_circle) {
             hull.west_deg = limits.west_deg;
             hull.east_deg = limits.east_deg;
             continue;
         }
-        for (const int turn : turns_that_meet(source.lon, limits.west_deg, limits.east_deg)) {
+        for (const int turn : turns_that_meet(reached_lon(source), limits.west_deg, limits.east_deg)) {
             hull.west_deg =
-                std::min(hull.west_deg, std::max(source.lon.west_deg + 360.0 * turn, limits.west_deg));
+                std::min(hull.west_deg, std::max(bounds.west_deg + 360.0 * turn, limits.west_deg));
             hull.east_deg =
-                std::max(hull.east_deg, std::min(source.lon.east_deg + 360.0 * turn, limits.east_deg));
+                std::max(hull.east_deg, std::min(bounds.east_deg + 360.0 * turn, limits.east_deg));
         }
     }
     if (!any) return std::nullopt;

@@ -25,7 +25,11 @@ BoundingBox unwrapped(const BoundingBox& box);
 // Whole turns by which a span of longitudes must be moved to overlap [west, east] by more than a line.
 std::vector<int> turns_that_meet(const LonSpan& span, double west_deg, double east_deg);
 
-// True when the source and the (unwrapped) box share more than a line.
+// Lets sources whose cells touch (their posts are a spacing apart) reach over the seam to each other's first
+// posts: a box that lies in between is inside the surface.
+void reach_over_seams(std::span<Source> sources);
+
+// True when the source, with its reach over seams, and the (unwrapped) box share more than a line.
 bool meets(const Source& source, const BoundingBox& box);
 
 // Where the asked box and the sources overlap; without a box the narrowest one that holds them all. Nothing

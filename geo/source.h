@@ -33,6 +33,15 @@ struct SourceAxis {
 
 enum class SourceKind { hgt, raster };
 
+// How far a source's surface goes on beyond its own last posts, to the first ones of a neighbour: 0 where it
+// ends there.
+struct SeamReach {
+    double west_deg{};
+    double south_deg{};
+    double east_deg{};
+    double north_deg{};
+};
+
 struct Source {
     SourceKind kind{SourceKind::raster};
     std::string file;  // as GDAL's virtual file system opens it
@@ -41,6 +50,7 @@ struct Source {
     LonSpan lon;  // of the posts
     double south_deg{};
     double north_deg{};
+    SeamReach reach;     // set by reach_over_seams
     bool projected{};    // spacing is even in metres rather than degrees
     bool full_circle{};  // the posts go round the Earth: east of the last one comes the first
     double lat_spacing_deg{};
