@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/region_format.h"
+#include "geo/foreign_text.h"
 
 namespace oro {
 namespace {
@@ -86,8 +87,10 @@ std::string attribution_of(const Region& region) {
     std::set<std::string> seen;
     std::string all;
     for (const SourceReport& source : region.sources) {
-        if (source.attribution.empty() || !seen.insert(source.attribution).second) continue;
-        all += (all.empty() ? "" : "; ") + source.attribution;
+        // Once more: a region may have been baked when such text was kept as it was.
+        const std::string attribution = foreign_text(source.attribution);
+        if (attribution.empty() || !seen.insert(attribution).second) continue;
+        all += (all.empty() ? "" : "; ") + attribution;
     }
     return all;
 }

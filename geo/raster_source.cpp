@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "geo/foreign_text.h"
 #include "geo/letter_case.h"
 #include "geo/raster_library.h"
 #include "geo/raster_place.h"
@@ -18,7 +19,7 @@ namespace oro {
 namespace {
 
 std::string text_of(const char* text) {
-    return text ? text : "";
+    return text ? foreign_text(text) : "";
 }
 
 // A reason why these bands are no elevation, or "".
@@ -59,7 +60,7 @@ std::string wkt_of(OGRSpatialReferenceH crs) {
     const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
     char* text = nullptr;
     OSRExportToWktEx(crs, &text, options);
-    std::string wkt = text_of(text);
+    std::string wkt = text ? text : "";
     CPLFree(text);
     return wkt;
 }

@@ -232,6 +232,24 @@ TEST(Raster, WhatIsNoElevationIsRefusedWithTheReason) {
     expect("line.tif", raster, "cover no area");
 }
 
+TEST(Raster, TagsThatAreNoUtf8AreKeptWithTheirBadBytesReplaced) {
+    const fs::path folder = scratch_folder();
+    Raster raster = hundredths(11, 11);
+    const std::string sign = "\xEF\xBF\xBD";  // U+FFFD
+    const std::vector<std::array<std::string, 2>> texts{
+        {"\xA9 2024 Swisstopo", sign + " 2024 Swisstopo"},  // Latin-1
+        {"\xC2\xA9 2024", "\xC2\xA9 2024"},                 // UTF-8
+        {"bell \x07 and cut \xE2\x82", "bell " + sign + " and cut " + sign},
+        {"a line\nand\tmore", "a line\nand\tmore"}};
+    for (const auto& [stored, shown] : texts) {
+        raster.copyright = stored;
+        const auto region = opened(request_for({write_raster(folder / "dem.tif", raster, slope)}));
+        ASSERT_TRUE(region) << stored;
+        EXPECT_EQ(region->sources[0].attribution, shown);
+        fs::remove(folder / "dem.tif");
+    }
+}
+
 TEST(Raster, UnknownCrsIsAnErrorThatNamesTheFile) {
     const fs::path folder = scratch_folder();
     std::ofstream(folder / "dem.vrt")
