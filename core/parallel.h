@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <new>
+#include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace oro {
@@ -13,18 +17,39 @@ inline int thread_count(unsigned most = 16) {
     return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, most));
 }
 
-// Calls work(i) once for each i of 0 .. count - 1, on up to `threads` threads (the caller's is one of them);
-// returns when all are done. work must not throw, and its calls must not depend on each other: the result is
-// then the same for any number of threads.
+// Starts threads that each do `work`, `count` more of them or as many as the system has left: it may be out
+// of threads (a user's or a container's limit) or out of memory for their stacks.
+template <class Work>
+void start_threads(std::vector<std::jthread>& threads, int count, const Work& work) {
+    try {
+        for (int i = 0; i < count; ++i) threads.emplace_back(work);
+    } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
+    }
+}
+
+// Calls work(i) once for each i of 0 .. count - 1, on up to `threads` threads (the caller's is one of them,
+// and does it all where there is no other to be had); returns when all are done. Its calls must not depend on
+// each other: the result is then the same for any number of threads. What one of them throws (there is no
+// memory left) ends the work, and is thrown to the caller.
 template <class Work>
 void in_parallel(int count, int threads, const Work& work) {
     std::atomic<int> next{0};
-    const auto take_turns = [&] {
-        for (int i = next++; i < count; i = next++) work(i);
+    std::atomic<bool> failed{false};
+    std::exception_ptr thrown;
+    const auto take_turns = [&]() noexcept {
+        try {
+            for (int i = next++; i < count && !failed; i = next++) work(i);
+        } catch (...) {
+            if (!failed.exchange(true)) thrown = std::current_exception();
+        }
     };
-    std::vector<std::jthread> others;
-    for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(take_turns);
-    take_turns();
+    {
+        std::vector<std::jthread> others;
+        start_threads(others, std::min(threads, count) - 1, take_turns);
+        take_turns();
+    }
+    if (thrown) std::rethrow_exception(std::move(thrown));
 }
 
 }  // namespace oro

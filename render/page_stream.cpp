@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/parallel.h"
+
 namespace oro {
 
 PageStream::PageStream(const RegionPages& pages, int threads, std::size_t capacity)
     : pages_(pages), capacity_(std::max<std::size_t>(1, capacity)) {
-    for (int i = 0; i < std::max(1, threads); ++i)
-        threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+    start_threads(threads_, std::max(1, threads), [this](const std::stop_token& stop) { work(stop); });
 }
 
 PageStream::~PageStream() {
@@ -32,10 +33,13 @@ void PageStream::want(std::span<const PageIndex> pages) {
 
 Result<std::vector<LoadedPage>> PageStream::take(bool wait) {
     std::unique_lock lock(mutex_);
+    if (threads_.empty() && ready_.empty() && !wanted_.empty()) load_next(lock);
     if (wait) {
-        changed_.wait(lock,
-                      [&] { return failed_ || !ready_.empty() || (wanted_.empty() && under_way_.empty()); });
+        changed_.wait(lock, [&] {
+            return thrown_ || failed_ || !ready_.empty() || (wanted_.empty() && under_way_.empty());
+        });
     }
+    if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
     if (failed_) return *std::exchange(failed_, std::nullopt);
     std::vector<LoadedPage> pages(std::make_move_iterator(ready_.begin()),
                                   std::make_move_iterator(ready_.end()));
@@ -46,7 +50,7 @@ Result<std::vector<LoadedPage>> PageStream::take(bool wait) {
 
 bool PageStream::idle() const {
     const std::scoped_lock lock(mutex_);
-    return wanted_.empty() && under_way_.empty() && ready_.empty() && !failed_;
+    return wanted_.empty() && under_way_.empty() && ready_.empty() && !failed_ && !thrown_;
 }
 
 void PageStream::work(const std::stop_token& stop) {
@@ -56,22 +60,32 @@ void PageStream::work(const std::stop_token& stop) {
             return !wanted_.empty() && under_way_.size() + ready_.size() < capacity_;
         };
         if (!changed_.wait(lock, stop, can_begin)) return;
-        const PageIndex page = wanted_.front();
-        wanted_.pop_front();
+        load_next(lock);
+    }
+}
+
+void PageStream::load_next(std::unique_lock<std::mutex>& lock) {
+    const PageIndex page = wanted_.front();
+    wanted_.pop_front();
+    try {
         under_way_.insert(key(page));
         lock.unlock();
         LoadedPage loaded{page, std::make_unique<gpu::PageBlock>()};
         const Result<void> done = pages_.load(page, *loaded.block);
         lock.lock();
-        under_way_.erase(key(page));
         if (done.ok()) {
             ready_.push_back(std::move(loaded));
         } else if (!failed_) {
             failed_ = done.error();
             wanted_.clear();
         }
-        changed_.notify_all();
+    } catch (...) {  // no memory: the caller's business, not this thread's
+        if (!lock.owns_lock()) lock.lock();
+        thrown_ = std::current_exception();
+        wanted_.clear();
     }
+    under_way_.erase(key(page));
+    changed_.notify_all();
 }
 
 }  // namespace oro

@@ -5,10 +5,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <set>
 
 namespace oro {
 namespace {
+
+constexpr int too_large_row = 77;
 
 // Pages of nothing, that count how many are loaded at a time; one of them cannot be read.
 class CountingPages : public RegionPages {
@@ -23,6 +26,7 @@ class CountingPages : public RegionPages {
         block.heights[0] = page.row * 100 + page.column;
         --at_a_time_;
         ++loaded;
+        if (page.row == too_large_row) throw std::bad_alloc();
         if (page.row == unreadable_row_) return Error{ErrorKind::failed, "made.oro", "damaged"};
         return {};
     }
@@ -61,6 +65,16 @@ TEST(PageStream, BringsWhatIsWantedOnce) {
     auto none = stream.take(true);
     ASSERT_TRUE(none.ok());
     EXPECT_TRUE(none->empty()) << "does not wait for what will never come";
+}
+
+// In a thread of its own it would end the program.
+TEST(PageStream, ThrowsToItsCallerWhatAThreadThrew) {
+    const CountingPages pages(-1);
+    PageStream stream(pages, 2, 3);
+    stream.want(row_of_pages(too_large_row, 1));
+    EXPECT_THROW((void)stream.take(true), std::bad_alloc);
+    stream.want(row_of_pages(1, 1));
+    EXPECT_TRUE(stream.take(true).ok()) << "goes on afterwards";
 }
 
 TEST(PageStream, DropsWhatIsNoLongerWanted) {
