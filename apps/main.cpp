@@ -7,12 +7,16 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <new>
 #include <system_error>
 
 #include "apps/commands.h"
 #include "apps/interruption.h"
+#include "geo/library_faults.h"
+#include "geo/whole_file.h"
 
 namespace {
 
@@ -171,13 +175,27 @@ oro::Error usage_error(const CLI::App& app, int argc, char** argv, const CLI::Pa
     return {oro::ErrorKind::usage, "", std::string(error.what()) + " (orograph --help tells more)"};
 }
 
-}  // namespace
+int told_unforeseen(const char* what) {
+    std::fprintf(stderr, "orograph: failed: %s\n", what);
+    return static_cast<int>(oro::ErrorKind::failed);
+}
 
-int main(int argc, char** argv) {
-    // A file that outgrows the shell's limit is a write that fails, and told as such.
-    std::signal(SIGXFSZ, SIG_IGN);
-    fill_standard_streams();
-    oro::clean_up_when_interrupted();
+// Where memory or threads run out in a library that lets no exception pass, the program still ends in order.
+// Anything else that nobody caught is a programmer's mistake, and aborts.
+[[noreturn]] void end_without_resources() {
+    try {
+        if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        oro::end_out_of_memory();
+    } catch (const std::system_error& error) {
+        oro::remove_unfinished_files();
+        _exit(told_unforeseen(error.what()));
+    } catch (...) {
+    }
+    std::abort();
+}
+
+int run_command_line(int argc, char** argv) {
     CLI::App app{about, "orograph"};
     app.footer(exit_codes);
     app.require_subcommand(1);
@@ -206,21 +224,36 @@ int main(int argc, char** argv) {
         app.exit(e);
         return exit_code({});
     }
+    if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
+    if (app.got_subcommand("compare")) return exit_code(oro::run_compare(compare));
+    if (app.got_subcommand("view")) return exit_code(oro::run_view(view));
+    if (app.got_subcommand("plan")) return exit_code(oro::run_plan(plan));
+    if (app.got_subcommand("trade")) {
+        for (int i = 0; i < argc; ++i) trade.command += (i > 0 ? " " : "") + std::string(argv[i]);
+        return exit_code(oro::run_trade(trade));
+    }
+    if (app.got_subcommand("bake")) return exit_code(oro::run_bake(bake));
+    if (app.got_subcommand("info")) return exit_code(oro::run_info(info));
+    return exit_code(oro::run_doctor(doctor));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::set_terminate(&end_without_resources);
+    // A file that outgrows the shell's limit is a write that fails, and told as such.
+    std::signal(SIGXFSZ, SIG_IGN);
+    fill_standard_streams();
+    oro::watch_libraries();
     // What was begun is undone on the way here: no half file stays.
     try {
-        if (app.got_subcommand("shot")) return exit_code(oro::run_shot(shot));
-        if (app.got_subcommand("compare")) return exit_code(oro::run_compare(compare));
-        if (app.got_subcommand("view")) return exit_code(oro::run_view(view));
-        if (app.got_subcommand("plan")) return exit_code(oro::run_plan(plan));
-        if (app.got_subcommand("trade")) {
-            for (int i = 0; i < argc; ++i) trade.command += (i > 0 ? " " : "") + std::string(argv[i]);
-            return exit_code(oro::run_trade(trade));
-        }
-        if (app.got_subcommand("bake")) return exit_code(oro::run_bake(bake));
-        if (app.got_subcommand("info")) return exit_code(oro::run_info(info));
-        return exit_code(oro::run_doctor(doctor));
+        oro::clean_up_when_interrupted();
+        return run_command_line(argc, argv);
     } catch (const std::bad_alloc&) {
-        return told({oro::ErrorKind::failed, "memory",
-                     "there is not enough of it for this; a smaller --size or region needs less"});
+        return oro::tell_out_of_memory();
+    } catch (const std::exception& error) {
+        return told_unforeseen(error.what());
+    } catch (...) {
+        return told_unforeseen("for a reason that nobody told");
     }
 }

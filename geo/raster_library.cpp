@@ -3,13 +3,14 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 
-#include <mutex>
+#include "geo/library_faults.h"
 
 namespace oro {
 
 void start_gdal() {
-    static std::once_flag once;
-    std::call_once(once, [] {
+    // Not std::call_once: what is thrown through it (there is no memory) must find glibc's unwinder, which is
+    // loaded then, and aborts where that fails.
+    static const bool is_started = [] {
         // Terrain files never send this program into the network, whatever a VRT inside them says.
         CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_FILENAME", "none");
         OSRSetPROJEnableNetwork(0);
@@ -28,7 +29,9 @@ void start_gdal() {
                 GDALDestroyDriver(driver);
             }
         }
-    });
+        return true;
+    }();
+    (void)is_started;
 }
 
 GdalMessages::GdalMessages() {
@@ -40,7 +43,8 @@ GdalMessages::~GdalMessages() {
     CPLErrorReset();
 }
 
-void CPL_STDCALL GdalMessages::take(CPLErr severity, CPLErrorNum, const char* message) {
+void CPL_STDCALL GdalMessages::take(CPLErr severity, CPLErrorNum number, const char* message) {
+    note_gdal_message(severity == CE_Fatal, number == CPLE_OutOfMemory);
     if (severity < CE_Failure || message == nullptr) return;
     static_cast<GdalMessages*>(CPLGetErrorHandlerUserData())->text_ = message;
 }

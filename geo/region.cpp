@@ -8,6 +8,7 @@
 
 #include "geo/baked_region.h"
 #include "geo/hgt_source.h"
+#include "geo/library_faults.h"
 #include "geo/raster_library.h"
 #include "geo/raster_source.h"
 #include "geo/region_grid.h"
@@ -287,9 +288,12 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
 
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
     try {
-        if (baked_path(request.paths)) return open_baked_region(request, progress);
-        start_gdal();
-        return open_checked(request, progress);
+        const bool is_baked = baked_path(request.paths).has_value();
+        if (!is_baked) start_gdal();
+        Result<Region> region =
+            is_baked ? open_baked_region(request, progress) : open_checked(request, progress);
+        if (region.ok()) ORO_CHECK(libraries_are_sound());
+        return region;
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::failed, "region too large",
                      "not enough memory for its posts; narrow it with --bbox"};

@@ -49,12 +49,17 @@ int open_temporary(const std::string& folder, std::string& temporary_path) {
     for (int attempt = 0; attempt < 100; ++attempt) {
         std::string path = (folder == "/" ? "" : folder) + "/.orograph-";
         for (int i = 0; i < 10; ++i) path += letters[letter(random)];
+        // Before the file is there: without memory for its name nobody would remove it.
+        const auto name = unfinished().paths.insert(path).first;
         const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor >= 0) {
-            unfinished().paths.insert(path);
             temporary_path = std::move(path);
+            return descriptor;
         }
-        if (descriptor >= 0 || errno != EEXIST) return descriptor;
+        const int why = errno;
+        unfinished().paths.erase(name);
+        errno = why;
+        if (why != EEXIST) return descriptor;
     }
     return -1;
 }
