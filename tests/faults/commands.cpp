@@ -1,0 +1,116 @@
+#include "tests/faults/commands.h"
+
+#include <gdal.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/test_data.h"
+
+namespace oro::test {
+namespace fs = std::filesystem;
+namespace {
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    return bytes.str();
+}
+
+// The north-western corner of the bundled region, 20 x 20 posts.
+const std::string& tile() {
+    static const std::string bytes = [] {
+        GDALAllRegister();
+        const fs::path from = bundled_data() / "jacksboro.tif", to = scratch_folder() / "tile.tif";
+        const GDALDatasetH whole = GDALOpen(from.c_str(), GA_ReadOnly);
+        std::vector<std::int16_t> heights(400);
+        std::array<double, 6> place{};
+        EXPECT_TRUE(whole);
+        EXPECT_EQ(GDALGetGeoTransform(whole, place.data()), CE_None);
+        EXPECT_EQ(GDALRasterIO(GDALGetRasterBand(whole, 1), GF_Read, 0, 0, 20, 20, heights.data(), 20, 20,
+                               GDT_Int16, 0, 0),
+                  CE_None);
+        const GDALDatasetH corner =
+            GDALCreate(GDALGetDriverByName("GTiff"), to.c_str(), 20, 20, 1, GDT_Int16, nullptr);
+        EXPECT_TRUE(corner);
+        GDALSetGeoTransform(corner, place.data());
+        GDALSetProjection(corner, GDALGetProjectionRef(whole));
+        EXPECT_EQ(GDALRasterIO(GDALGetRasterBand(corner, 1), GF_Write, 0, 0, 20, 20, heights.data(), 20, 20,
+                               GDT_Int16, 0, 0),
+                  CE_None);
+        GDALClose(corner);
+        GDALClose(whole);
+        return bytes_of(to);
+    }();
+    return bytes;
+}
+
+// What an undisturbed run makes of the tile.
+std::string made(const std::vector<std::string>& words, const std::string& file, const std::string& input,
+                 const std::string& bytes) {
+    const fs::path folder = scratch_folder();
+    std::ofstream(folder / input, std::ios::binary) << bytes;
+    DisturbedProgram program(words, folder, 1);
+    const Disturbed run = program.run({"thread"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return bytes_of(folder / file);
+}
+
+const std::string& baked() {
+    static const std::string bytes =
+        made({"bake", "tile.tif", "-q", "--out", "tile.oro"}, "tile.oro", "tile.tif", tile());
+    return bytes;
+}
+
+Command shot_of(const std::string& name, const std::string& bytes) {
+    const std::vector<std::string> words{"shot", name,     "-q",    "--overwrite", "--pipeline",
+                                         "mesh", "--size", "64x48", "--out",       "p.png"};
+    std::vector<std::string> other = words;
+    other[7] = "32x24";
+    return {"shot " + name,
+            words,
+            {{name, bytes}},
+            {{"p.png", made(other, "p.png", name, bytes)}, {"p.json", made(other, "p.json", name, bytes)}},
+            false};
+}
+
+}  // namespace
+
+Command info_of_tiles() {
+    return {"info tile.tif", {"info", "tile.tif"}, {{"tile.tif", tile()}}, {}, false};
+}
+
+Command info_of_baked() {
+    return {"info --check tile.oro", {"info", "--check", "tile.oro"}, {{"tile.oro", baked()}}, {}, false};
+}
+
+Command bake_new() {
+    return {"bake tile.tif",
+            {"bake", "tile.tif", "-q", "--out", "n.oro"},
+            {{"tile.tif", tile()}},
+            {{"n.oro", ""}},
+            true};
+}
+
+Command bake_again() {
+    const std::string other =
+        made({"bake", "tile.tif", "-q", "--fill-voids", "--out", "n.oro"}, "n.oro", "tile.tif", tile());
+    return {"bake --overwrite tile.tif",
+            {"bake", "tile.tif", "-q", "--overwrite", "--out", "n.oro"},
+            {{"tile.tif", tile()}},
+            {{"n.oro", other}},
+            true};
+}
+
+Command shot_of_tiles() {
+    return shot_of("tile.tif", tile());
+}
+
+Command shot_of_baked() {
+    return shot_of("tile.oro", baked());
+}
+
+}  // namespace oro::test

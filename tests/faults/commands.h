@@ -1,0 +1,16 @@
+// The commands that faults are let into: small ones, so that a run takes a tenth of a second.
+#pragma once
+
+#include "tests/faults/disturbed_program.h"
+
+namespace oro::test {
+
+// info of a GeoTIFF and of a baked region; bake; shot of both, with a picture there already or none.
+Command info_of_tiles();
+Command info_of_baked();
+Command bake_new();
+Command bake_again();
+Command shot_of_tiles();
+Command shot_of_baked();
+
+}  // namespace oro::test

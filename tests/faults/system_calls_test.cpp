@@ -1,0 +1,67 @@
+// Files that fail: each system call in turn, and all of a kind from one on.
+#include <gtest/gtest.h>
+
+#include <cerrno>
+
+#include "tests/faults/commands.h"
+
+namespace {
+using oro::test::Command;
+using oro::test::expect_order;
+using oro::test::Fault;
+using oro::test::FaultRuns;
+using oro::test::runs_asked_for;
+
+bool each() {
+    return runs_asked_for() >= 1000;
+}
+
+class FailedSystemCalls : public testing::TestWithParam<Command (*)()> {};
+
+TEST_P(FailedSystemCalls, OfAll) {
+    FaultRuns runs(GetParam()(), 1);
+    expect_order(runs, Fault{"system"}, each() ? runs_asked_for() : 0, runs_asked_for());
+}
+
+TEST_P(FailedSystemCalls, OfTheProgram) {
+    FaultRuns runs(GetParam()(), 1);
+    Fault fault{"system"};
+    fault.own = true;
+    expect_order(runs, fault, each() ? runs_asked_for() : 0, runs_asked_for());
+}
+
+// Few, and each with what it fails of in practice.
+TEST_P(FailedSystemCalls, OfWriting) {
+    FaultRuns runs(GetParam()(), 1);
+    for (const auto& [name, error] :
+         {std::pair{"rename", EACCES}, std::pair{"fsync", EIO}, std::pair{"write", ENOSPC},
+          std::pair{"truncate", EFBIG}, std::pair{"close", EDQUOT}}) {
+        Fault fault{name};
+        fault.error = error;
+        fault.own = true;
+        if (runs.count(fault) > 0) expect_order(runs, fault, 10, runs_asked_for() / 3);
+    }
+}
+
+TEST_P(FailedSystemCalls, AllOfAKindFromOneOn) {
+    FaultRuns runs(GetParam()(), 1);
+    for (const auto& [name, error] :
+         {std::pair{"open", EMFILE}, std::pair{"read", EIO}, std::pair{"lseek", EIO},
+          std::pair{"map", ENOMEM}, std::pair{"stat", EACCES}}) {
+        Fault fault{name};
+        fault.error = error;
+        fault.period = 1;
+        if (runs.count(fault) > 0) expect_order(runs, fault, 2, runs_asked_for() / 4);
+    }
+}
+
+std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
+    const std::vector<std::string> names{"Info", "InfoOfBaked", "Bake", "BakeAgain"};
+    return names[info.index];
+}
+INSTANTIATE_TEST_SUITE_P(Commands, FailedSystemCalls,
+                         testing::Values(oro::test::info_of_tiles, oro::test::info_of_baked,
+                                         oro::test::bake_new, oro::test::bake_again),
+                         name_of);
+
+}  // namespace

@@ -1,0 +1,35 @@
+// Threads that are not to be had: a user's or a container's limit. Pictures and files are the same with
+// fewer.
+#include <gtest/gtest.h>
+
+#include "tests/faults/commands.h"
+
+namespace {
+using oro::test::Command;
+using oro::test::Fault;
+using oro::test::FaultRuns;
+
+class FailedThreads : public testing::TestWithParam<Command (*)()> {};
+
+TEST_P(FailedThreads, EachAndAllFromOneOn) {
+    FaultRuns runs(GetParam()(), 4);
+    for (const long period : {0, 1, 2}) {
+        Fault fault{"thread"};
+        fault.period = period;
+        const long count = runs.count(fault);
+        for (fault.number = 1; fault.number <= count; ++fault.number) EXPECT_EQ(runs.fault_of_run(fault), "");
+    }
+    EXPECT_EQ(runs.ended("exit 1"), 0) << "a thread less is no reason to give up";
+    std::printf("%s\n", runs.summary().c_str());
+}
+
+std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
+    const std::vector<std::string> names{"Info", "Bake", "Shot", "ShotOfBaked"};
+    return names[info.index];
+}
+INSTANTIATE_TEST_SUITE_P(Commands, FailedThreads,
+                         testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
+                                         oro::test::shot_of_tiles, oro::test::shot_of_baked),
+                         name_of);
+
+}  // namespace
