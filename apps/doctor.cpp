@@ -140,7 +140,8 @@ void print_device(std::size_t number, const Finding& finding) {
     std::printf("             auto: %s\n", finding.choice_text().c_str());
     std::printf("             subgroups of %u, pictures up to %u px a tile, %llu MiB\n", d.subgroup_size,
                 d.max_picture_side_px, static_cast<unsigned long long>(d.memory_bytes >> 20U));
-    if (d.type == "software") std::printf("             draws on the processor: right, but slow\n");
+    if (d.kind == VK_PHYSICAL_DEVICE_TYPE_CPU)
+        std::printf("             draws on the processor: right, but slow\n");
 }
 
 void print_doctor(const std::vector<Finding>& devices, const std::string& no_device,

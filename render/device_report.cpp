@@ -21,12 +21,12 @@ std::string type_name(VkPhysicalDeviceType type) {
     }
 }
 
-bool has_extension(VkPhysicalDevice physical, const char* wanted) {
+// What a device has cannot be told where asking fails: that is no lack.
+Result<bool> has_extension(VkPhysicalDevice physical, const char* wanted) {
     std::uint32_t count = 0;
-    if (vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr) != VK_SUCCESS) return false;
+    ORO_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr));
     std::vector<VkExtensionProperties> all(count);
-    if (vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, all.data()) != VK_SUCCESS)
-        return false;
+    ORO_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, all.data()));
     return std::any_of(all.begin(), all.end(), [&](const VkExtensionProperties& e) {
         return std::strcmp(e.extensionName, wanted) == 0;
     });
@@ -69,7 +69,7 @@ void describe_properties(VkPhysicalDevice physical, DeviceReport& report) {
                    mesh.maxTaskWorkGroupTotalCount};
 }
 
-void describe_lacks(VkPhysicalDevice physical, const GpuOptions& options, DeviceReport& report) {
+Result<void> describe_lacks(VkPhysicalDevice physical, const GpuOptions& options, DeviceReport& report) {
     VkPhysicalDeviceMeshShaderFeaturesEXT mesh{};
     mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
     VkPhysicalDeviceVulkan13Features vulkan13{};
@@ -84,6 +84,8 @@ void describe_lacks(VkPhysicalDevice physical, const GpuOptions& options, Device
     vkGetPhysicalDeviceFeatures2(physical, &features);
     if (!vulkan12.bufferDeviceAddress) report.lacks.emplace_back("bufferDeviceAddress");
     if (!vulkan12.scalarBlockLayout) report.lacks.emplace_back("scalarBlockLayout");
+    if (!vulkan12.vulkanMemoryModel || !vulkan12.vulkanMemoryModelDeviceScope)
+        report.lacks.emplace_back("vulkanMemoryModel");
     if (!vulkan13.synchronization2) report.lacks.emplace_back("synchronization2");
     if (!vulkan13.dynamicRendering) report.lacks.emplace_back("dynamicRendering");
     if (!vulkan13.maintenance4) report.lacks.emplace_back("maintenance4");
@@ -94,29 +96,42 @@ void describe_lacks(VkPhysicalDevice physical, const GpuOptions& options, Device
         report.lacks.emplace_back("VK_EXT_mesh_shader and 64-bit atomics (one of them is needed)");
     if (!graphics_queue_family(physical))
         report.lacks.emplace_back("a queue for graphics and compute with timestamps");
-    if (options.presents && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
-        report.lacks.emplace_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (!options.presents) return {};
+    ORO_TRY(const bool presents, has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME));
+    if (!presents) report.lacks.emplace_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    return {};
+}
+
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice physical) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    return families;
 }
 
 }  // namespace
 
 std::optional<std::uint32_t> graphics_queue_family(VkPhysicalDevice physical) {
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    const std::vector<VkQueueFamilyProperties> families = queue_families(physical);
     constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
         if ((families[i].queueFlags & wanted) == wanted && families[i].timestampValidBits > 0) return i;
     }
     return std::nullopt;
 }
 
-DeviceReport describe_device(VkPhysicalDevice physical, const GpuOptions& options) {
+std::uint64_t timestamp_mask(VkPhysicalDevice physical, std::uint32_t queue_family) {
+    const std::uint32_t bits = queue_families(physical)[queue_family].timestampValidBits;
+    return bits >= 64 ? UINT64_MAX : (std::uint64_t{1} << bits) - 1;
+}
+
+Result<DeviceReport> describe_device(VkPhysicalDevice physical, const GpuOptions& options) {
     DeviceReport report;
     VkPhysicalDeviceProperties plain{};
     vkGetPhysicalDeviceProperties(physical, &plain);
     report.name = plain.deviceName;
+    report.kind = plain.deviceType;
     report.type = type_name(plain.deviceType);
     report.api = version_name(plain.apiVersion);
     VkPhysicalDeviceMemoryProperties memory{};
@@ -129,10 +144,11 @@ DeviceReport describe_device(VkPhysicalDevice physical, const GpuOptions& option
         report.lacks.emplace_back("Vulkan 1.3");
         return report;
     }
-    report.mesh_shader =
-        !options.without_mesh_shader && has_extension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME);
+    if (!options.without_mesh_shader) {
+        ORO_TRY(report.mesh_shader, has_extension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME));
+    }
     describe_properties(physical, report);
-    describe_lacks(physical, options, report);
+    ORO_CHECK(describe_lacks(physical, options, report));
     return report;
 }
 

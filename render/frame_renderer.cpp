@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 namespace oro {
 namespace {
@@ -168,24 +169,26 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     const FrameLayout layout = layout_of(plan);
     if (staging_.size < layout.size) {
         const VkDeviceSize size = std::max(layout.size, 2 * staging_.size);
-        ORO_TRY(staging_, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::upload,
-                                        "frame staging"));
+        ORO_TRY(Buffer staging, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                              BufferPlace::upload, "frame staging"));
         constexpr VkBufferUsageFlags usage =
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
             VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
         ORO_TRY(frame_data_, create_buffer(*gpu_, size, usage, BufferPlace::device, "frame data"));
+        staging_ = std::move(staging);  // both are that large, or neither is
         bind_constants();
     }
     const std::size_t count = std::max<std::size_t>(plan.pages.size(), 64);
     if (compute_) ORO_CHECK(compute_->reserve_pages(count));
     if (count > page_capacity_) {
         // A multiple of 4, so that each part starts at a multiple of 16 bytes.
-        page_capacity_ = (std::max(count, 2 * page_capacity_) + 3) / 4 * 4;
+        const std::size_t capacity = (std::max(count, 2 * page_capacity_) + 3) / 4 * 4;
         constexpr VkBufferUsageFlags usage =
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-        ORO_TRY(choice_, create_buffer(*gpu_, 4 * (live_pages_words + page_capacity_ * choice_words), usage,
+        ORO_TRY(choice_, create_buffer(*gpu_, 4 * (live_pages_words + capacity * choice_words), usage,
                                        BufferPlace::device, "choice of levels"));
+        page_capacity_ = capacity;
     }
     const VkDeviceSize pixels = VkDeviceSize{4} * options_.extent.width * options_.extent.height;
     if (options_.keep_depths && depths_.size < pixels) {
@@ -371,9 +374,8 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, timestamp_count, sizeof(ticks),
                                  ticks.data(), sizeof(std::uint64_t),
                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
-    const double tick_s = gpu_->timestamp_period_ns() * 1e-9;
     const auto between_s = [&](std::size_t from) {
-        return static_cast<double>(ticks[from + 1] - ticks[from]) * tick_s;
+        return gpu_->seconds_between(ticks[from], ticks[from + 1]);
     };
     report.choose_s = between_s(0);
     report.raster_s = between_s(1);

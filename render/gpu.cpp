@@ -39,10 +39,10 @@ Error no_driver(const std::string& reason) {
 
 // Better devices first; among equals the driver's own order.
 int device_rank(const DeviceReport& report) {
-    const int kind = report.type == "discrete GPU"     ? 3
-                     : report.type == "integrated GPU" ? 2
-                     : report.type == "software"       ? 0
-                                                       : 1;
+    const int kind = report.kind == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU     ? 3
+                     : report.kind == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU ? 2
+                     : report.kind == VK_PHYSICAL_DEVICE_TYPE_CPU            ? 0
+                                                                             : 1;
     return kind + (report.lacks.empty() ? 10 : 0);
 }
 
@@ -51,15 +51,31 @@ struct Candidate {
     DeviceReport report;
 };
 
+// Asked again when devices came between counting and listing them.
+Result<std::vector<VkPhysicalDevice>> physical_devices(VkInstance instance) {
+    std::vector<VkPhysicalDevice> devices;
+    for (;;) {
+        std::uint32_t count = 0;
+        VkResult found = vkEnumeratePhysicalDevices(instance, &count, nullptr);
+        devices.resize(count);
+        if (found == VK_SUCCESS && count > 0)
+            found = vkEnumeratePhysicalDevices(instance, &count, devices.data());
+        if (found == VK_INCOMPLETE) continue;
+        devices.resize(count);
+        if (is_out_of_memory(found)) return vulkan_checked(found, "vkEnumeratePhysicalDevices(").error();
+        if (found != VK_SUCCESS) return no_driver(vulkan_result_name(found));
+        if (devices.empty()) return no_driver("no device");
+        return devices;
+    }
+}
+
 Result<std::vector<Candidate>> candidates(VkInstance instance, const GpuOptions& options) {
-    std::uint32_t count = 0;
-    if (const VkResult r = vkEnumeratePhysicalDevices(instance, &count, nullptr);
-        r != VK_SUCCESS || count == 0)
-        return no_driver(r == VK_SUCCESS ? "no device" : vulkan_result_name(r));
-    std::vector<VkPhysicalDevice> devices(count);
-    ORO_VK(vkEnumeratePhysicalDevices(instance, &count, devices.data()));
+    ORO_TRY(const std::vector<VkPhysicalDevice> devices, physical_devices(instance));
     std::vector<Candidate> all;
-    for (VkPhysicalDevice device : devices) all.push_back({device, describe_device(device, options)});
+    for (VkPhysicalDevice device : devices) {
+        ORO_TRY(DeviceReport report, describe_device(device, options));
+        all.push_back({device, std::move(report)});
+    }
     std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
         return device_rank(a.report) > device_rank(b.report);
     });
@@ -139,11 +155,14 @@ Result<void> Gpu::create_instance(const GpuOptions& options) {
     if (made == VK_ERROR_LAYER_NOT_PRESENT)
         return Error{ErrorKind::failed, "OROGRAPH_VALIDATION",
                      "the validation layer is not installed (vulkan-validationlayers)"};
+    if (is_out_of_memory(made)) return vulkan_checked(made, "vkCreateInstance(").error();
     if (made != VK_SUCCESS) return no_driver(vulkan_result_name(made));
     if (options.validation) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
-        if (create) ORO_VK(create(instance_, &messenger, nullptr, &messenger_));
+        if (create)
+            ORO_CHECK(vulkan_checked(create(instance_, &messenger, nullptr, &messenger_),
+                                     "vkCreateDebugUtilsMessengerEXT("));
         set_object_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
             vkGetInstanceProcAddr(instance_, "vkSetDebugUtilsObjectNameEXT"));
     }
@@ -173,6 +192,7 @@ Result<void> Gpu::create_device(const GpuOptions& options) {
     VkPhysicalDeviceVulkan12Features vulkan12{};
     vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
     vulkan12.bufferDeviceAddress = vulkan12.scalarBlockLayout = VK_TRUE;
+    vulkan12.vulkanMemoryModel = vulkan12.vulkanMemoryModelDeviceScope = VK_TRUE;
     vulkan12.shaderBufferInt64Atomics = report_.compute_raster ? VK_TRUE : VK_FALSE;
     vulkan12.pNext = &vulkan13;
     VkPhysicalDeviceFeatures2 features{};
@@ -196,12 +216,18 @@ Result<void> Gpu::create_device(const GpuOptions& options) {
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
-    ORO_VK(vkCreateDevice(physical_, &info, nullptr, &device_));
+    const VkResult made = vkCreateDevice(physical_, &info, nullptr, &device_);
+    if (made != VK_SUCCESS && !is_out_of_memory(made) && made != VK_ERROR_DEVICE_LOST)
+        return Error{ErrorKind::no_device, report_.name,
+                     "cannot be used: vkCreateDevice gave " + vulkan_reason(made) +
+                         " (OROGRAPH_DEVICE names another, orograph doctor lists them)"};
+    ORO_CHECK(vulkan_checked(made, "vkCreateDevice("));
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(physical_, &properties);
     timestamp_period_ns_ = static_cast<double>(properties.limits.timestampPeriod);
+    timestamp_mask_ = timestamp_mask(physical_, queue_family_);
     draw_mesh_tasks_indirect_ = reinterpret_cast<PFN_vkCmdDrawMeshTasksIndirectEXT>(
         vkGetDeviceProcAddr(device_, "vkCmdDrawMeshTasksIndirectEXT"));
     name(VK_OBJECT_TYPE_QUEUE, queue_, "queue");
@@ -233,6 +259,10 @@ Gpu::~Gpu() {
         if (destroy) destroy(instance_, messenger_, nullptr);
     }
     if (instance_) vkDestroyInstance(instance_, nullptr);
+}
+
+double Gpu::seconds_between(std::uint64_t from_ticks, std::uint64_t to_ticks) const {
+    return static_cast<double>((to_ticks - from_ticks) & timestamp_mask_) * timestamp_period_ns_ * 1e-9;
 }
 
 std::optional<std::uint32_t> Gpu::memory_type(std::uint32_t allowed_bits,

@@ -25,7 +25,8 @@ struct MeshShaderLimits {
 // One device as the driver describes it.
 struct DeviceReport {
     std::string name;
-    std::string type;       // "discrete GPU", "software", ...
+    VkPhysicalDeviceType kind{};
+    std::string type;       // the kind in words: "discrete GPU", "software", ...
     std::string driver;     // name and version as the driver gives them
     std::string api;        // "1.3.274"
     bool mesh_shader{};     // VK_EXT_mesh_shader with task shaders: the mesh path runs
@@ -53,7 +54,8 @@ GpuOptions gpu_options_from_environment();
 enum class RasterPath { mesh, compute };
 
 // The way that a request ("auto", "mesh", "compute") means on a device; auto takes mesh shaders where there
-// are any, without measuring (render/calibration.h does). Errors (no_device): the device lacks what the request names.
+// are any, without measuring (render/calibration.h does). Errors (no_device): the device lacks what the
+// request names.
 Result<RasterPath> raster_path_for(const std::string& request, const DeviceReport& device);
 // "mesh" or "compute".
 std::string name_of(RasterPath path);
@@ -75,7 +77,9 @@ class Gpu {
     [[nodiscard]] VkQueue queue() const { return queue_; }
     [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
     [[nodiscard]] const DeviceReport& report() const { return report_; }
-    [[nodiscard]] double timestamp_period_ns() const { return timestamp_period_ns_; }
+    // Seconds from one timestamp of the queue to a later one: over their valid bits, which may have begun
+    // anew once.
+    [[nodiscard]] double seconds_between(std::uint64_t from_ticks, std::uint64_t to_ticks) const;
     [[nodiscard]] PFN_vkCmdDrawMeshTasksIndirectEXT draw_mesh_tasks_indirect() const {
         return draw_mesh_tasks_indirect_;
     }
@@ -105,6 +109,7 @@ class Gpu {
     VkQueue queue_{VK_NULL_HANDLE};
     std::uint32_t queue_family_{};
     double timestamp_period_ns_{};
+    std::uint64_t timestamp_mask_{};  // its valid bits
     DeviceReport report_;
     VkPhysicalDeviceMemoryProperties memory_{};
     std::vector<std::string> messages_;

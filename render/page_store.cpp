@@ -9,6 +9,7 @@ namespace oro {
 namespace {
 
 constexpr std::size_t pages_per_chunk = 128;  // 10 MB: far below every device's limit on one buffer
+constexpr std::size_t fewest_in_chunk = 8;    // what is not there for so many is left to others
 constexpr std::size_t pages_in_staging = 64;
 
 }  // namespace
@@ -44,27 +45,52 @@ std::uint64_t PageStore::address(const PageIndex& page) {
     return chunks_[slot / pages_per_chunk].address + slot % pages_per_chunk * page_bytes_;
 }
 
+// Room for pages from slot `first` on. The budget is what the device may be asked for; where it has less, the
+// store makes do with fewer pages. Errors: there is no room for any.
+Result<void> PageStore::add_chunk(std::size_t first) {
+    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    for (std::size_t count = std::min(pages_per_chunk, capacity_ - first);; count /= 2) {
+        bool full = false;
+        auto chunk = create_buffer(*gpu_, count * page_bytes_, usage, BufferPlace::device,
+                                   "pages " + std::to_string(chunks_.size()), &full);
+        if (chunk.ok()) {
+            capacity_ = std::min(capacity_, full_ ? first + count : capacity_);
+            chunks_.push_back(std::move(chunk).value());
+            return {};
+        }
+        if (!full) return chunk.error();
+        full_ = true;
+        if (count > fewest_in_chunk) continue;
+        if (first == 0) return chunk.error();
+        capacity_ = first;
+        return {};
+    }
+}
+
 // A slot that is free, or was not used for longest and not by this frame; false when there is none.
 Result<bool> PageStore::find_slot(std::size_t& slot) {
     if (slots_.size() < capacity_) {
         slot = slots_.size();
         if (slot / pages_per_chunk == chunks_.size()) {
-            constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                                 VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-            const std::size_t count = std::min(pages_per_chunk, capacity_ - slot);
-            ORO_TRY(Buffer chunk, create_buffer(*gpu_, count * page_bytes_, usage, BufferPlace::device,
-                                                "pages " + std::to_string(chunks_.size())));
-            chunks_.push_back(std::move(chunk));
+            ORO_CHECK(add_chunk(slot));
+            if (slot >= capacity_) return reuse_slot(slot);
         }
         slots_.push_back({{}, frame_});
         return true;
     }
+    return reuse_slot(slot);
+}
+
+// The slot that was not used for longest; false when this frame uses all.
+bool PageStore::reuse_slot(std::size_t& slot) {
     const auto oldest = std::min_element(slots_.begin(), slots_.end(),
                                          [](const Slot& a, const Slot& b) { return a.used < b.used; });
     if (oldest->used >= frame_) return false;
-    slots_of_.erase(oldest->page);
     slot = static_cast<std::size_t>(oldest - slots_.begin());
+    const auto holds = slots_of_.find(oldest->page);
+    if (holds != slots_of_.end() && holds->second == slot) slots_of_.erase(holds);
     return true;
 }
 
@@ -81,8 +107,18 @@ void PageStore::stage(const gpu::PageBlock& block, std::byte* to) const {
 }
 
 Result<std::size_t> PageStore::send(std::span<const LoadedPage> pages) {
-    std::size_t sent = 0;
     std::vector<std::size_t> batch;
+    Result<std::size_t> sent = send_by_batches(pages, batch);
+    if (sent.ok()) return sent;
+    // What did not arrive is not here.
+    for (const std::size_t slot : batch) slots_of_.erase(slots_[slot].page);
+    return sent;
+}
+
+// `batch`: slots of the pages that are staged and not copied yet.
+Result<std::size_t> PageStore::send_by_batches(std::span<const LoadedPage> pages,
+                                               std::vector<std::size_t>& batch) {
+    std::size_t sent = 0;
     for (const LoadedPage& page : pages) {
         const Key key{page.index.level, page.index.row, page.index.column};
         if (slots_of_.contains(key)) {

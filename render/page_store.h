@@ -26,8 +26,8 @@ std::size_t page_bytes(const HeightCoding& coding);
 // The pages of one region that are on the GPU. What has not been used for longest makes room for what comes.
 class PageStore {
   public:
-    // At most `capacity` pages, at least 1; their heights lie there as `coding` says. Buffers are made when
-    // they are needed.
+    // At most `capacity` pages, at least 1, and fewer where the device has no room for them; their heights
+    // lie there as `coding` says. Buffers are made when they are needed.
     static Result<PageStore> create(const Gpu& gpu, std::size_t capacity, const HeightCoding& coding = {});
 
     // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame.
@@ -36,7 +36,7 @@ class PageStore {
     void begin_frame() { ++frame_; }
 
     // Sends pages, in their order, until no slot is left that the current frame does not use; number of those
-    // sent. Waits for the GPU. Errors: out of memory.
+    // sent. Waits for the GPU. Errors: the device; no room for any page at all.
     Result<std::size_t> send(std::span<const LoadedPage> pages);
 
     [[nodiscard]] std::size_t size() const { return slots_of_.size(); }
@@ -52,6 +52,9 @@ class PageStore {
     };
     explicit PageStore(const Gpu& gpu) : gpu_(&gpu) {}
     Result<bool> find_slot(std::size_t& slot);
+    bool reuse_slot(std::size_t& slot);
+    Result<void> add_chunk(std::size_t first);
+    Result<std::size_t> send_by_batches(std::span<const LoadedPage> pages, std::vector<std::size_t>& batch);
     Result<void> copy(std::span<const std::size_t> slots);
     void stage(const gpu::PageBlock& block, std::byte* to) const;
 
@@ -62,6 +65,7 @@ class PageStore {
     Buffer staging_;
     std::vector<Buffer> chunks_;
     std::size_t capacity_{};
+    bool full_{false};         // the device had no room for more
     std::vector<Slot> slots_;  // those ever used
     std::map<Key, std::size_t> slots_of_;
     std::uint64_t frame_{1};

@@ -4,7 +4,7 @@ namespace oro {
 namespace {
 
 Result<OwnedMemory> allocate(const Gpu& gpu, const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted,
-                             bool addressed, const std::string& name) {
+                             bool addressed, const std::string& name, bool* full = nullptr) {
     // Cached host memory reads faster; coherent is enough when there is none. Device-local is a wish, not a
     // need.
     std::optional<std::uint32_t> type = gpu.memory_type(needs.memoryTypeBits, wanted);
@@ -23,10 +23,11 @@ Result<OwnedMemory> allocate(const Gpu& gpu, const VkMemoryRequirements& needs, 
     info.memoryTypeIndex = *type;
     VkDeviceMemory memory{};
     const VkResult made = vkAllocateMemory(gpu.device(), &info, nullptr, &memory);
+    if (full) *full = made == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     if (made != VK_SUCCESS)
         return Error{ErrorKind::failed, gpu.report().name,
-                     "gave " + vulkan_result_name(made) + " for " + std::to_string(needs.size >> 20U) +
-                         " MiB of " + name};
+                     "has no room for " + std::to_string((needs.size + 1023) >> 10U) + " KiB of " + name +
+                         ": vkAllocateMemory gave " + vulkan_reason(made)};
     gpu.name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
     return OwnedMemory(gpu.device(), memory);
 }
@@ -48,7 +49,7 @@ VkMemoryPropertyFlags properties_of(BufferPlace place) {
 }  // namespace
 
 Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage, BufferPlace place,
-                             const std::string& name) {
+                             const std::string& name, bool* full) {
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = size;
@@ -62,7 +63,7 @@ Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFla
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(gpu.device(), handle, &needs);
     const bool addressed = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
-    ORO_TRY(buffer.memory, allocate(gpu, needs, properties_of(place), addressed, name));
+    ORO_TRY(buffer.memory, allocate(gpu, needs, properties_of(place), addressed, name, full));
     ORO_VK(vkBindBufferMemory(gpu.device(), handle, buffer.memory.get(), 0));
     if (place != BufferPlace::device) {
         void* mapped = nullptr;
@@ -160,7 +161,14 @@ Result<void> Commands::run(const Gpu& gpu, const std::function<void(VkCommandBuf
     submit.pCommandBufferInfos = &submitted;
     VkFence fence = fence_.get();
     ORO_VK(vkQueueSubmit2(gpu.queue(), 1, &submit, fence));
-    ORO_VK(vkWaitForFences(gpu.device(), 1, &fence, VK_TRUE, UINT64_MAX));
+    return wait_for(gpu, fence);
+}
+
+Result<void> wait_for(const Gpu& gpu, VkFence fence) {
+    const VkResult waited = vkWaitForFences(gpu.device(), 1, &fence, VK_TRUE, UINT64_MAX);
+    // A wait can fail while the work goes on, and whoever hears of it destroys what the work uses.
+    if (waited != VK_SUCCESS) vkDeviceWaitIdle(gpu.device());
+    ORO_CHECK(vulkan_checked(waited, "vkWaitForFences("));
     ORO_VK(vkResetFences(gpu.device(), 1, &fence));
     return {};
 }

@@ -24,9 +24,10 @@ inline gpu::uvec2 address_words(VkDeviceAddress address) {
     return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32U)};
 }
 enum class BufferPlace { device, upload, readback };
-// Errors: the device is out of memory (the message says how much was asked for what).
+// Errors: the device is out of memory (the message says how much was asked for what; `full`, if given, is set
+// to true then).
 Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage, BufferPlace place,
-                             const std::string& name);
+                             const std::string& name, bool* full = nullptr);
 
 // A 2D image with its own memory and a view of all of it.
 struct Image {
@@ -38,6 +39,10 @@ struct Image {
 };
 Result<Image> create_image(const Gpu& gpu, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
                            VkImageAspectFlags aspect, const std::string& name);
+
+// Waits for a fence that was submitted, and takes it back. Where the wait fails, nothing is under way on the
+// device any more all the same. Errors: the device is lost or out of memory.
+Result<void> wait_for(const Gpu& gpu, VkFence fence);
 
 // One command buffer and a fence: record, submit, wait.
 class Commands {

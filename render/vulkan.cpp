@@ -32,11 +32,26 @@ std::string vulkan_result_name(VkResult result) {
     }
 }
 
+std::string vulkan_reason(VkResult result) {
+    const std::string name = vulkan_result_name(result);
+    switch (result) {
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return name +
+                   ": the GPU has no memory left for this; a smaller --size or --gpu-memory needs less";
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return name + ": this machine has no memory left for the GPU's driver";
+        case VK_ERROR_DEVICE_LOST:
+            return name + ": the GPU was reset or its driver has failed; the same command may do it now";
+        default:
+            return name;
+    }
+}
+
 Result<void> vulkan_checked(VkResult result, const char* call) {
     if (result == VK_SUCCESS) return {};
     const std::string text(call);
     return Error{ErrorKind::failed, "Vulkan",
-                 text.substr(0, text.find('(')) + " gave " + vulkan_result_name(result)};
+                 text.substr(0, text.find('(')) + " gave " + vulkan_reason(result)};
 }
 
 }  // namespace oro

@@ -13,6 +13,14 @@ namespace oro {
 // The name of a VkResult as the specification writes it, or its number.
 std::string vulkan_result_name(VkResult result);
 
+// The same with what it means to whoever runs the program, where that helps.
+std::string vulkan_reason(VkResult result);
+
+// Whether a result tells that there is no memory left, on the device or for its driver.
+inline bool is_out_of_memory(VkResult result) {
+    return result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY;
+}
+
 // An Error that names the call and its result, or nothing for VK_SUCCESS.
 Result<void> vulkan_checked(VkResult result, const char* call);
 

@@ -162,6 +162,7 @@ Result<void> Window::create_swapchain() {
     info.clipped = VK_TRUE;
     ORO_VK(vkCreateSwapchainKHR(gpu_->device(), &info, nullptr, &swapchain_));
     gpu_->name(VK_OBJECT_TYPE_SWAPCHAIN_KHR, swapchain_, "window");
+    fresh_ = true;
     ORO_VK(vkGetSwapchainImagesKHR(gpu_->device(), swapchain_, &count, nullptr));
     images_.resize(count);
     ORO_VK(vkGetSwapchainImagesKHR(gpu_->device(), swapchain_, &count, images_.data()));
@@ -225,7 +226,7 @@ WindowInput Window::poll(double wait_s) {
     return input_;
 }
 
-Result<void> Window::submit_and_present(VkCommandBuffer commands, std::uint32_t index, bool& stale) {
+Result<VkResult> Window::submit_and_present(VkCommandBuffer commands, std::uint32_t index) {
     VkSemaphoreSubmitInfo wait{};
     wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
     wait.semaphore = acquired_.get();
@@ -251,11 +252,10 @@ Result<void> Window::submit_and_present(VkCommandBuffer commands, std::uint32_t 
     present.pSwapchains = &swapchain_;
     present.pImageIndices = &index;
     const VkResult presented = vkQueuePresentKHR(gpu_->queue(), &present);
-    stale = presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR;
-    if (!stale) ORO_CHECK(vulkan_checked(presented, "vkQueuePresentKHR("));
-    ORO_VK(vkWaitForFences(gpu_->device(), 1, &fence, VK_TRUE, UINT64_MAX));
-    ORO_VK(vkResetFences(gpu_->device(), 1, &fence));
-    return {};
+    ORO_CHECK(wait_for(*gpu_, fence));
+    if (presented != VK_ERROR_OUT_OF_DATE_KHR && presented != VK_SUBOPTIMAL_KHR)
+        ORO_CHECK(vulkan_checked(presented, "vkQueuePresentKHR("));
+    return presented;
 }
 
 Result<bool> Window::show(const Image& picture) {
@@ -295,10 +295,13 @@ Result<bool> Window::show(const Image& picture) {
     image_barrier(commands, images_[index], VK_IMAGE_ASPECT_COLOR_BIT, target, presented);
     image_barrier(commands, picture.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, source, written);
     ORO_VK(vkEndCommandBuffer(commands));
-    bool stale = acquired == VK_SUBOPTIMAL_KHR;
-    ORO_CHECK(submit_and_present(commands, index, stale));
-    if (stale) ORO_CHECK(create_swapchain());
-    return !stale;
+    ORO_TRY(const VkResult shown, submit_and_present(commands, index));
+    // What is suboptimal from its first image on is the best that this window system has.
+    const bool first = std::exchange(fresh_, false);
+    const bool suboptimal = acquired == VK_SUBOPTIMAL_KHR || shown == VK_SUBOPTIMAL_KHR;
+    if (shown != VK_ERROR_OUT_OF_DATE_KHR && (first || !suboptimal)) return true;
+    ORO_CHECK(create_swapchain());
+    return false;
 }
 
 }  // namespace oro

@@ -73,13 +73,15 @@ class Window {
     Result<void> create_surface();
     Result<void> create_swapchain();
     void destroy_swapchain();
-    Result<void> submit_and_present(VkCommandBuffer commands, std::uint32_t index, bool& stale);
+    // What presenting gave: success, suboptimal or out of date.
+    Result<VkResult> submit_and_present(VkCommandBuffer commands, std::uint32_t index);
 
     const Gpu* gpu_;
     GLFWwindow* window_{nullptr};
     VkSurfaceKHR surface_{VK_NULL_HANDLE};
     VkSwapchainKHR swapchain_{VK_NULL_HANDLE};
     VkExtent2D swapchain_extent_{};
+    bool fresh_{true};  // nothing was shown by it yet
     std::vector<VkImage> images_;
     Commands commands_;
     OwnedSemaphore acquired_;

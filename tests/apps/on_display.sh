@@ -1,0 +1,15 @@
+#!/bin/sh
+# on_display.sh COMMAND ...: runs it on a virtual display of its own, and ends as it does. (xvfb-run mixes its own
+# messages and exit code in when it cannot clear up fast enough.)
+folder=$(mktemp -d) || exit 90
+mkfifo "$folder/number"
+Xvfb -displayfd 4 -screen 0 640x480x24 -nolisten tcp 4>"$folder/number" >/dev/null 2>&1 &
+server=$!
+read -r display <"$folder/number"
+unset WAYLAND_DISPLAY
+DISPLAY=:$display "$@"
+code=$?
+kill "$server" 2>/dev/null
+wait "$server" 2>/dev/null
+rm -r "$folder"
+exit "$code"
