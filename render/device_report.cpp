@@ -84,8 +84,6 @@ Result<void> describe_lacks(VkPhysicalDevice physical, const GpuOptions& options
     vkGetPhysicalDeviceFeatures2(physical, &features);
     if (!vulkan12.bufferDeviceAddress) report.lacks.emplace_back("bufferDeviceAddress");
     if (!vulkan12.scalarBlockLayout) report.lacks.emplace_back("scalarBlockLayout");
-    if (!vulkan12.vulkanMemoryModel || !vulkan12.vulkanMemoryModelDeviceScope)
-        report.lacks.emplace_back("vulkanMemoryModel");
     if (!vulkan13.synchronization2) report.lacks.emplace_back("synchronization2");
     if (!vulkan13.dynamicRendering) report.lacks.emplace_back("dynamicRendering");
     if (!vulkan13.maintenance4) report.lacks.emplace_back("maintenance4");

@@ -192,7 +192,6 @@ Result<void> Gpu::create_device(const GpuOptions& options) {
     VkPhysicalDeviceVulkan12Features vulkan12{};
     vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
     vulkan12.bufferDeviceAddress = vulkan12.scalarBlockLayout = VK_TRUE;
-    vulkan12.vulkanMemoryModel = vulkan12.vulkanMemoryModelDeviceScope = VK_TRUE;
     vulkan12.shaderBufferInt64Atomics = report_.compute_raster ? VK_TRUE : VK_FALSE;
     vulkan12.pNext = &vulkan13;
     VkPhysicalDeviceFeatures2 features{};

@@ -33,7 +33,7 @@ void main() {
     if (acceptable(page, node)) {
         atomicOr(accepted_here[lane / 32u], 1u << (lane % 32u));
         uvec2 above = node / 2u + uvec2(page.quarter / 2u, page.quarter % 2u) * (meshlets_per_side / 2u);
-        if (page.parent == no_page || !acceptable(frame_pages().at[page.parent], above)) live = 1u;
+        if (page.parent == no_page || !acceptable(frame_pages().at[page.parent], above)) atomicOr(live, 1u);
     }
     barrier();
     if (lane < accepted_words) Words(FRAME.accepted).at[page_number * accepted_words + lane] = accepted_here[lane];
