@@ -102,15 +102,15 @@ void draw_legend(Canvas& canvas, const Verification& verification, double tau_px
     draw_scale(canvas, y, tau_px, scale);
     y += (bar_dots + 8 + line_dots) * scale;
     char text[80];
-    std::snprintf(text, sizeof text, "interior error, tau %g px (line)", tau_px);
+    std::snprintf(text, sizeof text, "error of ground, tau %g px (line)", tau_px);
     const InteriorError& interior = verification.interior;
     const SkylineError& skyline = verification.skyline;
     char heads[80];
     std::snprintf(heads, sizeof heads, "%-11s %9s %9s %9s %9s", "", "max", "99.99%", "99%", "mean");
     const std::array<std::string, 6> lines{std::string(text),
                                            heads,
-                                           figures_line("interior px", interior.summary_px),
-                                           figures_line("interior m", interior.summary_m),
+                                           figures_line("ground px", interior.summary_px),
+                                           figures_line("ground m", interior.summary_m),
                                            figures_line("skyline px", skyline.summary_px),
                                            "grey sky, orange skyline off >0.5, magenta no data"};
     for (const std::string& line : lines) {

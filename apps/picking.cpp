@@ -46,11 +46,12 @@ std::string line_of(const std::optional<SeenPlace>& place) {
     char text[240];
     std::snprintf(
         text, sizeof text,
-        "%.6f° %.6f°  H %.2f m  h %.2f m  distance %.2f m  bearing %.2f°  row %d column %d  source ",
+        "%.6f° %.6f°  %.2f m above sea level (%.2f m above the ellipsoid)  %.2f m away  bearing %.2f°  cell "
+        "in row %d, column %d of the posts  from ",
         place->lat_deg, place->lon_deg, place->H_m, place->h_m, place->seen_distance_m, place->bearing_deg,
         place->row, place->column);
     const std::string name = std::filesystem::path(place->source).filename().string();
-    return text + (name.empty() ? "unknown" : one_line(name));
+    return text + (name.empty() ? "an unknown source" : one_line(name));
 }
 
 }  // namespace oro

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "apps/figures.h"
 #include "core/parallel.h"
 
 namespace oro {
@@ -13,11 +14,19 @@ ordered_json summary_json(const ErrorSummary& summary) {
     return {{"max", summary.largest}, {"p9999", summary.p9999}, {"p99", summary.p99}, {"mean", summary.mean}};
 }
 
+// What is said of some only, where there are any.
+std::string counted(std::uint64_t count, const char* words) {
+    return count == 0 ? std::string() : "; " + std::to_string(count) + words;
+}
+
 std::string table_line(const char* what, const ErrorSummary& of) {
-    char line[120];
-    std::snprintf(line, sizeof line, "  %-13s %12.6f %12.6f %12.6f %12.6f\n", what, of.largest, of.p9999,
-                  of.p99, of.mean);
-    return line;
+    constexpr int before_point = 8;
+    std::string line = what;
+    line.resize(14, ' ');
+    for (const double value : {of.largest, of.p9999, of.p99, of.mean})
+        line += of.count > 0 ? point_aligned(value, before_point) : "     n/a    ";
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line + "\n";
 }
 
 }  // namespace
@@ -47,19 +56,25 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
 std::string verification_text(const Verification& verification, double tau_px) {
     const InteriorError& interior = verification.interior;
     const SkylineError& skyline = verification.skyline;
-    char text[320];
-    std::snprintf(text, sizeof text, "%-15s %12s %12s %12s %12s\n", "error", "largest", "99.99 %", "99 %",
-                  "mean");
+    char text[400];
+    std::snprintf(
+        text, sizeof text,
+        "Ground: how far each drawn point is from the true ground at its latitude and longitude, in height "
+        "(m) and on the picture (px). %llu pixels%s.\n"
+        "Skyline: how far the drawn skyline is from the true one. %llu columns%s.\n",
+        static_cast<unsigned long long>(interior.drawn),
+        counted(interior.beyond_data, " of them where there are no data").c_str(),
+        static_cast<unsigned long long>(skyline.summary_px.count),
+        counted(skyline.in_one_only, " more have one in the picture or in truth alone").c_str());
     std::string all = text;
-    all += table_line("interior, m", interior.summary_m) + table_line("interior, px", interior.summary_px) +
-           table_line("skyline, px", skyline.summary_px);
-    std::snprintf(text, sizeof text,
-                  "  of %llu pixels of ground (%llu over no data) and %llu columns with a skyline (%llu more "
-                  "in one of picture and truth only); tau %g px\n",
-                  static_cast<unsigned long long>(interior.drawn),
-                  static_cast<unsigned long long>(interior.beyond_data),
-                  static_cast<unsigned long long>(skyline.summary_px.count),
-                  static_cast<unsigned long long>(skyline.in_one_only), tau_px);
+    char head[120];
+    std::snprintf(head, sizeof head, "%-14s%9s   %9s   %9s   %9s\n", "error", "largest", "99.99 %", "99 %",
+                  "mean");
+    all += head;
+    all += table_line("  ground, m", interior.summary_m) + table_line("  ground, px", interior.summary_px) +
+           table_line("  skyline, px", skyline.summary_px);
+    std::snprintf(text, sizeof text, "99 %%: so much of it is off by no more. Allowed by --tau: %g px.\n",
+                  tau_px);
     return all + text;
 }
 

@@ -70,9 +70,10 @@ TEST_F(Verify, SaysHowFarOffThePictureIs) {
     const json said = one_object(outcome.out);
     expect_errors(said.at("error"), 1.0);
     EXPECT_EQ(said.at("error_picture"), error_picture.string());
-    for (const char* words :
-         {"largest", "99.99 %", "interior, m", "interior, px", "skyline, px", "p.error.png"})
+    for (const char* words : {"largest", "99.99 %", "ground, m", "ground, px", "skyline, px", "p.error.png",
+                              "Ground: ", "Skyline: ", "99 %: ", "Allowed by --tau: 1 px"})
         EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
+    EXPECT_EQ(outcome.err.find("interior"), std::string::npos) << "a word that nothing explains";
     EXPECT_EQ(names_in(folder), (Words{"p.error.png", "p.json", "p.png"}));
 }
 
@@ -136,7 +137,7 @@ TEST_F(Verify, CompareTellsTheSameOfAWrittenPicture) {
         const json said = one_object(outcome.out);
         EXPECT_EQ(said.at("error"), error);
         EXPECT_EQ(said.at("error_picture"), out.string());
-        EXPECT_NE(outcome.err.find("interior, px"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("ground, px"), std::string::npos) << outcome.err;
         EXPECT_TRUE(bytes_of(out) == bytes_of(error_picture));
     }
     EXPECT_TRUE(bytes_of(picture) == bytes);

@@ -49,11 +49,12 @@ struct Picked {
 std::optional<Picked> picked_of(const std::string& line) {
     Picked place;
     std::array<char, 100> source{};
-    const int read = std::sscanf(
-        line.c_str(),
-        "%lf° %lf°  H %lf m  h %lf m  distance %lf m  bearing %lf°  row %d column %d  source %99s",
-        &place.lat_deg, &place.lon_deg, &place.H_m, &place.h_m, &place.distance_m, &place.bearing_deg,
-        &place.row, &place.column, source.data());
+    const int read = std::sscanf(line.c_str(),
+                                 "%lf° %lf°  %lf m above sea level (%lf m above the ellipsoid)  %lf m away  "
+                                 "bearing %lf°  cell in row %d, column %d "
+                                 "of the posts  from %99s",
+                                 &place.lat_deg, &place.lon_deg, &place.H_m, &place.h_m, &place.distance_m,
+                                 &place.bearing_deg, &place.row, &place.column, source.data());
     if (read != 9) return std::nullopt;
     place.source = source.data();
     return place;

@@ -151,12 +151,13 @@ TEST(Picking, TheLineNamesEveryFigure) {
     place.row = 17;
     place.column = 4;
     place.source = "tiles.zip/a\nb.hgt";
-    EXPECT_EQ(line_of(place),
-              "-36.512346° 8.250000°  H 512.35 m  h 480.92 m  distance 1000.25 m  bearing 12.35°  row 17 "
-              "column 4  source a" +
-                  one_line("\n") + "b.hgt");
+    EXPECT_EQ(
+        line_of(place),
+        "-36.512346° 8.250000°  512.35 m above sea level (480.92 m above the ellipsoid)  1000.25 m away  "
+        "bearing 12.35°  cell in row 17, column 4 of the posts  from a" +
+            one_line("\n") + "b.hgt");
     place.source.clear();
-    EXPECT_TRUE(line_of(place).ends_with("source unknown"));
+    EXPECT_TRUE(line_of(place).ends_with("from an unknown source"));
 }
 
 }  // namespace
