@@ -77,7 +77,7 @@ void describe(const TradeOptions& options, const View& view, const Gpu& gpu, Ras
         TradeSetting setting;
         setting.name = one.name;
         setting.options = one.options;
-        setting.promised_px = one.promised_px;
+        setting.limit_px = one.limit_px;
         report.settings.push_back(setting);
     }
 }

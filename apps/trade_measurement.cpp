@@ -3,26 +3,12 @@
 #include <algorithm>
 
 #include "apps/region_scene.h"
+#include "core/median.h"
 #include "core/parallel.h"
 #include "geo/png_bytes.h"
 
 namespace oro {
 namespace {
-
-double median_ms(std::vector<double> seconds) {
-    const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
-    std::nth_element(seconds.begin(), middle, seconds.end());
-    return 1000.0 * *middle;
-}
-
-std::string remark_on(double predicted_px, double measured_px) {
-    // Below a tenth of a pixel a bound says all that anybody asks.
-    constexpr double negligible_px = 0.1;
-    if (measured_px > predicted_px) return "THE BOUND DOES NOT HOLD";
-    if (predicted_px > negligible_px && predicted_px > 10.0 * measured_px)
-        return "bound more than 10 times what was measured";
-    return "";
-}
 
 // Effects that no drawing shows.
 Result<void> add_data_effects(const EffectPrediction& prediction, const std::string& view,
@@ -30,11 +16,11 @@ Result<void> add_data_effects(const EffectPrediction& prediction, const std::str
     // What every second post would hide: predicted from every second post, and as it is.
     const EffectSize guess = prediction.interpolation(2), known = prediction.interpolation(1);
     report.effects.push_back({view, facts_of(EffectKind::interpolation).name, guess.worst_m, guess.worst_px,
-                              known.worst_m, known.worst_px, "tried on every second post"});
+                              known.worst_m, known.worst_px, EffectMeasure::thinned});
     ORO_TRY(const std::optional<EffectSize> source, prediction.size(EffectKind::source, 0.0));
     if (source)
         report.effects.push_back({view, facts_of(EffectKind::source).name, source->worst_m, source->worst_px,
-                                  std::nullopt, std::nullopt, "stated by the source, not measured here"});
+                                  std::nullopt, std::nullopt, EffectMeasure::stated});
     return {};
 }
 
@@ -47,8 +33,8 @@ Result<void> add_pictures(const Verification& drawn, const TradeCase& one, const
     ORO_TRY(std::vector<std::uint8_t> png, png_bytes(rgb, picture.width_px, picture.height_px));
     report.pictures.push_back({view + ": " + one.name, one.options, std::move(png)});
     ORO_TRY(std::vector<std::uint8_t> errors, error_picture_png(drawn, one.tau_px));
-    report.pictures.push_back(
-        {view + ": errors of " + one.name, "against the oracle, at each pixel", std::move(errors)});
+    report.pictures.push_back({view + ": errors of " + one.name,
+                               "how far each pixel's ground is from the true ground", std::move(errors)});
     return {};
 }
 
@@ -113,7 +99,7 @@ Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const
     drawn.skyline = skyline_error(drawn.true_skyline, camera, drawn.picture.skylines());
     TradeShot shot;
     shot.setting = one.name;
-    shot.gpu_ms = median_ms(std::move(times_s));
+    shot.gpu_ms = 1000.0 * median_of(std::move(times_s));
     shot.triangles = drawn.picture.report.counts.triangles_drawn;
     shot.bytes = drawn.picture.page_bytes;
     shot.interior_m = drawn.interior.summary_m;
@@ -144,13 +130,12 @@ Result<void> Trade::measure(const Camera& camera, const std::string& name, bool 
         ORO_TRY(TradeShot shot, shoot(one, camera, sight, drawn));
         shot.view = name;
         report.shots.push_back(shot);
-        if (pictures && (one.name == "balanced" || one.name == "draft"))
+        if (pictures && (one.bundle == Bundle::draft || one.bundle == Bundle::balanced))
             ORO_CHECK(add_pictures(drawn, one, name, report));
         ORO_TRY(TradeEffect effect, predicted(one, prediction));
         effect.view = name;
         effect.measured_m = shot.interior_m.largest;
         effect.measured_px = shot.interior_px.largest;
-        effect.remark = remark_on(effect.predicted_px, shot.interior_px.largest);
         report.effects.push_back(effect);
     }
     return add_data_effects(prediction, name, report);

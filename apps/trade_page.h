@@ -1,23 +1,25 @@
-// The parts of a trade's page: not for use outside trade_*.cpp.
+// The page of a trade: text of the static page in apps/trade_page, put together when the program is built.
+// Not for use outside trade_page.cpp and tests.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/trade_report.h"
 
 namespace oro {
 
-// Sections with a heading, plots and what they show.
-std::string settings_plots_html(const TradeReport& report);  // time, triangles, bytes
-std::string effects_plot_html(const TradeReport& report);
-std::string views_plots_html(const TradeReport& report);  // interior, skyline
-inline constexpr int page_plots = 6;
+// The page, with a gap for what <main> states of itself and another one for the data.
+extern const char* const trade_page_before;
+extern const char* const trade_page_middle;
+extern const char* const trade_page_after;
+// Its script by itself.
+extern const char* const trade_page_script;
 
-std::string settings_table_html(const TradeReport& report);
-std::string effects_table_html(const TradeReport& report);
-std::string shots_table_html(const TradeReport& report);
+inline constexpr int trade_page_plots = 6;
 
-// What the page looks like, light and dark.
-const char* page_style();
+// All that the page shows, as its script reads it (apps/trade_page/page.js). Numbers that are none are null;
+// those beyond all are "inf" and "-inf". Text is UTF-8 without control characters.
+nlohmann::ordered_json trade_page_json(const TradeReport& report);
 
 }  // namespace oro

@@ -1,37 +1,19 @@
 #include "apps/trade_parts.h"
 
+#include <utf8.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace oro {
 namespace {
 
-// Length of the UTF-8 sequence at the start of `text`, or 0 where there is none that Unicode allows.
-// Source: The Unicode Standard 15, table 3-7.
-std::size_t sequence_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(0);
-    if (lead < 0x80) return 1;
-    const std::size_t length = lead >= 0xC2 && lead <= 0xDF   ? 2
-                               : lead >= 0xE0 && lead <= 0xEF ? 3
-                               : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                              : 0;
-    if (length == 0 || text.size() < length) return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xC0) != 0x80) return 0;
-    const unsigned char second = byte(1);
-    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F)) return 0;  // overlong, surrogate
-    if ((lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F)) return 0;  // overlong, too high
-    return length;
+// U+0000 to U+001F, U+007F to U+009F.
+bool is_control(std::uint32_t code) {
+    return code < 0x20 || (code >= 0x7F && code < 0xA0);
 }
 
-// U+0000 to U+001F, U+007F to U+009F.
-bool is_control(std::string_view sequence) {
-    const auto lead = static_cast<unsigned char>(sequence[0]);
-    if (sequence.size() == 1) return lead < 0x20 || lead == 0x7F;
-    return lead == 0xC2 && static_cast<unsigned char>(sequence[1]) < 0xA0;
-}
+constexpr std::string_view replacement = "\xEF\xBF\xBD";
 
 void widen(std::optional<RatioRange>& range, const std::optional<double>& ratio) {
     if (!ratio) return;
@@ -51,8 +33,7 @@ void add(EffectWorst& worst, const TradeEffect& effect) {
     widen(worst.measured_px, effect.measured_px);
     widen(worst.ratio_m, bound_ratio(effect.predicted_m, effect.measured_m));
     widen(worst.ratio_px, bound_ratio(effect.predicted_px, effect.measured_px));
-    if (!effect.remark.empty() && worst.remark.find(effect.remark) == std::string::npos)
-        worst.remark += (worst.remark.empty() ? "" : "; ") + effect.remark;
+    worst.measured_by = effect.measured_by;
     if (bound_broken(effect)) worst.broken_in.push_back(effect.view);
     ++worst.views;
     if (effect.measured_m || effect.measured_px) ++worst.measured_views;
@@ -64,49 +45,22 @@ double megabytes(std::uint64_t bytes) {
     return static_cast<double>(bytes) / 1e6;
 }
 
-std::optional<double> largest_of(const ErrorSummary& summary) {
-    if (summary.count == 0) return std::nullopt;
-    return summary.largest;
-}
-
 std::string valid_text(std::string_view text) {
     std::string valid;
     while (!text.empty()) {
-        const std::size_t length = sequence_length(text);
-        const std::string_view sequence = text.substr(0, std::max<std::size_t>(length, 1));
-        if (length == 0 || is_control(sequence))
-            valid += "\xEF\xBF\xBD";
-        else
-            valid += sequence;
-        text.remove_prefix(sequence.size());
+        const auto end = utf8::find_invalid(text.begin(), text.end());
+        for (auto at = text.begin(); at != end;) {
+            const auto from = at;
+            if (is_control(utf8::unchecked::next(at)))
+                valid += replacement;
+            else
+                valid.append(from, at);
+        }
+        if (end == text.end()) break;
+        valid += replacement;
+        text.remove_prefix(static_cast<std::size_t>(end - text.begin()) + 1);
     }
     return valid;
-}
-
-std::string escaped(std::string_view text) {
-    std::string html;
-    for (const char c : valid_text(text)) {
-        switch (c) {
-            case '&':
-                html += "&amp;";
-                break;
-            case '<':
-                html += "&lt;";
-                break;
-            case '>':
-                html += "&gt;";
-                break;
-            case '"':
-                html += "&quot;";
-                break;
-            case '\'':
-                html += "&#39;";
-                break;
-            default:
-                html += c;
-        }
-    }
-    return html;
 }
 
 std::string base64(std::span<const std::uint8_t> bytes) {
@@ -131,6 +85,24 @@ bool bound_broken(const TradeEffect& effect) {
     // Not "measured > predicted": a bound that is no number holds nothing.
     return (effect.measured_m && !(*effect.measured_m <= effect.predicted_m)) ||
            (effect.measured_px && !(*effect.measured_px <= effect.predicted_px));
+}
+
+bool bound_loose(const TradeEffect& effect) {
+    const std::optional<double> ratio = bound_ratio(effect.predicted_px, effect.measured_px);
+    return effect.predicted_px > negligible_px && ratio && *ratio > loose_ratio;
+}
+
+const char* remark_on(EffectMeasure measured_by) {
+    switch (measured_by) {
+        case EffectMeasure::picture:
+        case EffectMeasure::full_detail:
+            return "";
+        case EffectMeasure::thinned:
+            return "tried on every second post";
+        case EffectMeasure::stated:
+            return "stated by the source, not measured here";
+    }
+    return "";
 }
 
 std::optional<double> bound_ratio(double predicted, const std::optional<double>& measured) {

@@ -15,13 +15,8 @@ namespace oro {
 
 // 10^6 bytes.
 double megabytes(std::uint64_t bytes);
-// The largest error, or nothing where no place was measured: then the summary's 0 means nothing.
-std::optional<double> largest_of(const ErrorSummary& summary);
-
 // UTF-8 without control characters; U+FFFD for each byte that is none.
 std::string valid_text(std::string_view text);
-// valid_text for the text and the quoted attributes of HTML.
-std::string escaped(std::string_view text);
 // RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
 
@@ -34,8 +29,10 @@ struct RatioRange {
     double most{};
 };
 
-// A bound that is more than this many times the measured worst tells a user nothing.
+// A bound that is more than this many times the measured worst tells a user nothing; below a tenth of a pixel
+// it says all that anybody asks.
 inline constexpr double loose_ratio = 10.0;
+inline constexpr double negligible_px = 0.1;
 
 // One effect over all views.
 struct EffectWorst {
@@ -43,7 +40,7 @@ struct EffectWorst {
     double predicted_m{}, predicted_px{};
     std::optional<double> measured_m, measured_px;  // of the views where it was measured
     std::optional<RatioRange> ratio_m, ratio_px;
-    std::string remark;                  // the views' different ones, joined
+    EffectMeasure measured_by{};
     std::vector<std::string> broken_in;  // views where more was measured than predicted, in m or px
     int views{}, measured_views{};
 };
@@ -51,8 +48,13 @@ struct EffectWorst {
 std::vector<EffectWorst> worst_effects(const TradeReport& report);
 // More was measured than predicted, in m or in px.
 bool bound_broken(const TradeEffect& effect);
+// The bound in px is loose, and not negligible.
+bool bound_loose(const TradeEffect& effect);
 // predicted / measured; nothing where nothing, or nothing above 0, was measured.
 std::optional<double> bound_ratio(double predicted, const std::optional<double>& measured);
+
+// How an effect was measured, where that is not by drawing it; else "".
+const char* remark_on(EffectMeasure measured_by);
 
 // The report's views, in the order in which they first occur in its shots.
 std::vector<std::string> views_of(const TradeReport& report);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/effect_table.h"
 #include "core/picture_error.h"
 #include "core/result.h"
 
@@ -27,7 +28,7 @@ struct TradeSetting {
     std::string name;
     std::string options;  // "--tau 2 --heights i16": how a user asks for it
     std::optional<double>
-        promised_px;            // the interior error that it must not exceed (tau), if it promises one
+        limit_px;               // what the interior error must not exceed (tau and some more), if it has one
     double gpu_ms{};            // median over the views
     std::uint64_t triangles{};  // sums over the views
     std::uint64_t bytes{};
@@ -46,7 +47,7 @@ struct TradeEffect {
     std::string effect;                             // "sphere for ellipsoid"
     double predicted_m{}, predicted_px{};           // bounds
     std::optional<double> measured_m, measured_px;  // worst; nothing where it cannot be measured
-    std::string remark;                             // why it is not, or why the bound is far off
+    EffectMeasure measured_by{};                    // picture, thinned or stated
 };
 
 struct TradePicture {
@@ -67,15 +68,16 @@ struct TradeReport {
 };
 
 // Fills `settings` from the shots: the settings in the order in which they first occur, `options` and
-// `promised_px` kept by name from those that are there already. An error that is no number stays the worst.
+// `limit_px` kept by name from those that are there already. An error that is no number stays the worst.
 void sum_up(TradeReport& report);
 
 // One line a shot, with a header; RFC 4180, numbers with all their digits ("nan", "inf" for what is none).
 std::string trade_csv(const TradeReport& report);
-// A page that needs nothing but itself: inline SVG plots, pictures as data, no script. Its <main> states
-// data-plots, data-settings, data-shots and data-effects; each plot is an <svg> with data-plot (its name) and
-// data-points, and has as many <g class="point">, each with data-setting, data-view or data-effect: plot
-// "views" has one for each shot. Needs sum_up first.
+// A page that needs nothing but itself: the static one of apps/trade_page with the report as JSON in it,
+// which its script draws. Its <main> states data-plots, data-settings, data-shots, data-effects and
+// data-pictures; each plot becomes an <svg> with data-plot (its name) and data-points, and has as many <g
+// class="point">, each with data-setting, data-view or data-effect: plot "views" has one for each shot. Needs
+// sum_up first.
 std::string trade_html(const TradeReport& report);
 // For a terminal of 120 columns: settings, then effects (worst over the views). Needs sum_up first.
 std::string trade_text(const TradeReport& report);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/accuracy.h"
 #include "apps/view.h"
 #include "core/effects.h"
 
@@ -17,8 +18,9 @@ struct TradeCase {
     WorldModel world;
     bool has_geoid{true};
     HeightStorage heights{HeightStorage::f32};
-    std::optional<double> promised_px{};  // interior error that it must not exceed
-    std::string effect{};                 // that this measures
+    std::optional<double> limit_px{};  // interior error that it must not exceed
+    std::optional<Bundle> bundle{};    // that this is
+    std::string effect{};              // that this measures
 };
 
 // Full detail first, then levels, then one thing left out or rounded at a time, then bundles. All but those

@@ -57,7 +57,7 @@ void sum_up(TradeReport& report) {
         TradeSetting sum = sum_of(report.shots, shot.setting);
         if (const auto at = named(known, shot.setting); at != known.end()) {
             sum.options = at->options;
-            sum.promised_px = at->promised_px;
+            sum.limit_px = at->limit_px;
         }
         report.settings.push_back(std::move(sum));
     }

@@ -96,21 +96,26 @@ class Table {
 
 std::string settings_text(const TradeReport& report) {
     Table table(
-        {{"  setting", "time", "triangles", "read", "interior", "", "", "", "promised", "skyline"},
-         {"", "median ms", "all views", "MB", "worst m", "worst px", "p99 px", "mean px", "px", "worst px"}},
+        {{"  setting", "time", "triangles", "terrain", "ground", "", "", "", "limit", "skyline"},
+         {"", "median ms", "all views", "MB", "worst m", "worst px", "99 % px", "mean px", "px", "worst px"}},
         false);
     for (const TradeSetting& setting : report.settings) {
         const bool measured = setting.interior_pixels > 0;
-        const auto interior = [&](double value) { return measured ? figure(value) : std::string("n/a"); };
+        const auto ground = [&](double value) { return measured ? figure(value) : std::string("n/a"); };
         table.add({(setting.on_front ? "* " : "  ") + valid_text(setting.name), figure(setting.gpu_ms),
-                   grouped(setting.triangles), figure(megabytes(setting.bytes)), interior(setting.interior_m),
-                   interior(setting.interior_px), interior(setting.interior_p99_px),
-                   interior(setting.interior_mean_px),
-                   setting.promised_px ? figure(*setting.promised_px) : "",
+                   grouped(setting.triangles), figure(megabytes(setting.bytes)), ground(setting.interior_m),
+                   ground(setting.interior_px), ground(setting.interior_p99_px),
+                   ground(setting.interior_mean_px), setting.limit_px ? figure(*setting.limit_px) : "",
                    setting.skyline_columns > 0 ? figure(setting.skyline_px) : "n/a"});
     }
     return table.text() +
-           "* Pareto front, of time and worst px: no other setting equals it in both and beats it in one\n";
+           "* unbeaten: no other setting is both as fast and as close (worst px), and better in one of the "
+           "two\n"
+           "ground: how far each drawn point is from the true ground, in height (m) and on the picture (px)\n"
+           "99 %: so many of the points are off by no more\n"
+           "skyline: how far the drawn skyline is from the true one\n"
+           "limit: by how much --tau lets ground be off, and 0.05 px for what drawing rounds off\n"
+           "terrain: what the GPU read of it\n";
 }
 
 std::string ratio_text(const std::optional<RatioRange>& ratio) {
@@ -120,29 +125,35 @@ std::string ratio_text(const std::optional<RatioRange>& ratio) {
     return least == most ? least : least + "-" + most;
 }
 
+std::string remark_of(const EffectWorst& effect) {
+    const std::string how = remark_on(effect.measured_by);
+    if (effect.broken_in.empty()) return how;
+    return "MORE THAN PREDICTED in " + std::to_string(effect.broken_in.size()) + " of " +
+           std::to_string(effect.measured_views) + " views" + (how.empty() ? "" : "; ") + how;
+}
+
 std::string effects_text(const TradeReport& report) {
     Table table({{"effect", "predicted", "measured", "ratio", "predicted", "measured", "ratio", "remark"},
-                 {"(worst over the views)", "m", "m", "", "px", "px", "", ""}},
+                 {"(worst of the views)", "m", "m", "", "px", "px", "", ""}},
                 true);
-    for (const EffectWorst& effect : worst_effects(report)) {
-        std::string remark = valid_text(effect.remark);
-        if (!effect.broken_in.empty())
-            remark = "MORE THAN PREDICTED in " + std::to_string(effect.broken_in.size()) + " of " +
-                     std::to_string(effect.measured_views) + " views" + (remark.empty() ? "" : "; ") + remark;
+    for (const EffectWorst& effect : worst_effects(report))
         table.add({valid_text(effect.effect), figure(effect.predicted_m), figure(effect.measured_m),
                    ratio_text(effect.ratio_m), figure(effect.predicted_px), figure(effect.measured_px),
-                   ratio_text(effect.ratio_px), remark});
-    }
-    return table.text() + "ratio: predicted / measured, least and most of the views\n";
+                   ratio_text(effect.ratio_px), remark_of(effect)});
+    return table.text() +
+           "predicted: a bound, worked out before anything is drawn; orograph plan tells it for one view\n"
+           "ratio: predicted / measured, least and most of the views; below 1 a bound does not hold\n";
 }
 
 }  // namespace
 
 std::string trade_text(const TradeReport& report) {
-    std::string text = "Settings, over " + std::to_string(views_of(report).size()) + " views of " +
+    std::string text = "What each setting costs, and how close it is, over " +
+                       std::to_string(views_of(report).size()) +
+                       (views_of(report).size() == 1 ? " view of " : " views of ") +
                        std::to_string(report.width_px) + " x " + std::to_string(report.height_px) + " px\n\n";
     text += report.settings.empty() ? "none\n" : settings_text(report);
-    text += "\nEffects\n\n";
+    text += "\nWhat each part of the model does that is left out, or rounded\n\n";
     text += report.effects.empty() ? "none\n" : effects_text(report);
     return text;
 }

@@ -16,5 +16,5 @@ driver_packages=(mesa-vulkan-drivers)
 
 test_packages=(
   libgtest-dev vulkan-validationlayers
-  gdal-bin libimage-exiftool-perl xvfb xauth xdotool zip
+  gdal-bin libimage-exiftool-perl xvfb xauth xdotool zip duktape
 )

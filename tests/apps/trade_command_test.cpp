@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>
@@ -56,6 +57,16 @@ std::vector<Words> table_of(const std::string& csv) {
     return table;
 }
 
+// What a page holds for its script.
+nlohmann::json data_of(const std::string& page) {
+    const std::string begin = "<script type=\"application/json\" id=\"report\">";
+    const std::size_t from = page.find(begin) + begin.size();
+    nlohmann::json data =
+        nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from), nullptr, false);
+    EXPECT_TRUE(data.is_object());
+    return data;
+}
+
 void expect_numbers(const Words& header, const Words& row) {
     ASSERT_EQ(row.size(), header.size());
     for (std::size_t i = 2; i < row.size(); ++i)
@@ -87,9 +98,12 @@ TEST_F(TradeCommand, WritesATableAndAPage) {
         EXPECT_NE(outcome.out.find(setting), std::string::npos) << setting << " in\n" << outcome.out;
         EXPECT_NE(page.find(setting), std::string::npos) << setting;
     }
-    EXPECT_NE(outcome.out.find("Pareto front"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("* unbeaten: "), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("96 x 54 px"), std::string::npos) << outcome.out;
-    EXPECT_EQ(page.find("NaN"), std::string::npos);
+    const nlohmann::json data = data_of(page);
+    EXPECT_EQ(data.at("shots").size(), table.size() - 1);
+    EXPECT_EQ(data.at("settings").size(), settings.size());
+    EXPECT_EQ(data.dump().find("NaN"), std::string::npos);
     for (const char* elsewhere : {"src=\"http", "href=\"http", "url(http", "@import"})
         EXPECT_EQ(page.find(elsewhere), std::string::npos) << elsewhere;
     EXPECT_NE(page.find("--views 2 --size 96x54"), std::string::npos) << "the command that made it";
@@ -104,7 +118,7 @@ TEST_F(TradeCommand, AViewOfTheSkyHasNoErrorsToTell) {
     const std::vector<Words> table = table_of(bytes_of(folder / "trade.csv"));
     ASSERT_GT(table.size(), 10U);
     for (std::size_t i = 1; i < table.size(); ++i) expect_numbers(table[0], table[i]);
-    EXPECT_EQ(bytes_of(folder / "trade.html").find("nan"), std::string::npos);
+    EXPECT_EQ(data_of(bytes_of(folder / "trade.html")).dump().find("nan"), std::string::npos);
 }
 
 TEST_F(TradeCommand, ReplacesOnlyWhenTold) {
