@@ -28,6 +28,8 @@ class RepeatedPosts : public PostSource {
         return tile_.H_m[static_cast<std::size_t>(tile_row) * static_cast<std::size_t>(tile_.grid.columns()) +
                          static_cast<std::size_t>(tile_column)];
     }
+    // They are in memory.
+    [[nodiscard]] Result<void> health() const override { return {}; }
 
   private:
     HeightField tile_;
