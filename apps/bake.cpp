@@ -15,6 +15,7 @@
 #include "core/checksum.h"
 #include "core/file_pages.h"
 #include "core/parallel.h"
+#include "core/region_file.h"
 #include "geo/letter_case.h"
 #include "geo/region_description.h"
 #include "geo/source_paths.h"
@@ -44,16 +45,23 @@ Result<void> check_out(const BakingOptions& options) {
     if (out.empty()) return Error{ErrorKind::usage, "--out", "is missing: name the file to write (.oro)"};
     if (!lower_case(out).ends_with(".oro"))
         return Error{ErrorKind::usage, "--out", "'" + out + "' does not end in .oro, as baked regions do"};
-    if (access(out.c_str(), F_OK) == 0) {
+    // What a bake writes on its way is no less lost than what it replaces.
+    const std::vector<std::string> written = files_of_bake(out);
+    if (std::ranges::any_of(written, [](const auto& file) { return access(file.c_str(), F_OK) == 0; })) {
         ORO_TRY(const std::vector<std::string> inputs, input_files(options.region.paths));
-        for (const std::string& input : inputs) {
-            std::error_code not_there;
-            if (fs::equivalent(out, input, not_there))
-                return Error{ErrorKind::usage, "--out", "would replace " + input + ", which is to be baked"};
+        for (const std::string& file : written) {
+            for (const std::string& input : inputs) {
+                std::error_code not_there;
+                if (fs::equivalent(file, input, not_there))
+                    return Error{ErrorKind::usage, "--out",
+                                 "would replace " + input + ", which is to be baked"};
+            }
         }
-        if (!options.overwrite && !fs::is_directory(out))
-            return Error{ErrorKind::failed, out, "is there already (--overwrite replaces it)"};
     }
+    std::error_code ignored;
+    if (!options.overwrite && access(out.c_str(), F_OK) == 0 && !fs::is_directory(out, ignored))
+        return Error{ErrorKind::failed, out, "is there already (--overwrite replaces it)"};
+    ORO_CHECK(RegionFileWriter::check(out, options.overwrite));
     if (const auto trial = WholeFile::create(out, options.overwrite); !trial.ok()) return trial.error();
     return {};
 }

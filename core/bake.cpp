@@ -1,6 +1,7 @@
 #include "core/bake.h"
 
 #include <algorithm>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -73,22 +74,30 @@ class Bake {
         return writer_.order().number(index) < found_;
     }
 
-    // Pages that the file has already; one that cannot be read again is measured again.
-    bool recall(const PageIndex& index, PyramidHooks::Measured& measured) const {
+    // Pages that the file has already. One that cannot be read any more must not become a part of the
+    // finished file: the fault ends the bake, and the same command begins again before it.
+    bool recall(const PageIndex& index, PyramidHooks::Measured& measured) {
         if (!is_found(index)) return false;
         const std::uint64_t number = writer_.order().number(index);
         PagePayload payload;
-        if (!writer_.payload(number, payload).ok() || !writer_.stitched(number, measured.stitched).ok())
+        Result<void> read = writer_.payload(number, payload);
+        if (read.ok()) read = writer_.stitched(number, measured.stitched);
+        if (!read.ok()) {
+            const std::scoped_lock lock(mutex_);
+            if (!fault_) fault_ = read.error();
             return false;
+        }
         measured.error_m = payload.error_m;
         measured.lod_radius_m = payload.lod_radius_m;
         return true;
     }
 
     Result<void> take(int place, const PyramidPage& page, const StitchedErrors& stitched) {
-        std::optional<EncodedPage>& encoded = encoded_[static_cast<std::size_t>(place)];
+        if (fault_) return *fault_;
+        std::optional<Result<EncodedPage>>& encoded = encoded_[static_cast<std::size_t>(place)];
         if (!is_found(page.summary.index)) {
-            ORO_CHECK(writer_.append(*encoded, stitched));
+            if (!encoded->ok()) return encoded->error();
+            ORO_CHECK(writer_.append(**encoded, stitched));
             encoded.reset();
         }
         const double share = static_cast<double>(writer_.order().number(page.summary.index) + 1) /
@@ -102,7 +111,9 @@ class Bake {
     RegionFileWriter& writer_;
     const BakeProgress& progress_;
     std::uint64_t found_;
-    std::vector<std::optional<EncodedPage>> encoded_;
+    std::vector<std::optional<Result<EncodedPage>>> encoded_;
+    std::mutex mutex_;
+    std::optional<Error> fault_;  // the first page that could not be read again
 };
 
 }  // namespace

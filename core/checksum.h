@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace oro {
@@ -11,5 +12,21 @@ namespace oro {
 // every machine. `seed` tells alike bytes in different places from each other.
 // Source: Y. Collet, xxHash fast digest algorithm, specification 0.1.1, section "XXH64".
 [[nodiscard]] std::uint64_t xxh64(std::span<const std::byte> bytes, std::uint64_t seed = 0);
+
+// The same, with seed 0, of bytes that come piece by piece.
+class RunningChecksum {
+  public:
+    RunningChecksum();
+    RunningChecksum(const RunningChecksum&) = delete;
+    RunningChecksum& operator=(const RunningChecksum&) = delete;
+    ~RunningChecksum();
+    void add(std::span<const std::byte> bytes);
+    // Of all that was added so far.
+    [[nodiscard]] std::uint64_t sum() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 }  // namespace oro

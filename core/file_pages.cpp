@@ -134,14 +134,17 @@ HeightField field_of_file(std::shared_ptr<const RegionFile> file, std::size_t me
 
 Result<HeightField> field_in_memory(const RegionFile& file) {
     constexpr int quads = static_cast<int>(gpu::page_quads), stride = static_cast<int>(gpu::height_stride);
+    const PageLayout layout = file.order().layout(0);
+    const std::uint64_t pages = layout.count();  // numbered before those of all other levels
+    // Memory is taken for pages that are there, not for what the header says.
+    for (std::uint64_t i = 0; i < pages; ++i) ORO_CHECK(file.record(file.order().index(i)));
     HeightField field;
     field.grid = file.outline().grid;
     field.undulation = file.outline().undulation;
     field.H_m.assign(field.grid.post_count(), void_height_m);
-    const PageLayout layout = file.order().layout(0);
     const auto payload = std::make_unique<PagePayload>();
-    for (int i = 0; i < layout.rows * layout.columns; ++i) {
-        const PageIndex page{i / layout.columns, i % layout.columns, 0};
+    for (std::uint64_t i = 0; i < pages; ++i) {
+        const PageIndex page = file.order().index(i);
         ORO_CHECK(file.payload(page, *payload));
         const int first_row = page.row * quads, first_column = page.column * quads;
         const int rows = std::min(quads + 1, field.grid.rows() - first_row);

@@ -1,6 +1,7 @@
 #include "core/height_codec.h"
 
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
+#include <new>
 #include <type_traits>
 
 #include "core/little_endian.h"
@@ -158,10 +159,40 @@ unsigned kind_of(const PagePayload& payload) {
     return (all_whole ? whole_metres : floats) | (any_void ? with_voids : 0U);
 }
 
-struct FreeZstd {
-    void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
-    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+// What a thread keeps for all that it presses or unpacks; not to be had without memory.
+class Packer {
+  public:
+    Packer() : context_(ZSTD_createCCtx()) {
+        if (context_ == nullptr) throw std::bad_alloc();
+    }
+    Packer(const Packer&) = delete;
+    Packer& operator=(const Packer&) = delete;
+    ~Packer() { ZSTD_freeCCtx(context_); }
+    [[nodiscard]] ZSTD_CCtx* get() const { return context_; }
+
+  private:
+    ZSTD_CCtx* context_;
 };
+class Unpacker {
+  public:
+    Unpacker() : context_(ZSTD_createDCtx()) {
+        if (context_ == nullptr) throw std::bad_alloc();
+    }
+    Unpacker(const Unpacker&) = delete;
+    Unpacker& operator=(const Unpacker&) = delete;
+    ~Unpacker() { ZSTD_freeDCtx(context_); }
+    [[nodiscard]] ZSTD_DCtx* get() const { return context_; }
+
+  private:
+    ZSTD_DCtx* context_;
+};
+
+// What zstd found wrong; nothing when all is well. Lack of memory is no fault of the bytes.
+std::optional<std::string> fault_of(std::size_t zstd_result) {
+    if (ZSTD_isError(zstd_result) == 0) return std::nullopt;
+    if (ZSTD_getErrorCode(zstd_result) == ZSTD_error_memory_allocation) throw std::bad_alloc();
+    return ZSTD_getErrorName(zstd_result);
+}
 
 bool all_finite(std::span<const float> numbers) {
     // Without a branch in the loop: the exponent of all ones is what infinities and NaN share.
@@ -174,7 +205,7 @@ bool all_finite(std::span<const float> numbers) {
 
 }  // namespace
 
-std::vector<std::byte> encode_payload(const PagePayload& payload) {
+Result<std::vector<std::byte>> encode_payload(const PagePayload& payload) {
     const unsigned kind = kind_of(payload);
     std::vector<std::byte> unpacked(unpacked_bytes(kind), std::byte{0});
     std::byte* to = unpacked.data();
@@ -197,12 +228,13 @@ std::vector<std::byte> encode_payload(const PagePayload& payload) {
     std::memcpy(nodes.data() + node_numbers / 2, payload.lod_radius_m.data(), sizeof(payload.lod_radius_m));
     write_planes(nodes.data(), node_numbers, to);
 
-    thread_local const std::unique_ptr<ZSTD_CCtx, FreeZstd> context(ZSTD_createCCtx());
+    thread_local const Packer context;
     std::vector<std::byte> packed(largest_payload_bytes);
     packed[0] = static_cast<std::byte>(kind);
     const std::size_t bytes = ZSTD_compressCCtx(context.get(), packed.data() + 1, packed.size() - 1,
                                                 unpacked.data(), unpacked.size(), zstd_level);
-    assert(!ZSTD_isError(bytes));
+    if (const auto what = fault_of(bytes))
+        return Error{ErrorKind::failed, "zstd", "a page cannot be packed: " + *what};
     packed.resize(1 + bytes);
     packed.shrink_to_fit();
     return packed;
@@ -213,10 +245,10 @@ std::optional<std::string> decode_payload(std::span<const std::byte> bytes, Page
     const auto kind = static_cast<unsigned>(bytes[0]);
     if (!known(kind)) return "is of kind " + std::to_string(kind) + ", which this program does not know";
     std::vector<std::byte> unpacked(unpacked_bytes(kind));
-    thread_local const std::unique_ptr<ZSTD_DCtx, FreeZstd> context(ZSTD_createDCtx());
+    thread_local const Unpacker context;
     const std::size_t found = ZSTD_decompressDCtx(context.get(), unpacked.data(), unpacked.size(),
                                                   bytes.data() + 1, bytes.size() - 1);
-    if (ZSTD_isError(found)) return std::string("cannot be unpacked: ") + ZSTD_getErrorName(found);
+    if (const auto what = fault_of(found)) return "cannot be unpacked: " + *what;
     if (found != unpacked.size())
         return "unpacks to " + std::to_string(found) + " bytes, expected " + std::to_string(unpacked.size());
     const std::byte* const voids = unpacked.data();

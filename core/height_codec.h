@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/result.h"
 #include "shaders/shared.h"
 
 namespace oro {
@@ -28,8 +29,9 @@ inline constexpr std::size_t largest_payload_bytes = 73'728;
 // The payload in bytes, the same for the same numbers. All must be finite. Heights that are whole metres
 // within int16 take 2 bytes a post before zstd, others 4; each is kept as its difference from the plane
 // through its three neighbours to the north-west, the bytes of one weight together. Safe to call from several
-// threads. On SRTM3 of the Alps 0.7 bytes a post.
-[[nodiscard]] std::vector<std::byte> encode_payload(const PagePayload& payload);
+// threads. On SRTM3 of the Alps 0.7 bytes a post. Errors: what zstd says when it fails. Memory that is
+// lacking is an exception, as everywhere.
+[[nodiscard]] Result<std::vector<std::byte>> encode_payload(const PagePayload& payload);
 
 // The inverse, to the bit. Any bytes may be given: nothing when they are a payload, else what is wrong with
 // them, in words that follow "the payload"; `payload` is then of no use.

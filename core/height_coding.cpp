@@ -18,11 +18,13 @@ Result<HeightCoding> height_coding(const RegionPages& pages, HeightStorage stora
     if (storage == HeightStorage::f32) return HeightCoding{};
     double lowest_m = std::numeric_limits<double>::infinity(), highest_m = -lowest_m;
     const PageLayout layout = pages.layout(0);
-    for (int i = 0; i < layout.rows * layout.columns; ++i) {
-        ORO_TRY(const PageRecord record, pages.record({i / layout.columns, i % layout.columns, 0}));
-        if (record.summary.triangles == 0) continue;
-        lowest_m = std::min(lowest_m, record.summary.lowest_h_m);
-        highest_m = std::max(highest_m, record.summary.highest_h_m);
+    for (int row = 0; row < layout.rows; ++row) {
+        for (int column = 0; column < layout.columns; ++column) {
+            ORO_TRY(const PageRecord record, pages.record({row, column, 0}));
+            if (record.summary.triangles == 0) continue;
+            lowest_m = std::min(lowest_m, record.summary.lowest_h_m);
+            highest_m = std::max(highest_m, record.summary.highest_h_m);
+        }
     }
     if (!(lowest_m <= highest_m)) lowest_m = highest_m = 0.0;
     return sixteen_bits(height_steps(lowest_m), height_steps(highest_m));

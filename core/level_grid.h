@@ -13,6 +13,11 @@ namespace oro {
 struct PageLayout {
     int rows{};
     int columns{};
+
+    // Of all pages: up to 2^48.
+    [[nodiscard]] std::uint64_t count() const {
+        return static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns);
+    }
 };
 
 // One axis of a level. Its post j is the region's post min(j 2^level, last): a coarse level reaches exactly

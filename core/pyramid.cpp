@@ -31,7 +31,9 @@ float rounded_up(double value) {
 // A node's place among the stitched errors of its level: its page, and its number there.
 std::array<float, 4>& of_node(std::vector<StitchedErrors>& errors, const LevelGrid& grid, int row,
                               int column) {
-    const auto page = static_cast<std::size_t>(row / side * grid.pages().columns + column / side);
+    const PageLayout layout = grid.pages();
+    const std::size_t page = static_cast<std::size_t>(row / side) * static_cast<std::size_t>(layout.columns) +
+                             static_cast<std::size_t>(column / side);
     return errors[page][static_cast<std::size_t>(row % side * side + column % side)];
 }
 
@@ -52,16 +54,13 @@ class LevelBuilder {
           grid_(level_grid(region, level)),
           below_(level > 0 ? &pyramid.levels[static_cast<std::size_t>(level - 1)] : nullptr),
           errors_(region, heights, level),
-          stitched_m_(static_cast<std::size_t>(grid_.pages().rows) *
-                      static_cast<std::size_t>(grid_.pages().columns)),
+          stitched_m_(grid_.pages().count()),
           stitched_below_m_(std::move(stitched_below_m)) {}
 
     // Page `number` of the level, row by row, with what was measured of it before, if anything. Safe to call
     // from several threads, once for each page.
-    void build(int number, const PyramidHooks& hooks, PyramidPage& page, gpu::PageBlock& block);
-    [[nodiscard]] const StitchedErrors& stitched(int number) const {
-        return stitched_m_[static_cast<std::size_t>(number)];
-    }
+    void build(std::size_t number, const PyramidHooks& hooks, PyramidPage& page, gpu::PageBlock& block);
+    [[nodiscard]] const StitchedErrors& stitched(std::size_t number) const { return stitched_m_[number]; }
     // Of all pages of the level, once they are built.
     std::vector<StitchedErrors> take_stitched_errors() { return std::move(stitched_m_); }
 
@@ -209,12 +208,14 @@ void LevelBuilder::hold_pages_below(PyramidPage& page) const {
     }
 }
 
-void LevelBuilder::build(int number, const PyramidHooks& hooks, PyramidPage& page, gpu::PageBlock& block) {
-    const PageIndex index{number / grid_.pages().columns, number % grid_.pages().columns, level_};
+void LevelBuilder::build(std::size_t number, const PyramidHooks& hooks, PyramidPage& page,
+                         gpu::PageBlock& block) {
+    const auto columns = static_cast<std::size_t>(grid_.pages().columns);
+    const PageIndex index{static_cast<int>(number / columns), static_cast<int>(number % columns), level_};
     page.summary = build_page(region_, shape_, page_heights(region_, heights_, index), index, block);
     PyramidHooks::Measured measured;
     const bool known = hooks.recall && hooks.recall(index, measured);
-    if (known) stitched_m_[static_cast<std::size_t>(number)] = measured.stitched;
+    if (known) stitched_m_[number] = measured.stitched;
     for (int i = 0; i < side * side; ++i) {
         const int node_row = index.row * side + i / side;
         const int node_column = index.column * side + i % side;
@@ -234,19 +235,19 @@ void LevelBuilder::build(int number, const PyramidHooks& hooks, PyramidPage& pag
 // All pages of a level, some at a time: built and worked on in parallel, then handed on in order.
 Result<void> build_level(LevelBuilder& builder, PyramidLevel& level, int threads, const PyramidHooks& hooks,
                          std::vector<gpu::PageBlock>& blocks) {
-    const int count = level.layout.rows * level.layout.columns;
-    level.pages.resize(static_cast<std::size_t>(count));
-    for (int first = 0; first < count; first += PyramidHooks::pages_at_a_time) {
-        const int some = std::min(PyramidHooks::pages_at_a_time, count - first);
-        in_parallel(some, threads, [&](int i) {
-            PyramidPage& page = level.pages[static_cast<std::size_t>(first + i)];
-            gpu::PageBlock& block = blocks[static_cast<std::size_t>(i)];
-            builder.build(first + i, hooks, page, block);
-            if (hooks.work) hooks.work(i, page, block);
+    constexpr std::size_t at_a_time = PyramidHooks::pages_at_a_time;
+    const std::size_t count = level.layout.count();
+    level.pages.resize(count);
+    for (std::size_t first = 0; first < count; first += at_a_time) {
+        const auto some = static_cast<int>(std::min(at_a_time, count - first));
+        in_parallel(some, threads, [&](int place) {
+            const auto i = static_cast<std::size_t>(place);
+            builder.build(first + i, hooks, level.pages[first + i], blocks[i]);
+            if (hooks.work) hooks.work(place, level.pages[first + i], blocks[i]);
         });
-        for (int i = 0; hooks.sink && i < some; ++i) {
-            ORO_CHECK(hooks.sink(i, level.pages[static_cast<std::size_t>(first + i)],
-                                 blocks[static_cast<std::size_t>(i)], builder.stitched(first + i)));
+        for (int place = 0; hooks.sink && place < some; ++place) {
+            const auto i = static_cast<std::size_t>(place);
+            ORO_CHECK(hooks.sink(place, level.pages[first + i], blocks[i], builder.stitched(first + i)));
         }
     }
     return {};

@@ -68,8 +68,12 @@ struct EncodedPage {
     std::vector<std::byte> payload;
     std::uint64_t checksum;  // of the payload
 };
-// Numbers of the payload must be finite. Safe to call from several threads.
-[[nodiscard]] EncodedPage encode_page(const PageRecord& record, const PagePayload& payload);
+// Numbers of the payload must be finite. Safe to call from several threads. Errors: those of encode_payload.
+[[nodiscard]] Result<EncodedPage> encode_page(const PageRecord& record, const PagePayload& payload);
+
+// The files that a bake to `path` writes: the region's own, PATH.partial and PATH.partial-stitched; where the
+// name is a link, what it leads to and beside that.
+[[nodiscard]] std::vector<std::string> files_of_bake(const std::string& path);
 
 // Writes a region file, page after page, so that it can be stopped at any moment, by a kill or a power cut,
 // and go on from there: it grows as PATH.partial and takes its real name, whole, in finish(). Beside it grows
@@ -77,11 +81,16 @@ struct EncodedPage {
 // often the writing was broken off. Keeps no payload in memory.
 class RegionFileWriter {
   public:
+    // What must hold before anything takes time; changes nothing. The name is free, or may be replaced, and
+    // what has the names of its .partial files is what a bake left behind: it begins as one does, is no link,
+    // and has no second name. Errors: as check_target; a file that is somebody else's.
+    static Result<void> check(const std::string& path, bool overwrite);
+
     // Goes on with a .partial that was begun with the same outline and fingerprint by the same version of the
-    // format, after its last page that is whole (all are read to tell); any other .partial is started over.
-    // `fingerprint` tells one state of the sources and of what is made of them from any other.
-    // Errors: an outline with a number that no region has, an existing file when overwrite is false, a folder
-    // that cannot be written to, another program that is writing the same file.
+    // format, after its last page that is whole (all are read to tell); one of any other bake is started
+    // over. `fingerprint` tells one state of the sources and of what is made of them from any other. Errors:
+    // those of check(), an outline with a number that no region has, a folder that cannot be written to,
+    // another program that is writing the same file.
     static Result<RegionFileWriter> create(const std::string& path, const RegionOutline& outline,
                                            std::uint64_t fingerprint, bool overwrite);
 
@@ -123,7 +132,8 @@ class RegionFileWriter {
 
 // A region file that is read. Opening reads what concerns the whole region, a few KB; a page's record and
 // payload are read when they are asked for, from any number of threads at once. Every damage is an Error
-// with the name of the file and the byte at which it was found.
+// with the name of the file and the byte at which it was found; so is a file that another program writes into
+// while it is open. (One that takes its name instead, as a bake does, does no harm.)
 class RegionFile {
   public:
     // Errors: no region file, one of another version of the format, cut off, unfinished, damaged, or with a
@@ -144,10 +154,13 @@ class RegionFile {
 
   private:
     RegionFile(OpenFile file, RegionOutline outline);
+    [[nodiscard]] Result<void> check_end() const;
+    [[nodiscard]] Result<void> check_unchanged() const;
 
     OpenFile file_;
     RegionOutline outline_;
     PageOrder order_;
+    std::vector<std::byte> header_;  // as it was when the file was opened
     RegionPlaces places_{};
     std::uint64_t fingerprint_{};
     std::uint64_t bytes_{};

@@ -19,9 +19,9 @@ bool begins_with_magic(std::span<const std::byte> bytes) {
     return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
 }
 
-Result<RegionHeader> read_header(const OpenFile& file, std::uint64_t size) {
+Result<RegionHeader> read_header(const OpenFile& file, std::uint64_t size, HeaderBytes& bytes) {
     const auto refused = [&](const std::string& what) { return Error{ErrorKind::failed, file.path(), what}; };
-    HeaderBytes bytes{};
+    bytes = {};
     const std::span<std::byte> there = std::span(bytes).first(std::min<std::uint64_t>(size, header_bytes));
     ORO_CHECK(file.read(0, there));
     if (!begins_with_magic(there))
@@ -53,14 +53,34 @@ Result<RegionHeader> read_header(const OpenFile& file, std::uint64_t size) {
     return header;
 }
 
-// The bytes of a part that has its checksum in the header.
-Result<void> read_part(const OpenFile& file, const char* name, std::uint64_t offset, std::uint64_t checksum,
-                       std::span<std::byte> bytes) {
-    ORO_CHECK(file.read(offset, bytes));
-    const std::uint64_t computed = xxh64(bytes);
-    if (computed == checksum) return {};
-    return file.damaged(offset, std::string("the ") + name + " has checksum " + hexadecimal(computed) +
-                                    ", expected " + hexadecimal(checksum));
+// A part that has its checksum in the header.
+struct Part {
+    const char* name;
+    std::uint64_t offset;
+    std::uint64_t bytes;
+    std::uint64_t checksum;
+};
+
+// Reads a part piece by piece, and hands on each with its place in the part; a piece has whole floats.
+template <class Take>
+Result<void> read_part(const OpenFile& file, const Part& part, const Take& take) {
+    constexpr std::uint64_t piece_bytes = 1U << 20U;
+    std::vector<std::byte> buffer(std::min(part.bytes, piece_bytes));
+    RunningChecksum sum;
+    for (std::uint64_t at = 0; at < part.bytes; at += piece_bytes) {
+        const auto piece = std::span(buffer).first(std::min(part.bytes - at, piece_bytes));
+        ORO_CHECK(file.read(part.offset + at, piece));
+        sum.add(piece);
+        take(at, piece);
+    }
+    if (sum.sum() == part.checksum) return {};
+    return file.damaged(part.offset, std::string("the ") + part.name + " has checksum " +
+                                         hexadecimal(sum.sum()) + ", expected " + hexadecimal(part.checksum));
+}
+// A header may state any size, and a file with holes has it at no cost: memory is taken for what bears its
+// checksum, which is read once more then.
+Result<void> check_part(const OpenFile& file, const Part& part) {
+    return read_part(file, part, [](std::uint64_t, std::span<const std::byte>) {});
 }
 
 Result<RegionOutline> read_outline(const OpenFile& file, const RegionHeader& header) {
@@ -74,14 +94,20 @@ Result<RegionOutline> read_outline(const OpenFile& file, const RegionHeader& hea
     outline.highest_H_m = header.highest_H_m;
     outline.voids = header.voids;
     outline.triangles = header.triangles;
+    const Part text{"description", header_bytes, header.description_bytes, header.description_checksum};
+    const Part nodes{"undulation", places.undulation, header.undulation_nodes * sizeof(float),
+                     header.undulation_checksum};
+    ORO_CHECK(check_part(file, text));
+    ORO_CHECK(check_part(file, nodes));
     outline.description.resize(header.description_bytes);
-    ORO_CHECK(read_part(file, "description", header_bytes, header.description_checksum,
-                        std::as_writable_bytes(std::span(outline.description))));
-    std::vector<std::byte> values(header.undulation_nodes * sizeof(float));
-    ORO_CHECK(read_part(file, "undulation", places.undulation, header.undulation_checksum, values));
+    ORO_CHECK(read_part(file, text, [&](std::uint64_t at, std::span<const std::byte> piece) {
+        std::memcpy(outline.description.data() + at, piece.data(), piece.size());
+    }));
     outline.undulation.N_m.resize(header.undulation_nodes);
-    for (std::size_t i = 0; i < outline.undulation.N_m.size(); ++i)
-        outline.undulation.N_m[i] = from_little_endian<float>(&values[i * sizeof(float)]);
+    ORO_CHECK(read_part(file, nodes, [&](std::uint64_t at, std::span<const std::byte> piece) {
+        for (std::size_t i = 0; i < piece.size(); i += sizeof(float))
+            outline.undulation.N_m[(at + i) / sizeof(float)] = from_little_endian<float>(&piece[i]);
+    }));
     if (const auto wrong = implausible(outline.undulation.N_m, places.undulation))
         return file.damaged(wrong->offset, wrong->what);
     return outline;
@@ -94,7 +120,7 @@ PageOrder::PageOrder(const PostGrid& grid) {
     for (int level = 0; level < levels; ++level) {
         const PageLayout layout = level_grid(grid, level).pages();
         levels_.push_back({layout, count_});
-        count_ += static_cast<std::uint64_t>(layout.rows) * static_cast<std::uint64_t>(layout.columns);
+        count_ += layout.count();
     }
 }
 
@@ -127,23 +153,52 @@ RegionFile::RegionFile(OpenFile file, RegionOutline outline)
 Result<RegionFile> RegionFile::open(const std::string& path) {
     ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
     ORO_TRY(const std::uint64_t size, file.size());
-    ORO_TRY(const RegionHeader header, read_header(file, size));
+    HeaderBytes front;
+    ORO_TRY(const RegionHeader header, read_header(file, size, front));
     ORO_TRY(RegionOutline outline, read_outline(file, header));
     RegionFile region(std::move(file), std::move(outline));
+    region.header_.assign(front.begin(), front.end());
     region.places_ = places_of(header);
     region.fingerprint_ = header.fingerprint;
     region.bytes_ = header.file_bytes;
+    ORO_CHECK(region.check_end());
     return region;
 }
 
+// The last page's record says where the file ends. A file of the right size that is mostly holes, a copy that
+// was stopped or a forgery, has no such record.
+Result<void> RegionFile::check_end() const {
+    const std::uint64_t last = order_.count() - 1;
+    ORO_TRY(const StoredRecord stored, read_record(file_, places_, order_, last, bytes_));
+    const std::uint64_t end = stored.payload_offset + stored.payload_bytes;
+    if (end == bytes_) return {};
+    return file_.damaged(
+        places_.records + last * record_bytes,
+        "its payloads end at byte " + std::to_string(end) + ", expected at byte " + std::to_string(bytes_));
+}
+
+// A file that others write into may hold whole pages of another region by now, whose checksums are right.
+Result<void> RegionFile::check_unchanged() const {
+    HeaderBytes now;
+    ORO_CHECK(file_.read(0, now));
+    if (std::equal(now.begin(), now.end(), header_.begin(), header_.end())) return {};
+    return Error{ErrorKind::failed, file_.path(),
+                 "was changed at byte 0, its header, by another program while it was being read"};
+}
+
 Result<PageRecord> RegionFile::record(PageIndex index) const {
-    ORO_TRY(const StoredRecord stored, read_record(file_, places_, order_, order_.number(index), bytes_));
-    return stored.page;
+    const auto stored = read_record(file_, places_, order_, order_.number(index), bytes_);
+    ORO_CHECK(check_unchanged());
+    if (!stored.ok()) return stored.error();
+    return stored->page;
 }
 
 Result<void> RegionFile::payload(PageIndex index, PagePayload& payload) const {
-    ORO_TRY(const StoredRecord stored, read_record(file_, places_, order_, order_.number(index), bytes_));
-    return read_payload(file_, stored, payload);
+    const auto stored = read_record(file_, places_, order_, order_.number(index), bytes_);
+    const Result<void> read =
+        stored.ok() ? read_payload(file_, *stored, payload) : Result<void>(stored.error());
+    ORO_CHECK(check_unchanged());
+    return read;
 }
 
 Result<void> RegionFile::verify() const {
@@ -158,6 +213,7 @@ Result<void> RegionFile::verify() const {
         ORO_CHECK(read_payload(file_, stored, *payload));
         end += stored.payload_bytes;
     }
+    ORO_CHECK(check_unchanged());
     if (end == bytes_) return {};
     return file_.damaged(end, "its payloads end here, expected at byte " + std::to_string(bytes_));
 }

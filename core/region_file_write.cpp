@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <optional>
 #include <utility>
 
 #include "core/checksum.h"
@@ -25,6 +26,43 @@ constexpr std::uint64_t at_file_bytes = 16;
 
 Error fault(const std::string& path, const std::string& what) {
     return {ErrorKind::failed, path, what};
+}
+
+std::string partial_of(const std::string& target) {
+    return target + ".partial";
+}
+std::string stitched_of(const std::string& target) {
+    return target + ".partial-stitched";
+}
+
+// What was found under a name that a bake uses.
+struct Leftover {
+    std::uint64_t bytes{};
+};
+
+Error no_leftover(const std::string& path, const std::string& what) {
+    return fault(path, what + "; move it away, or choose another name for the region");
+}
+
+// That an open file has no other name: whoever uses that would find it changed.
+Result<Leftover> only_name(const OpenFile& file) {
+    struct stat found {};
+    if (fstat(file.descriptor(), &found) != 0)
+        return fault(file.path(), "cannot be written: " + system_reason(errno));
+    if (found.st_nlink > 1)
+        return no_leftover(file.path(), "has another name, too (a hard link), and would change there");
+    return Leftover{static_cast<std::uint64_t>(found.st_size)};
+}
+
+// A .partial that a bake left behind begins as a region file does, as far as it goes.
+Result<Leftover> check_partial(const OpenFile& file) {
+    ORO_TRY(const Leftover found, only_name(file));
+    std::array<std::byte, magic.size()> begins;
+    const auto there = std::span(begins).first(std::min<std::uint64_t>(found.bytes, begins.size()));
+    ORO_CHECK(file.read(0, there));
+    if (!std::equal(there.begin(), there.end(), std::as_bytes(std::span(magic)).begin()))
+        return no_leftover(file.path(), "is there already, and no bake has left it behind");
+    return found;
 }
 
 // Opens the .partial and keeps other writers out for as long as it is open. One that finishes while this one
@@ -76,10 +114,50 @@ Result<void> read_stitched(const OpenFile& file, std::uint64_t number, StitchedE
     return {};
 }
 
+// Stitched errors have no magic. Those of a .partial are beside it, in whatever state; alone they are known
+// by the checksum of the first.
+Result<void> check_stitched(const OpenFile& file, bool partial_has_bytes) {
+    ORO_TRY(const Leftover found, only_name(file));
+    if (found.bytes == 0 || partial_has_bytes || read_stitched(file, 0, nullptr).ok()) return {};
+    return no_leftover(file.path(), "is there already, and no bake has left it behind");
+}
+
+// Opens for reading what has a name, if anything has; no link is followed.
+Result<std::optional<OpenFile>> open_leftover(const std::string& path) {
+    struct stat found {};
+    if (lstat(path.c_str(), &found) != 0) {
+        if (errno == ENOENT) return std::optional<OpenFile>();
+        return fault(path, "cannot be written: " + system_reason(errno));
+    }
+    if (S_ISLNK(found.st_mode)) return no_leftover(path, "is a link, and no bake has left it behind");
+    ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    return std::optional(std::move(file));
+}
+
 }  // namespace
 
-EncodedPage encode_page(const PageRecord& record, const PagePayload& payload) {
-    EncodedPage page{record, encode_payload(payload), 0};
+std::vector<std::string> files_of_bake(const std::string& path) {
+    std::string target = path;
+    (void)check_target(target, true).ok();  // what it finds wrong, others tell
+    return {target, partial_of(target), stitched_of(target)};
+}
+
+Result<void> RegionFileWriter::check(const std::string& path, bool overwrite) {
+    std::string target = path;
+    ORO_TRY([[maybe_unused]] const unsigned old_mode, check_target(target, overwrite));
+    ORO_TRY(const std::optional<OpenFile> partial, open_leftover(partial_of(target)));
+    Leftover found;
+    if (partial) {
+        ORO_TRY(found, check_partial(*partial));
+    }
+    ORO_TRY(const std::optional<OpenFile> stitched, open_leftover(stitched_of(target)));
+    if (!stitched) return {};
+    return check_stitched(*stitched, found.bytes > 0);
+}
+
+Result<EncodedPage> encode_page(const PageRecord& record, const PagePayload& payload) {
+    EncodedPage page{record, {}, 0};
+    ORO_TRY(page.payload, encode_payload(payload));
     page.checksum = xxh64(page.payload);
     return page;
 }
@@ -95,8 +173,12 @@ Result<RegionFileWriter> RegionFileWriter::create(const std::string& path, const
     assert(outline.shape.exaggeration == 1.0);
     if (const auto wrong = implausible(outline))
         return fault(path, "cannot hold this region: " + wrong->what);
-    ORO_TRY(OpenFile partial, open_alone(target + ".partial"));
-    ORO_TRY(OpenFile stitched, OpenFile::open(target + ".partial-stitched", OpenFile::Use::write));
+    ORO_CHECK(check(path, overwrite));
+    ORO_TRY(OpenFile partial, open_alone(partial_of(target)));
+    ORO_TRY(OpenFile stitched, OpenFile::open(stitched_of(target), OpenFile::Use::write));
+    // Once more of what is open now, whatever has happened to the names.
+    ORO_TRY(const Leftover found, check_partial(partial));
+    ORO_CHECK(check_stitched(stitched, found.bytes > 0));
     RegionFileWriter writer(std::move(partial), std::move(stitched), outline.grid);
     writer.path_ = target;
     writer.overwrite_ = overwrite;

@@ -45,8 +45,7 @@ std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double ex
     DrawnHeights heights = drawn_heights(field, exaggeration, threads);
     std::uint64_t all = 0;
     for (int level = 0; level < level_count(field.grid); ++level) {
-        const PageLayout layout = level_grid(field.grid, level).pages();
-        all += static_cast<std::uint64_t>(layout.rows) * static_cast<std::uint64_t>(layout.columns);
+        all += level_grid(field.grid, level).pages().count();
     }
     std::uint64_t done = 0;
     LevelPyramid pyramid = build_pyramid(

@@ -82,6 +82,12 @@ Result<std::vector<float>> posts_of(const RegionFile& file, const PostGrid& cut,
     const auto first_row = static_cast<int>(std::lround(whole.lat.index_at(cut.north_deg())));
     if (first_row < 0 || first_row > whole.rows() - cut.rows())
         return Error{ErrorKind::failed, file.path(), "has no rows of posts where its box says"};
+    const int first_page = page_of(first_row, layout.rows);
+    const int last_page = page_of(first_row + cut.rows() - 1, layout.rows);
+    // Memory is taken for pages that are there, not for what the header says.
+    for (int page_row = first_page; page_row <= last_page; ++page_row) {
+        for (const Run& run : runs) ORO_CHECK(file.record({page_row, run.page_column, 0}));
+    }
     std::vector<float> H_m(cut.post_count());
     const auto payload = std::make_unique<PagePayload>();
     for (int row = 0; row < cut.rows();) {

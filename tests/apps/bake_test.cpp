@@ -189,6 +189,41 @@ TEST_F(Bake, InputsAreSpared) {
     EXPECT_TRUE(bytes_of(region) == bytes);
 }
 
+// What a bake would write on its way is no less lost than what it replaces.
+TEST_F(Bake, FilesOnItsWayAreSpared) {
+    const fs::path region = baked();
+    const std::string bytes = bytes_of(region);
+    const fs::path out = folder / "c.oro";
+    for (const char* name : {"c.oro.partial", "c.oro.partial-stitched"}) {
+        SCOPED_TRACE(name);
+        const fs::path file = folder / name;
+        const Words before = names_in(folder);
+        // The input itself, by its name, by a link to it, and by another name of it.
+        fs::rename(region, file);
+        for (const Words& how : {Words{}, Words{"--overwrite"}, Words{"--bbox", "-84.3,36.5,-84.2,36.6"}})
+            expect_refusal(run_orograph(joined({"bake", file, "--out", out}, how)), usage,
+                           {"would replace", file});
+        fs::create_symlink(out, folder / "d.oro");
+        expect_refusal(run_orograph({"bake", file, "--out", out}), usage, {"would replace", file});
+        fs::remove(folder / "d.oro");
+        fs::rename(file, region);
+        fs::create_hard_link(region, file);
+        expect_refusal(run_orograph({"bake", region, "--out", out}), usage, {"would replace", region});
+        expect_refusal(run_orograph({"bake", bundled(), "--out", out}), failed, {file, "a hard link"});
+        fs::remove(file);
+        fs::create_symlink(region, file);
+        expect_refusal(run_orograph({"bake", bundled(), "--out", out}), failed, {file, "is a link"});
+        fs::remove(file);
+        write_bytes(file, "precious");
+        expect_refusal(run_orograph({"bake", bundled(), "--out", out}), failed,
+                       {file, "no bake has left it behind"});
+        EXPECT_EQ(bytes_of(file), "precious");
+        fs::remove(file);
+        EXPECT_TRUE(bytes_of(region) == bytes);
+        EXPECT_EQ(names_in(folder), before);
+    }
+}
+
 TEST_F(Bake, NothingToBake) {
     expect_refusal(run_orograph({"bake", "--out", folder / "a.oro"}), usage, {"PATH"});
     expect_refusal(run_orograph({"bake", bundled(), "--bbox", "7,46,8,47", "--out", folder / "a.oro"}),

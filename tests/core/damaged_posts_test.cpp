@@ -106,5 +106,35 @@ TEST_F(DamagedPosts, OfAFileThatIsCutOffWhileItIsOpen) {
     EXPECT_TRUE(says(field.health().error().line(), "it ends here")) << field.health().error().line();
 }
 
+// A page that a bake found, and that cannot be read any more when its turn comes, ends the bake; the finished
+// file has never a page that is damaged.
+TEST(BakeThatGoesOn, EndsAtAPageThatIsDamagedMeanwhile) {
+    const fs::path folder = scratch_folder();
+    const HeightField field = rough_field(47.0, 8.0, 700, 800);  // 6 x 7 pages of level 0
+    BakeOptions how;
+    how.threads = 2;
+    how.path = (folder / "whole.oro").string();
+    ASSERT_TRUE(bake_region(field, how).ok());
+    how.path = (folder / "a.oro").string();
+    ASSERT_FALSE(bake_region(field, how, [](double share) { return share < 0.9; }).ok());
+    bool first = true;
+    const auto damaged = bake_region(field, how, [&](double) {
+        if (!first) return true;
+        first = false;  // the first 32 pages are done
+        std::string bytes = content(folder / "a.oro.partial");
+        char& late = bytes[bytes.size() / 8 * 7];
+        late = static_cast<char>(late ^ 1);
+        std::fstream file(folder / "a.oro.partial", std::ios::binary | std::ios::in | std::ios::out);
+        file << bytes;
+        return true;
+    });
+    ASSERT_FALSE(damaged.ok());
+    EXPECT_TRUE(says(damaged.error().line(), "a.oro.partial: is damaged at byte")) << damaged.error().line();
+    EXPECT_FALSE(fs::exists(folder / "a.oro"));
+    const auto again = bake_region(field, how);
+    ASSERT_TRUE(again.ok()) << again.error().line();
+    EXPECT_TRUE(content(folder / "a.oro") == content(folder / "whole.oro"));
+}
+
 }  // namespace
 }  // namespace oro

@@ -32,7 +32,7 @@ std::unique_ptr<PagePayload> filled(float H_m) {
 
 // Bytes it takes, after it came back to the bit.
 std::size_t round_trip(const PagePayload& payload) {
-    const std::vector<std::byte> bytes = encode_payload(payload);
+    const std::vector<std::byte> bytes = encode_payload(payload).value();
     EXPECT_LE(bytes.size(), largest_payload_bytes);
     const auto back = filled(1.0F);
     const auto wrong = decode_payload(bytes, *back);
@@ -138,17 +138,17 @@ TEST(HeightCodec, RefusesWhatIsNoPayload) {
     const auto payload = filled(12.0F);
     EXPECT_EQ(decode_payload({}, *payload), "is empty");
     for (const unsigned kind : {3U, 4U, 7U, 8U, 255U}) {
-        std::vector<std::byte> bytes = encode_payload(*payload);
+        std::vector<std::byte> bytes = encode_payload(*payload).value();
         bytes[0] = static_cast<std::byte>(kind);
         EXPECT_TRUE(decode_payload(bytes, *payload)) << kind;
     }
-    std::vector<std::byte> bytes = encode_payload(*filled(12.0F));
+    std::vector<std::byte> bytes = encode_payload(*filled(12.0F)).value();
     bytes[0] = std::byte{2};  // floats: twice the bytes
     const auto wrong = decode_payload(bytes, *payload);
     ASSERT_TRUE(wrong);
     EXPECT_EQ(*wrong, "unpacks to 36370 bytes, expected 70692");
     for (std::size_t size = 1; size + 1 < bytes.size(); ++size) {
-        bytes = encode_payload(*filled(12.0F));
+        bytes = encode_payload(*filled(12.0F)).value();
         bytes.resize(size);
         EXPECT_TRUE(decode_payload(bytes, *payload)) << size;
     }
@@ -160,7 +160,7 @@ TEST(HeightCodec, SurvivesAnyBytes) {
     std::mt19937_64 random(seed);
     auto payload = filled(0.0F);
     for (float& H_m : payload->H_m) H_m = static_cast<float>(random() % 100) + 0.25F;
-    const std::vector<std::byte> whole = encode_payload(*payload);
+    const std::vector<std::byte> whole = encode_payload(*payload).value();
     for (int run = 0; run < 2000; ++run) {
         std::vector<std::byte> bytes = whole;
         for (auto flips = random() % 4 + 1; flips > 0; --flips)

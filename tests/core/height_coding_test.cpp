@@ -64,5 +64,31 @@ TEST(HeightCoding, ARegionsOwn) {
     EXPECT_FALSE(height_coding(*pages, HeightStorage::f32)->sixteen);
 }
 
+// 65,536 x 65,536 pages, whose number is 0 in 32 bits; none can be read.
+class UnreadablePages : public RegionPages {
+  public:
+    UnreadablePages() : RegionPages(facts_of_many()) {}
+    [[nodiscard]] Result<PageRecord> record(const PageIndex& /*page*/) const override {
+        return Error{ErrorKind::failed, "many.oro", "is damaged"};
+    }
+    Result<void> load(const PageIndex& /*page*/, gpu::PageBlock& /*block*/) const override {
+        return Error{ErrorKind::failed, "many.oro", "is damaged"};
+    }
+
+  private:
+    static RegionFacts facts_of_many() {
+        RegionFacts facts;
+        facts.grid.lat = {1.0e5, 47.0, 0, -1, (1 << 23) + 1};
+        facts.grid.lon = {1.0e5, 8.0, 0, +1, (1 << 23) + 1};
+        return facts;
+    }
+};
+
+TEST(HeightCoding, AsksForMorePagesThanAnIntHolds) {
+    const auto coding = height_coding(UnreadablePages(), HeightStorage::i16);
+    ASSERT_FALSE(coding.ok());
+    EXPECT_EQ(coding.error().line(), "many.oro: is damaged");
+}
+
 }  // namespace
 }  // namespace oro

@@ -110,7 +110,8 @@ inline Result<RegionFileWriter> begin(const fs::path& path, bool overwrite = fal
 inline Result<void> append_until(RegionFileWriter& writer, std::uint64_t end) {
     while (writer.pages_done() < end) {
         const auto page = made_page(writer.order(), writer.pages_done());
-        ORO_CHECK(writer.append(encode_page(page->record, page->payload), page->stitched));
+        ORO_TRY(const EncodedPage encoded, encode_page(page->record, page->payload));
+        ORO_CHECK(writer.append(encoded, page->stitched));
     }
     return {};
 }

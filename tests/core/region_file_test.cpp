@@ -1,12 +1,14 @@
 #include "core/region_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <cstring>
 #include <limits>
 
 #include "core/checksum.h"
+#include "core/file_pages.h"
 #include "core/little_endian.h"
 #include "tests/core/made_region_file.h"
 #include "tests/support/test_data.h"
@@ -15,6 +17,24 @@ namespace oro {
 namespace {
 
 using namespace test;
+
+TEST(Checksum, IsTheSamePieceByPiece) {
+    std::mt19937_64 random(5);
+    std::vector<std::byte> bytes(100'000);
+    for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
+    RunningChecksum sum;
+    EXPECT_EQ(sum.sum(), xxh64({}));
+    for (std::size_t at = 0; at < bytes.size();) {
+        const std::size_t some = std::min<std::size_t>(random() % 5000, bytes.size() - at);
+        sum.add(std::span(bytes).subspan(at, some));
+        at += some;
+    }
+    EXPECT_EQ(sum.sum(), xxh64(bytes));
+}
+
+TEST(PageOrder, CountsPagesBeyondAnInt) {
+    EXPECT_EQ((PageLayout{1 << 24, 1 << 24}.count()), std::uint64_t{1} << 48U);
+}
 
 TEST(PageOrder, NumbersLevelByLevelRowByRow) {
     const PageOrder order(made_outline().grid);
@@ -213,6 +233,99 @@ TEST(RegionFile, RefusesNumbersThatNoRegionHas) {
     EXPECT_TRUE(says(refusal_with(path, whole, 224, std::uint64_t{15}), at(224)));
     EXPECT_TRUE(says(refusal_with(path, whole, 232, std::uint64_t{0}), at(256)));
     EXPECT_EQ(refusal_with(path, whole, 24, std::uint64_t{5}), "");  // another fingerprint
+}
+
+// A file that is written into while it is open may hold whole pages of another region.
+TEST(RegionFile, TellsThatItWasChangedWhileItIsOpen) {
+    const fs::path path = scratch_folder() / "a.oro";
+    write_whole(path);
+    const std::string first = content(path);
+    const auto file = RegionFile::open(path);
+    ASSERT_TRUE(file.ok());
+    const auto payload = std::make_unique<PagePayload>();
+    ASSERT_TRUE(file->payload({1, 1, 0}, *payload).ok());
+    refusal_with(path, first, 24, std::uint64_t{5});  // another fingerprint, the pages as whole as before
+    for (const Result<void>& read : {file->payload({1, 1, 0}, *payload), file->verify()}) {
+        ASSERT_FALSE(read.ok());
+        EXPECT_TRUE(says(read.error().line(), path.string() + ": was changed at byte 0"))
+            << read.error().line();
+    }
+    EXPECT_FALSE(file->record({1, 1, 0}).ok());
+    put(path, first);
+    EXPECT_TRUE(file->verify().ok());
+    // One that takes its name does no harm.
+    write_whole(path, true);
+    EXPECT_TRUE(file->verify().ok());
+}
+
+// The most memory that this process has had, bytes.
+std::uint64_t peak_memory() {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    return static_cast<std::uint64_t>(used.ru_maxrss) * 1024;
+}
+
+// A file of few bytes with holes, whose header is right and states sizes of gigabytes.
+void write_with_holes(const fs::path& path, const RegionOutline& outline, std::uint64_t nodes) {
+    region_format::RegionHeader header = region_format::header_of(outline, made_fingerprint);
+    header.undulation_nodes = nodes;
+    header.pages = PageOrder(outline.grid).count();
+    header.description_checksum = xxh64(std::as_bytes(std::span(outline.description)));
+    header.undulation_checksum = nodes == 0 ? xxh64({}) : 0;
+    header.file_bytes = region_format::places_of(header).payloads + header.pages;
+    const auto front = region_format::header_to_bytes(header);
+    put(path, std::string(reinterpret_cast<const char*>(front.data()), front.size()) + outline.description);
+    fs::resize_file(path, header.file_bytes);
+}
+
+TEST(RegionFile, TakesNoMemoryForHoles) {
+    const fs::path path = scratch_folder() / "a.oro";
+    constexpr std::uint64_t little = 64U << 20U;
+    RegionOutline outline = made_outline();
+    // 48 million nodes, 193 MB.
+    outline.undulation.lat = {100.0, 0.0, 7000, -1, 6900};
+    outline.undulation.lon = {100.0, 0.0, 0, +1, 7000};
+    write_with_holes(path, outline, 6900ULL * 7000ULL);
+    std::uint64_t before = peak_memory();
+    EXPECT_TRUE(says(refusal(path), "the undulation has checksum"));
+    EXPECT_LT(peak_memory() - before, little);
+    // 40,000 x 40,000 posts, 6.4 GB.
+    outline = made_outline();
+    outline.undulation = {};
+    outline.grid.lat = {1200.0, 0.0, 47 * 1200, -1, 40000};
+    outline.grid.lon = {1200.0, 0.0, 8 * 1200, +1, 40000};
+    write_with_holes(path, outline, 0);
+    before = peak_memory();
+    EXPECT_TRUE(says(refusal(path), "the record of the page at level 9 row 0 column 0 has checksum"))
+        << refusal(path);
+    EXPECT_LT(peak_memory() - before, little);
+}
+
+// The same with a last page that is right: then it opens, and what wants all posts in memory does not get it.
+TEST(RegionFile, TakesNoMemoryForPostsThatAreNotThere) {
+    const fs::path path = scratch_folder() / "a.oro";
+    RegionOutline outline = made_outline();
+    outline.undulation = {};
+    outline.grid.lat = {1200.0, 0.0, 47 * 1200, -1, 40000};
+    outline.grid.lon = {1200.0, 0.0, 8 * 1200, +1, 40000};
+    write_with_holes(path, outline, 0);
+    const PageOrder order(outline.grid);
+    const auto page = made_page(order, 0);
+    page->record.summary.index = order.index(order.count() - 1);
+    const std::uint64_t size = fs::file_size(path);
+    const auto record = region_format::record_to_bytes({page->record, size - 1, 1, 0});
+    {
+        std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+        file.seekp(static_cast<std::streamoff>(size - order.count() - record.size()));
+        file.write(reinterpret_cast<const char*>(record.data()), record.size());
+    }
+    const auto file = RegionFile::open(path);
+    ASSERT_TRUE(file.ok()) << file.error().line();
+    const std::uint64_t before = peak_memory();
+    const auto field = field_in_memory(*file);
+    ASSERT_FALSE(field.ok());
+    EXPECT_TRUE(says(field.error().line(), "the record of the page at level 0 row 0 column 0"));
+    EXPECT_LT(peak_memory() - before, 64U << 20U);
 }
 
 TEST(RegionFile, SurvivesRandomHeaders) {

@@ -84,7 +84,7 @@ TEST(RegionFileWriter, RefusesPagesOutOfOrderAndNumbersThatNoRegionHas) {
     auto writer = begin(path);
     ASSERT_TRUE(writer.ok());
     const auto page = made_page(writer->order(), 1);
-    const auto refused = writer->append(encode_page(page->record, page->payload), page->stitched);
+    const auto refused = writer->append(encode_page(page->record, page->payload).value(), page->stitched);
     ASSERT_FALSE(refused.ok());
     EXPECT_TRUE(says(refused.error().what, "level 0 row 0 column 1, expected level 0 row 0 column 0"));
     EXPECT_EQ(writer->pages_done(), 0U);
@@ -221,10 +221,81 @@ TEST(RegionFileWriter, StartsOverWhereAnythingElseWasBegun) {
         ASSERT_TRUE(other.ok());
         EXPECT_EQ(other->pages_done(), 0U);
     }
-    put(path.string() + ".partial", std::string(100'000, 'x'));
-    const auto other = begin(path);
-    ASSERT_TRUE(other.ok());
-    EXPECT_EQ(other->pages_done(), 0U);
+    // Also where the first bytes of a header were all that a break let through.
+    for (const std::size_t bytes : {0U, 3U, 8U, 9U, 255U}) {
+        put(path.string() + ".partial", content(path.string() + ".partial").substr(0, bytes));
+        const auto other = begin(path);
+        ASSERT_TRUE(other.ok()) << other.error().line();
+        EXPECT_EQ(other->pages_done(), 0U);
+    }
+}
+
+// What bears the names that a bake uses, and no bake left behind, is refused as it is.
+TEST(RegionFileWriter, LeavesForeignPartialsAlone) {
+    const fs::path folder = scratch_folder(), path = folder / "a.oro";
+    const auto expect_refused = [&](const fs::path& file, const std::string& words) {
+        const Names before = names_in(folder);
+        for (const bool overwrite : {false, true}) {
+            for (const Result<void>& checked : {RegionFileWriter::check(path.string(), overwrite)})
+                EXPECT_FALSE(checked.ok()) << file;
+            const auto refused = begin(path, overwrite);
+            ASSERT_FALSE(refused.ok()) << file;
+            EXPECT_TRUE(says(refused.error().line(), file.string() + ": ")) << refused.error().line();
+            EXPECT_TRUE(says(refused.error().what, words)) << refused.error().line();
+        }
+        EXPECT_EQ(names_in(folder), before);
+    };
+    const std::string precious(100'000, 'x');
+    for (const char* name : {"a.oro.partial", "a.oro.partial-stitched"}) {
+        SCOPED_TRACE(name);
+        const fs::path file = folder / name, other = folder / "precious";
+        put(file, precious);
+        expect_refused(file, "no bake has left it behind");
+        EXPECT_TRUE(content(file) == precious);
+        // Too short for a magic, and not the beginning of one.
+        put(file, "x");
+        expect_refused(file, "no bake has left it behind");
+        fs::remove(file);
+        // A link, to a file or to nothing.
+        put(other, precious);
+        fs::create_symlink(other, file);
+        expect_refused(file, "is a link");
+        fs::remove(file);
+        fs::create_symlink(folder / "nothing", file);
+        expect_refused(file, "is a link");
+        fs::remove(file);
+        // A second name, of anything and of a region file.
+        fs::create_hard_link(other, file);
+        expect_refused(file, "a hard link");
+        EXPECT_TRUE(content(other) == precious);
+        fs::remove(file);
+        write_whole(other, true);
+        const std::string region = content(other);
+        fs::create_hard_link(other, file);
+        expect_refused(file, "a hard link");
+        EXPECT_TRUE(content(other) == region);
+        fs::remove(file);
+        fs::create_directory(file);
+        expect_refused(file, "is a folder");
+        fs::remove(file);
+        fs::remove(other);
+    }
+    EXPECT_TRUE(RegionFileWriter::check(path.string(), false).ok());
+    EXPECT_EQ(names_in(folder), Names{});
+    write_whole(path);
+}
+
+TEST(RegionFileWriter, NamesTheFilesOfABake) {
+    const fs::path folder = scratch_folder();
+    const std::string path = (folder / "a.oro").string(), link = (folder / "b.oro").string();
+    const std::vector<std::string> files{path, path + ".partial", path + ".partial-stitched"};
+    EXPECT_EQ(files_of_bake(path), files);
+    put(path, "old");
+    fs::create_symlink(path, link);
+    std::vector<std::string> real;
+    for (const std::string& file : files)
+        real.push_back((fs::canonical(folder) / fs::path(file).filename()).string());
+    EXPECT_EQ(files_of_bake(link), real);
 }
 
 TEST(RegionFileWriter, IsReadByOthersWhileItAppends) {
