@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/apps/baking.h"
+#include "tests/support/mutated_bytes.h"
 
 namespace {
 namespace fs = std::filesystem;
@@ -118,6 +119,78 @@ TEST_F(DamagedRegion, ThePageOfTheEye) {
         run_orograph({"bake", region, "--bbox", "-84.3,36.5,-84.2,36.6", "--out", folder / "part.oro"}), 1,
         {region, "is damaged at byte"});
     EXPECT_EQ(names_in(folder), Words{"region.oro"});
+}
+
+// Each command over a file that was changed anywhere. The long run: OROGRAPH_TEST_MUTATIONS=2500.
+TEST_F(DamagedRegion, AnyMutationThroughEachCommand) {
+    const fs::path region = baked();
+    const std::string bytes = bytes_of(region);
+    std::vector<std::size_t> parts{0, 256};  // header, description and undulation
+    for (std::size_t page = 0; page < pages; ++page)
+        parts.push_back(payloads(bytes).front().offset - (pages - page) * record_bytes);
+    for (const Payload& payload : payloads(bytes)) parts.push_back(payload.offset);
+    const fs::path view = folder / "view.png";
+    ASSERT_EQ(run_orograph({"shot", region, "--size", "48x32", "--out", view, "-q"}).exit_code, 0);
+    const std::string time = "2026-01-01T00:00:00Z";
+    struct Command {
+        Words words;
+        const char* writes;  // a file of its folder, which is compared
+    };
+    const std::vector<Command> commands{
+        {{"info", region, "--json"}, nullptr},
+        {{"info", region, "--check"}, nullptr},
+        {{"shot", region, "--size", "48x32", "--tau", "0", "--time", time, "-q", "--out", "out.png"},
+         "out.png"},
+        {{"shot", region, "--size", "48x32", "--tau", "200", "--at", "36.6,-84.2", "--time", time, "-q",
+          "--out", "out.jpg"},
+         "out.jpg"},
+        {{"plan", region, "--size", "48x32", "--at", "36.6,-84.2", "--above", "300", "--time", time, "-q",
+          "--json"},
+         nullptr},
+        {{"compare", view, "-q", "--json"}, nullptr},
+        {{"bake", region, "--bbox", "-84.3,36.5,-84.2,36.6", "-q", "--out", "out.oro"}, "out.oro"}};
+    struct Answer {
+        Outcome outcome;
+        std::string file;
+    };
+    const auto ask = [&](const Command& command) {
+        oro::test::Circumstances there;
+        there.folder = scratch_folder();
+        Answer answer{run_orograph(command.words, there), ""};
+        const Words left = names_in(there.folder);
+        if (answer.outcome.exit_code != 0 || command.writes == nullptr) {
+            EXPECT_EQ(left, Words{}) << "left behind";
+        } else {
+            answer.file = bytes_of(there.folder / command.writes);
+        }
+        return answer;
+    };
+    std::vector<Answer> whole;
+    for (const Command& command : commands) {
+        whole.push_back(ask(command));
+        ASSERT_EQ(whole.back().outcome.exit_code, 0) << command.words[0] << ": " << whole.back().outcome.err;
+    }
+    const auto seed = std::random_device{}();
+    const int count = oro::test::mutation_count(5);
+    std::printf("seed %u, %d mutations\n", seed, count);
+    std::mt19937_64 random(seed);
+    int refused = 0;
+    for (int i = 0; i < count; ++i) {
+        const oro::test::Mutation mutation = oro::test::mutated(bytes, parts, random);
+        write_bytes(region, mutation.bytes);
+        for (std::size_t c = 0; c < commands.size(); ++c) {
+            SCOPED_TRACE("seed " + std::to_string(seed) + ", " + mutation.what + ", " + commands[c].words[0]);
+            const Answer answer = ask(commands[c]);
+            if (answer.outcome.exit_code != 0) {
+                ++refused;
+                oro::test::expect_refusal(answer.outcome, 1, {region});
+            } else {
+                EXPECT_EQ(answer.outcome.out, whole[c].outcome.out);
+                EXPECT_TRUE(answer.file == whole[c].file);
+            }
+        }
+    }
+    EXPECT_GE(refused, count) << "info --check refuses each";
 }
 
 }  // namespace
