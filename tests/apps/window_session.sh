@@ -44,6 +44,6 @@ xdotool windowsize --sync "$window" 400 200; sleep 1; says resized 'heading'
 xdotool key p; says pictured 'wrote orograph-'
 # An odd size has a pixel in its middle.
 xdotool windowsize --sync "$window" 401 201; sleep 1
-xdotool mousemove --window "$window" 200 100 click 3; says picked 'source jacksboro.tif'
+xdotool mousemove --window "$window" 200 100 click 3; says picked 'from jacksboro.tif'
 xdotool key Escape
 wait "$viewer"
