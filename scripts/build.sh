@@ -20,3 +20,14 @@ build_release() {
   "${build[@]}" >"$log" 2>&1 ||
     { grep -v '^\[' "$log" | tail -n 60 >&2; say "the build failed; all it said is in $log"; exit 1; }
 }
+
+# run_each PROGRAM: each test of a GoogleTest program in a process of its own, as many at a time as there are processors.
+# Shows what the tests print of themselves, and fails when one of them does.
+run_each() {
+  "$1" --gtest_list_tests | awk '/^[^ ]/ { suite = $1 } /^ / { print suite $1 }' |
+    PROGRAM=$1 xargs -P "$(nproc)" -I '{}' bash -c '
+      said=$("$PROGRAM" --gtest_filter="{}" 2>&1) && code=0 || code=$?
+      printf "%s: %s\n" "{}" "$([ $code = 0 ] && echo passed || echo FAILED)"
+      grep -vE "^(\[|Running|Note:|$)| tests? from |PASSED|FAILED" <<<"$said" | sed "s/^/    /" || true
+      exit $code'
+}

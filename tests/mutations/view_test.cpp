@@ -1,0 +1,42 @@
+// Damaged views, and pictures that carry one.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "apps/view.h"
+#include "tests/mutations/mutation.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using namespace oro;
+using namespace oro::test;
+
+TEST(Mutated, ViewsAndPictures) {
+    for (const std::string name : {"v.png", "v.jpg", "v.tif", "v.json"}) {
+        Sample sample{"view-" + name.substr(2), scratch_folder(), name, {name}, false};
+        const std::string picture = name == "v.json" ? "other.png" : name;
+        const std::string command = std::string(OROGRAPH_PROGRAM) + " shot -q --size 32x24 --samples 1 '" +
+                                    (bundled_data() / "jacksboro.tif").string() + "' --out '" +
+                                    (sample.folder / picture).string() + "' 2>/dev/null";
+        ASSERT_EQ(std::system(command.c_str()), 0);
+        if (name == "v.json") {
+            for (const auto& entry : fs::directory_iterator(sample.folder))
+                if (entry.path().extension() == ".json") fs::rename(entry.path(), sample.folder / "v.json");
+        }
+        expect_no_silence(sample, share_of(750), [](const fs::path& file, std::string& said) {
+            const auto view = read_view(file.string());
+            if (!view.ok()) {
+                said = view.error().line();
+                return Found::refused;
+            }
+            const std::string text = view_to_json(*view, true);
+            const auto again = view_from_json(text, "again");
+            said = again.ok() ? "" : again.error().line();
+            return again.ok() && view_to_json(*again, true) == text ? Found::same : Found::unclean;
+        });
+    }
+}
+
+}  // namespace
