@@ -6,12 +6,20 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
 
 namespace oro {
 
-// Registers GDAL's drivers, less those that reach into the network. Cheap after the first call; safe from any
-// thread.
+// Registers the drivers below and no others: whatever else this GDAL has, plugins included, is never asked.
+// Cheap after the first call; safe from any thread.
 void start_gdal();
+
+// GDAL's names of the raster formats that terrain is read from, ending in a null. They are those whose
+// reading was seen to report it when a file is cut, at every place; and whose files GDAL reads itself, so
+// that guard_files sees them.
+const char* const* trusted_drivers();
+// The same for people: "GeoTIFF, VRT, ...".
+std::string trusted_formats();
 
 // While it lives, GDAL's messages on this thread go here instead of standard error.
 class GdalMessages {
@@ -23,11 +31,14 @@ class GdalMessages {
 
     // The last failure, in one line; or `otherwise` when GDAL said nothing.
     [[nodiscard]] std::string last(const std::string& otherwise) const;
+    // The first warning, in one line; or "".
+    [[nodiscard]] std::string warning() const;
     void clear() { text_.clear(); }
 
   private:
     static void CPL_STDCALL take(CPLErr severity, CPLErrorNum number, const char* message);
     std::string text_;
+    std::string warning_;
 };
 
 struct CloseDataset {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geo/guarded_files.h"
 #include "geo/hgt_source.h"
 #include "geo/raster_library.h"
 #include "geo/raster_source.h"
@@ -42,15 +43,30 @@ GDALRasterBandH mask_of(GDALRasterBandH band) {
     return own ? GDALGetMaskBand(band) : nullptr;
 }
 
+// True when a window of values could be read; it is given up when the watch's time is spent.
+bool read_values(GDALRasterBandH band, const PostWindow& window, void* to, GDALDataType type,
+                 FileWatch& watch) {
+    GDALRasterIOExtraArg more;
+    INIT_RASTERIO_EXTRA_ARG(more);
+    more.pfnProgress = [](double, const char*, void* data) -> int {
+        return static_cast<FileWatch*>(data)->spent() ? FALSE : TRUE;
+    };
+    more.pProgressData = &watch;
+    return GDALRasterIOEx(band, GF_Read, window.column, window.row, window.columns, window.rows, to,
+                          window.columns, window.rows, type, 0, 0, &more) == CE_None;
+}
+
 }  // namespace
 
 Result<PostBlock> read_raster(const Source& source, const PostWindow& window) {
     const GdalMessages messages;
+    FileWatch watch(reading_limit_s + 1e-6 * window.rows * static_cast<double>(window.columns));
     const Dataset dataset(GDALOpenEx(source.file.c_str(),
-                                     GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
-                                     nullptr, nullptr));
+                                     GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                     trusted_drivers(), nullptr, nullptr));
     const auto fault = [&](const std::string& what) {
-        return Error{ErrorKind::failed, source.report.path, what + messages.last("the file is damaged")};
+        return Error{ErrorKind::failed, source.report.path,
+                     watch.fault().empty() ? what + messages.last("the file is damaged") : watch.fault()};
     };
     if (!dataset) return fault("cannot be opened: ");
     const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
@@ -70,12 +86,14 @@ Result<PostBlock> read_raster(const Source& source, const PostWindow& window) {
     for (int r = 0; r < window.rows; r += step) {
         const int rows = std::min(step, window.rows - r);
         const int row = window.row + r;
-        if (GDALRasterIO(band, GF_Read, window.column, row, window.columns, rows, values.data(),
-                         window.columns, rows, GDT_Float64, 0, 0) != CE_None)
+        const PostWindow part{row, window.column, rows, window.columns};
+        if (!read_values(band, part, values.data(), GDT_Float64, watch))
             return fault("cannot be read near row " + std::to_string(row) + ": ");
-        if (mask && GDALRasterIO(mask, GF_Read, window.column, row, window.columns, rows, valid.data(),
-                                 window.columns, rows, GDT_Byte, 0, 0) != CE_None)
+        if (mask && !read_values(mask, part, valid.data(), GDT_Byte, watch))
             return fault("its mask cannot be read near row " + std::to_string(row) + ": ");
+        // Some drivers go on after a failure.
+        if (!watch.fault().empty() || !messages.last("").empty())
+            return fault("cannot be read near row " + std::to_string(row) + ": ");
         for (std::size_t i = 0; i < columns * static_cast<std::size_t>(rows); ++i) {
             const bool empty = no_data.holds(values[i]) || (mask && valid[i] == 0);
             const double height_m = values[i] * source.scale_m + source.offset_m;

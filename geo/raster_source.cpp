@@ -10,8 +10,10 @@
 #include <string_view>
 
 #include "geo/foreign_text.h"
+#include "geo/guarded_files.h"
 #include "geo/letter_case.h"
 #include "geo/raster_library.h"
+#include "geo/raster_parts.h"
 #include "geo/raster_place.h"
 #include "geo/vertical_datum.h"
 
@@ -144,12 +146,48 @@ std::string attribution_of(GDALDatasetH dataset) {
     return text;
 }
 
-Result<Source> inspect(const SourcePath& path, const std::string& height_unit, const GdalMessages& messages) {
+struct Opened {
+    Dataset dataset;  // null when it is no raster that is read here
+    Error unfit;      // then
+    RasterParts parts;
+};
+
+// True when a file that cannot be opened is damaged, rather than something else: by its name or first bytes.
+bool should_open(const SourcePath& path) {
+    const std::string name = lower_case(path.name);
+    for (const char* ending : {".tif", ".tiff", ".gtiff", ".jp2", ".vrt", ".dt0", ".dt1", ".dt2"}) {
+        if (name.ends_with(ending)) return true;
+    }
+    return GDALIdentifyDriverEx(path.file.c_str(), GDAL_OF_RASTER, trusted_drivers(), nullptr) != nullptr;
+}
+
+Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages) {
+    Opened opened;
+    ORO_TRY(opened.parts, parts_of_raster(path.file));
+    opened.dataset.reset(GDALOpenEx(path.file.c_str(),
+                                    GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                    trusted_drivers(), nullptr, nullptr));
+    if (!opened.dataset) {
+        if (should_open(path))
+            return Error{ErrorKind::failed, "",
+                         "is no raster that GDAL can open: " + messages.last("unknown format")};
+        opened.unfit = {ErrorKind::failed, "",
+                        "is no raster of a format that is trusted to tell when it is cut (" +
+                            trusted_formats() + "); gdal_translate makes a GeoTIFF of others"};
+        return opened;
+    }
+    const CPLStringList listed(GDALGetFileList(opened.dataset.get()));
+    for (int i = 0; i < listed.size(); ++i) {
+        const std::string file = local_file_of(listed[i]);
+        if (std::ranges::find(opened.parts.files, file) == opened.parts.files.end())
+            opened.parts.files.push_back(file);
+    }
+    return opened;
+}
+
+// What an opened raster says of itself; an error without its name where it is no source.
+Result<Source> described(const SourcePath& path, const Dataset& dataset, const std::string& height_unit) {
     const auto fault = [&](const std::string& what) { return Error{ErrorKind::failed, "", what}; };
-    const Dataset dataset(GDALOpenEx(path.file.c_str(),
-                                     GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
-                                     nullptr, nullptr));
-    if (!dataset) return fault("is no raster that GDAL can open: " + messages.last("unknown format"));
     if (const std::string why = not_elevation(dataset.get()); !why.empty()) return fault(why);
     std::array<double, 6> cell{};
     ORO_TRY(const SpatialReference crs, crs_of(dataset.get()));
@@ -204,14 +242,35 @@ std::optional<double> metres_in(const std::string& unit) {
     return std::nullopt;
 }
 
-Result<Source> inspect_raster(const SourcePath& path, const std::string& height_unit) {
+Result<Finding> inspect_raster(const SourcePath& path, const std::string& height_unit) {
     start_gdal();
     const GdalMessages messages;
-    auto source = inspect(path, height_unit, messages);
-    if (source) return source;
-    Error error = source.error();
-    error.where = error.where.empty() ? path.shown : path.shown + ": " + error.where;
-    return error;
+    const FileWatch watch(opening_limit_s);
+    const auto named = [&](Error error) {
+        error.where = error.where.empty() ? path.shown : path.shown + ": " + error.where;
+        return error;
+    };
+    const auto opened = open_source(path, messages);
+    if (!watch.fault().empty()) return named({ErrorKind::failed, "", watch.fault()});
+    if (!opened) return named(opened.error());
+    Finding finding;
+    if (!opened->dataset) {
+        finding.unfit = named(opened->unfit);
+        return finding;
+    }
+    auto source = described(path, opened->dataset, height_unit);
+    if (!watch.fault().empty()) return named({ErrorKind::failed, "", watch.fault()});
+    if (!source) {
+        finding.unfit = named(source.error());
+        if (finding.unfit.kind == ErrorKind::usage) return finding.unfit;
+        return finding;
+    }
+    finding.source = std::move(*source);
+    finding.source->report.files = opened->parts.files;
+    for (const std::string& doubt : opened->parts.doubts) finding.doubts.push_back(path.shown + ": " + doubt);
+    if (const std::string warning = messages.warning(); !warning.empty())
+        finding.doubts.push_back(path.shown + ": GDAL warns: " + warning);
+    return finding;
 }
 
 }  // namespace oro

@@ -29,8 +29,14 @@ struct Found {
     std::string first_skipped;
 };
 
+Result<Finding> look_at_file(const SourcePath& path, const std::string& height_unit) {
+    if (!path.hgt) return inspect_raster(path, height_unit);
+    ORO_TRY(Source tile, inspect_hgt(path));
+    return Finding{std::move(tile), {}, {}};
+}
+
 // Looks at names, sizes and headers. What the user named must open; in folders and archives, rasters that are
-// no elevation are passed over and noted, but a damaged .hgt is an error wherever it lies (a hole in the
+// no elevation are passed over and noted, but a damaged file is an error wherever it lies (a hole in the
 // terrain is no way to hear of it).
 Result<Found> look_at(const RegionRequest& request, const Progress& progress) {
     ORO_TRY(const std::vector<SourcePath> paths, find_sources(request.paths));
@@ -51,14 +57,15 @@ Result<Found> look_at(const RegionRequest& request, const Progress& progress) {
             tile.north_deg = name.tile.lat_deg + 1.0;
             if (!meets(tile, *box)) continue;
         }
-        auto source = path.hgt ? inspect_hgt(path) : inspect_raster(path, request.height_unit);
-        if (source) {
-            found.sources.push_back(std::move(*source));
+        ORO_TRY(Finding finding, look_at_file(path, request.height_unit));
+        for (const std::string& doubt : finding.doubts) found.notes.push_back(doubt);
+        if (finding.source) {
+            found.sources.push_back(std::move(*finding.source));
             continue;
         }
-        if (path.named || path.hgt || source.error().kind == ErrorKind::usage) return source.error();
-        if (++skipped <= no_limit_notes) found.notes.push_back("passed over " + source.error().line());
-        if (found.first_skipped.empty()) found.first_skipped = source.error().line();
+        if (path.named) return finding.unfit;
+        if (++skipped <= no_limit_notes) found.notes.push_back("passed over " + finding.unfit.line());
+        if (found.first_skipped.empty()) found.first_skipped = finding.unfit.line();
     }
     if (skipped > no_limit_notes)
         found.notes.push_back("passed over " + std::to_string(skipped - no_limit_notes) +

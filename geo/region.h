@@ -69,6 +69,8 @@ struct SourceReport {
     std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
     std::string placement;        // "posts copied", "cubic resampling from EPSG:2056", ...
     SeamReport seams;             // with the sources that win over it: its posts that one of them has, too
+    std::vector<std::string> files;  // of this machine that it is made of: the archive it is in, all that a
+                                     // VRT names; unknown ({}) in a baked region
 };
 
 struct Region {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -54,8 +56,28 @@ TEST(SourcePaths, TextFileCalledTif) {
     const fs::path folder = scratch_folder();
     std::ofstream(folder / "dem.tif") << "This is no raster.\n";
     expect_error((folder / "dem.tif").string(), ErrorKind::failed, "no raster");
-    // In a folder it is passed over; alone there it leaves nothing, and the error says why.
-    expect_error(folder.string(), ErrorKind::no_data, "dem.tif");
+    // In a folder, too: it may be what a server sent instead of a tile.
+    const auto region = open_region(request_for({folder.string()}));
+    ASSERT_FALSE(region.ok());
+    EXPECT_EQ(region.error().kind, ErrorKind::failed);
+    EXPECT_NE(region.error().line().find("dem.tif"), std::string::npos) << region.error().line();
+}
+
+// Endings that other things have, too: what is no raster at all is passed over and named.
+TEST(SourcePaths, OtherThingsWithEndingsOfRasters) {
+    const fs::path folder = scratch_folder();
+    write_hgt(folder / "N46E007.hgt", 1201, [](int, int) { return 7; });
+    for (const char* name : {"signature.asc", "disk.img", "cdl.nc"})
+        std::ofstream(folder / name) << "something else\n";
+    const auto region = opened(request_for({folder.string()}));
+    ASSERT_TRUE(region);
+    EXPECT_EQ(region->notes.size(), 3U);
+    for (const char* name : {"signature.asc", "disk.img", "cdl.nc"}) {
+        EXPECT_TRUE(std::ranges::any_of(region->notes, [&](const std::string& note) {
+            return note.find(name) != std::string::npos;
+        })) << name;
+        expect_error((folder / name).string(), ErrorKind::failed, "trusted");
+    }
 }
 
 TEST(SourcePaths, ArchiveThatIsNone) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/raster_library.h"
 #include "geo/region.h"
 
 namespace oro::test {
@@ -66,7 +67,7 @@ struct Raster {
 
 inline std::string write_raster(const std::filesystem::path& file, const Raster& raster,
                                 const HeightOfPost& height) {
-    GDALAllRegister();
+    start_gdal();
     GDALDriverH const driver = GDALGetDriverByName(raster.format.c_str());
     const GDALDatasetH dataset =
         GDALCreate(driver, file.c_str(), raster.columns, raster.rows, raster.bands, raster.type, nullptr);
