@@ -28,8 +28,8 @@ const std::map<std::string, Layer>& layers() {
     static const std::map<std::string, Layer> table = {
         {"shaders", {{standard_library, "glm/.*", "[a-z_]+\\.(glsl|h)"}, {}}},
         {"core",
-         {{standard_library, "(fcntl|unistd|sys/[a-z]+|zstd|xxhash)\\.h", "glm/.*", "meshoptimizer\\.h",
-           "core/.*", "shaders/.*\\.(glsl|h)"},
+         {{standard_library, "(fcntl|unistd|sys/[a-z]+|zstd|zstd_errors|xxhash)\\.h", "glm/.*",
+           "meshoptimizer\\.h", "core/.*", "shaders/.*\\.(glsl|h)"},
           {"orograph_options", "glm::glm", "meshoptimizer(::meshoptimizer)?", "zstd::static"}}},
         {"geo",
          {{standard_library, "(fcntl|unistd|sys/[a-z]+|zlib)\\.h", "glm/.*", "core/.*", "geo/.*",
