@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/device_report.h"
+#include "render/software_driver.h"
 
 namespace oro {
 namespace {
@@ -182,6 +183,7 @@ Result<void> Gpu::choose_device(const GpuOptions& options) {
 }
 
 Result<void> Gpu::create_device(const GpuOptions& options) {
+    if (report_.kind == VK_PHYSICAL_DEVICE_TYPE_CPU) ORO_CHECK(check_room_for_software_driver(report_.name));
     VkPhysicalDeviceMeshShaderFeaturesEXT mesh{};
     mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
     mesh.taskShader = mesh.meshShader = VK_TRUE;
