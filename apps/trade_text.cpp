@@ -40,8 +40,17 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
     return lines;
 }
 
-// A table whose first column is a name, the next are numbers, and the last, if `text_last`, is text that may
-// take several lines.
+// Characters before a number's point, and from there on.
+struct Halves {
+    std::size_t before{}, after{};
+};
+Halves halves_of(const std::string& number) {
+    const std::size_t width = width_of(number), before = std::min(number.find('.'), width);
+    return {before, width - before};
+}
+
+// A table whose first column is a name, the next are numbers, below each other by their points, and the last,
+// if `text_last`, is text that may take several lines.
 class Table {
   public:
     Table(std::vector<std::vector<std::string>> headers, bool text_last)
@@ -51,39 +60,68 @@ class Table {
         rows_.push_back(std::move(row));
     }
     [[nodiscard]] std::string text() const {
-        std::vector<std::size_t> widths(rows_[0].size());
-        for (const auto& row : rows_)
-            for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
-        std::size_t before = 0;
-        for (std::size_t i = 0; i + 1 < widths.size(); ++i) before += widths[i] + 2;
+        const std::vector<Halves> columns = columns_of();
+        const std::size_t before = width_before_last(columns);
         const std::size_t room = terminal_columns - std::min(before, terminal_columns);
         std::string text;
         for (std::size_t i = 0; i < rows_.size(); ++i) {
-            text += line(rows_[i], widths, before, std::max(room, least_last_column));
-            if (i + 1 == headers_) text += std::string(std::min(rule(widths), terminal_columns), '-') + "\n";
+            text += line(rows_[i], i < headers_, columns, std::max(room, least_last_column));
+            if (i + 1 == headers_) text += std::string(std::min(rule(columns), terminal_columns), '-') + "\n";
         }
         return text;
     }
 
   private:
-    static std::size_t rule(const std::vector<std::size_t>& widths) {
-        std::size_t sum = 2 * (widths.size() - 1);
-        for (const std::size_t width : widths) sum += width;
-        return sum;
+    [[nodiscard]] std::vector<Halves> columns_of() const {
+        std::vector<Halves> columns(rows_[0].size());
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                const Halves halves = is_number(r < headers_, i) ? halves_of(rows_[r][i]) : Halves{};
+                columns[i].before = std::max(columns[i].before, halves.before);
+                columns[i].after = std::max(columns[i].after, halves.after);
+            }
+        }
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                const std::size_t width = width_of(rows_[r][i]);
+                if (!is_number(r < headers_, i) && width > columns[i].before + columns[i].after)
+                    columns[i].before = width - columns[i].after;
+            }
+        }
+        return columns;
     }
-    [[nodiscard]] std::string line(const std::vector<std::string>& row,
-                                   const std::vector<std::size_t>& widths, std::size_t before,
-                                   std::size_t room) const {
+    [[nodiscard]] bool is_number(bool header, std::size_t column) const {
+        return !header && column > 0 && !(text_last_ && column + 1 == rows_[0].size());
+    }
+    [[nodiscard]] static std::size_t width_before_last(const std::vector<Halves>& columns) {
+        std::size_t before = 0;
+        for (std::size_t i = 0; i + 1 < columns.size(); ++i)
+            before += columns[i].before + columns[i].after + 2;
+        return before;
+    }
+    static std::size_t rule(const std::vector<Halves>& columns) {
+        return width_before_last(columns) + columns.back().before + columns.back().after;
+    }
+    [[nodiscard]] std::string cell_text(const std::string& cell, bool header, std::size_t column,
+                                        const Halves& width) const {
+        const std::size_t all = width.before + width.after;
+        if (column == 0) return cell + std::string(all - width_of(cell), ' ');
+        if (!is_number(header, column)) return std::string(all - width_of(cell), ' ') + cell;
+        const Halves halves = halves_of(cell);
+        return std::string(width.before - halves.before, ' ') + cell +
+               std::string(width.after - halves.after, ' ');
+    }
+    [[nodiscard]] std::string line(const std::vector<std::string>& row, bool header,
+                                   const std::vector<Halves>& columns, std::size_t room) const {
         std::string text;
         const std::size_t numbers = text_last_ ? row.size() - 1 : row.size();
-        for (std::size_t i = 0; i < numbers; ++i) {
-            const std::string fill(widths[i] - width_of(row[i]), ' ');
-            text += (i > 0 ? "  " : "") + (i == 0 ? row[i] + fill : fill + row[i]);
-        }
+        for (std::size_t i = 0; i < numbers; ++i)
+            text += (i > 0 ? "  " : "") + cell_text(row[i], header, i, columns[i]);
         if (text_last_) {
             const std::vector<std::string> lines = wrapped(row.back(), room);
             text += "  " + lines[0];
-            for (std::size_t i = 1; i < lines.size(); ++i) text += "\n" + std::string(before, ' ') + lines[i];
+            for (std::size_t i = 1; i < lines.size(); ++i)
+                text += "\n" + std::string(width_before_last(columns), ' ') + lines[i];
         }
         text.erase(text.find_last_not_of(' ') + 1);
         return text + "\n";

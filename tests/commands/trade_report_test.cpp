@@ -176,6 +176,26 @@ TEST(TradeReport, EffectsSayTheWorstAndTheirRatios) {
     EXPECT_NE(text.find("stated by the source"), std::string::npos) << text;
 }
 
+// Figures of a column stand below each other by their points.
+TEST(TradeReport, FiguresOfTheTextAreAligned) {
+    TradeReport report;
+    report.shots = {shot("v", "one", 1.3, 0.5), shot("v", "two", 123.0, 40.0),
+                    shot("v", "three", 12.5, 0.0125)};
+    sum_up(report);
+    const std::string text = trade_text(report);
+    std::vector<std::size_t> units;  // where the units of the times stand
+    for (const auto& [setting, time] :
+         {std::pair{"\n* one ", "1.3"}, {"\n  two ", "123"}, {"\n* three ", "12.5"}}) {
+        const std::size_t from = text.find(setting);
+        ASSERT_NE(from, std::string::npos) << text;
+        const std::string line = text.substr(from + 1, text.find('\n', from + 1) - from - 1);
+        const std::size_t at = line.find(time);
+        ASSERT_NE(at, std::string::npos) << line;
+        units.push_back(at + std::string(time).substr(0, std::string(time).find('.')).size());
+    }
+    EXPECT_EQ(units, std::vector<std::size_t>(3, units[0])) << text;
+}
+
 // Loose is what is more than 10 times what was measured, where that is more than nobody asks for.
 TEST(TradeReport, ALooseBoundIsOneThatSaysLittle) {
     const auto effect = [](double predicted_px, std::optional<double> measured_px) {
