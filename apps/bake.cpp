@@ -10,6 +10,7 @@
 #include "apps/commands.h"
 #include "apps/json_text.h"
 #include "apps/progress_bar.h"
+#include "apps/spared_inputs.h"
 #include "apps/view.h"
 #include "core/bake.h"
 #include "core/checksum.h"
@@ -17,6 +18,7 @@
 #include "core/parallel.h"
 #include "core/region_file.h"
 #include "geo/letter_case.h"
+#include "geo/raster_parts.h"
 #include "geo/region_description.h"
 #include "geo/source_paths.h"
 #include "geo/whole_file.h"
@@ -31,11 +33,17 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Files that the paths name or hold: for an archive the archive itself.
+// Files that the paths name or hold, and all that these are made of: for an archive the archive itself.
 Result<std::vector<std::string>> input_files(const std::vector<std::string>& paths) {
     std::vector<std::string> files = paths;
     ORO_TRY(const std::vector<SourcePath> sources, find_sources(paths));
-    for (const SourcePath& source : sources) files.push_back(source.shown);
+    for (const SourcePath& source : sources) {
+        files.push_back(local_file_of(source.file));
+        if (source.hgt || !source.archive.empty()) continue;
+        // What is damaged is told when it is baked.
+        if (const auto parts = parts_of_raster(source.file); parts.ok())
+            files.insert(files.end(), parts->files.begin(), parts->files.end());
+    }
     return files;
 }
 
@@ -49,14 +57,7 @@ Result<void> check_out(const BakingOptions& options) {
     const std::vector<std::string> written = files_of_bake(out);
     if (std::ranges::any_of(written, [](const auto& file) { return access(file.c_str(), F_OK) == 0; })) {
         ORO_TRY(const std::vector<std::string> inputs, input_files(options.region.paths));
-        for (const std::string& file : written) {
-            for (const std::string& input : inputs) {
-                std::error_code not_there;
-                if (fs::equivalent(file, input, not_there))
-                    return Error{ErrorKind::usage, "--out",
-                                 "would replace " + input + ", which is to be baked"};
-            }
-        }
+        ORO_CHECK(spare_files(written, inputs, "which is to be baked"));
     }
     std::error_code ignored;
     if (!options.overwrite && access(out.c_str(), F_OK) == 0 && !fs::is_directory(out, ignored))

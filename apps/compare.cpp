@@ -1,7 +1,6 @@
 // orograph compare: how far the picture of a view is from the truth: drawn again with depths, measured, and
 // not written.
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "apps/commands.h"
@@ -55,9 +54,7 @@ Result<void> run_compare(const CompareOptions& options) {
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     if (!options.out.empty()) {
         ORO_CHECK(spare_inputs({options.out}, view, region));
-        std::error_code not_there;
-        if (std::filesystem::equivalent(options.out, options.view_file, not_there))
-            return Error{ErrorKind::usage, "--out", "would replace " + options.view_file};
+        ORO_CHECK(spare_view({options.out}, options.view_file));
     }
     ORO_TRY(const Style style, load_style(view.style, view.sun));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));

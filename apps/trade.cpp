@@ -11,6 +11,7 @@
 #include "apps/json_text.h"
 #include "apps/pipeline_choice.h"
 #include "apps/progress_bar.h"
+#include "apps/spared_inputs.h"
 #include "apps/style.h"
 #include "apps/trade_measurement.h"
 #include "apps/trade_report.h"
@@ -128,6 +129,8 @@ Result<void> run_trade(const TradeOptions& options) {
     ORO_CHECK(open_view(
         options.view_file, view_options, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    ORO_CHECK(spare_inputs({csv, html}, view, region));
+    if (!options.view_file.empty()) ORO_CHECK(spare_view({csv, html}, options.view_file));
     if (!view.has_geoid)
         return Error{ErrorKind::usage, "--view", "is drawn without a geoid: a trade begins with it"};
     ORO_TRY(const Style style, load_style(view.style, view.sun));

@@ -2,6 +2,7 @@
 
 #include <cpl_vsi.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
@@ -12,8 +13,10 @@
 #include <system_error>
 
 #include "core/ellipsoid.h"
+#include "geo/guarded_files.h"
 #include "geo/letter_case.h"
 #include "geo/raster_library.h"
+#include "geo/raster_parts.h"
 
 namespace oro {
 namespace {
@@ -85,12 +88,20 @@ Error wrong_size(const SourcePath& path, std::uint64_t bytes) {
                      "truncated or of another kind"};
 }
 
-// Reads a packed file to its end, where its checksum is compared: a changed byte often unpacks without
-// complaint into wrong heights.
-Result<void> check_packing(VSILFILE* file, const GdalMessages& messages, const std::string& shown) {
+// Reads a packed tile to its end, where its checksum is compared: a changed byte often unpacks without
+// complaint into wrong heights. Not a byte farther: what a .gz says of its size may be a lie.
+Result<void> check_packing(VSILFILE* file, std::uint64_t bytes_left, const GdalMessages& messages,
+                           const std::string& shown) {
     std::array<unsigned char, 65536> rest{};
-    while (VSIFReadL(rest.data(), 1, rest.size(), file) > 0) {
+    std::uint64_t got = 0;
+    while (got <= bytes_left) {
+        const std::uint64_t wanted = std::min<std::uint64_t>(rest.size(), bytes_left + 1 - got);
+        const std::size_t more = VSIFReadL(rest.data(), 1, wanted, file);
+        if (more == 0) break;
+        got += more;
     }
+    if (got > bytes_left)
+        return Error{ErrorKind::failed, shown, "unpacks to more bytes than the tile that it says it holds"};
     const std::string said = messages.last("");
     if (said.empty()) return {};
     return Error{ErrorKind::failed, shown, "its packing is damaged: " + said};
@@ -178,6 +189,7 @@ Result<Source> inspect_hgt(const SourcePath& path) {
     source.lon_axis = {per_deg, lon, +1, *posts};
     SourceReport& report = source.report;
     report.path = path.shown;
+    report.files = {local_file_of(path.file)};
     report.format = arc_seconds == 1 ? "SRTM1 .hgt" : "SRTM3 .hgt";
     report.crs = "EPSG:4326 WGS 84";
     report.vertical_datum = "EGM96 height (assumed: .hgt states none)";
@@ -194,6 +206,7 @@ Result<Source> inspect_hgt(const SourcePath& path) {
 Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
     const auto side = static_cast<std::size_t>(source.lat_axis.count);
     const GdalMessages messages;
+    const FileWatch watch(reading_limit_s + 1e-6 * static_cast<double>(side) * static_cast<double>(side));
     errno = 0;
     const File file(VSIFOpenL(source.file.c_str(), "rb"));
     if (!file) {
@@ -209,9 +222,11 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
         const std::size_t got = VSIFReadL(row.data(), 1, row.size(), file.get());
         if (got != row.size())
             return Error{ErrorKind::failed, source.report.path,
-                         "ends in post row " + std::to_string(window.row + r) + " of " +
-                             std::to_string(side) + ": " +
-                             messages.last("the file is truncated or its packing is damaged")};
+                         !watch.fault().empty()
+                             ? watch.fault()
+                             : "ends in post row " + std::to_string(window.row + r) + " of " +
+                                   std::to_string(side) + ": " +
+                                   messages.last("the file is truncated or its packing is damaged")};
         for (int c = window.column; c < window.column + window.columns; ++c) {
             const std::size_t byte = 2 * static_cast<std::size_t>(c);
             const auto value = static_cast<std::int16_t>(row[byte] << 8 | row[byte + 1]);
@@ -222,7 +237,10 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
             block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(value));
         }
     }
-    if (source.file.starts_with("/vsi")) ORO_CHECK(check_packing(file.get(), messages, source.report.path));
+    const std::uint64_t bytes_left = row.size() * (side - static_cast<std::size_t>(window.row + window.rows));
+    if (source.file.starts_with("/vsi"))
+        ORO_CHECK(check_packing(file.get(), bytes_left, messages, source.report.path));
+    if (!watch.fault().empty()) return Error{ErrorKind::failed, source.report.path, watch.fault()};
     return block;
 }
 

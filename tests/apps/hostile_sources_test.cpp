@@ -273,6 +273,38 @@ TEST_F(HostileSources, PipesAreNotWaitedFor) {
     EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 1) << outcome.err;
 }
 
+// What a VRT is made of is as safe from --overwrite as the VRT, by any of its names.
+TEST_F(HostileSources, OverwriteSparesAllThatSourcesAreMadeOf) {
+    const fs::path tif = folder / "terrain.tif", inner = folder / "inner.vrt", vrt = folder / "a.vrt";
+    fs::copy_file(oro::test::bundled_data() / "jacksboro.tif", tif);
+    write_bytes(inner, vrt_of({tif}));
+    write_bytes(vrt, vrt_of({inner}));
+    fs::create_hard_link(tif, folder / "hard.tif");
+    fs::create_symlink("terrain.tif", folder / "soft.tif");
+    fs::create_hard_link(tif, folder / "hard.oro");
+    fs::create_directory(folder / "report");
+    fs::create_hard_link(tif, folder / "report" / "trade.csv");
+    fs::create_hard_link(inner, folder / "inner.png");
+    const std::string before = bytes_of(tif), before_inner = bytes_of(inner);
+    for (const Words& words :
+         {Words{"shot", vrt, "--out", tif}, Words{"shot", vrt, "--out", folder / "hard.tif"},
+          Words{"shot", vrt, "--out", folder / "soft.tif"}, Words{"shot", vrt, "--out", folder / "inner.png"},
+          Words{"bake", vrt, "--out", folder / "hard.oro"},
+          Words{"trade", vrt, "--out", folder / "report", "--views", "1"}}) {
+        SCOPED_TRACE(words[0] + " " + words[3]);
+        Words all = words;
+        all.insert(all.end(), {"--overwrite", "-q"});
+        if (words[0] == "shot") all.insert(all.end(), {"--size", "64x48"});
+        const Outcome outcome = run_orograph(all);
+        EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+        EXPECT_NE(outcome.err.find("would replace"), std::string::npos) << outcome.err;
+        EXPECT_EQ(bytes_of(tif), before);
+        EXPECT_EQ(bytes_of(inner), before_inner);
+        EXPECT_EQ(bytes_of(folder / "hard.oro"), before);
+        EXPECT_EQ(bytes_of(folder / "report" / "trade.csv"), before);
+    }
+}
+
 // Each names the one below it four times: 4^16 sources.
 TEST_F(HostileSources, VrtsOfVrtsAreBounded) {
     const std::string near = (oro::test::bundled_data() / "jacksboro.tif").string();

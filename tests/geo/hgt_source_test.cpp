@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -216,6 +218,27 @@ TEST(Hgt, TruncatedArchivesAreErrors) {
     const auto region = open_region(request_for({(folder / "N46E009.hgt.zip").string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("archive"), std::string::npos) << region.error().line();
+}
+
+// The size that a .gz states is that of its last part, modulo 4 GiB; what it unpacks to may be anything.
+TEST(Hgt, GzipThatUnpacksToMoreThanItStates) {
+    const fs::path folder = scratch_folder();
+    const auto bytes = hgt_bytes(1201, ramp);
+    write_bytes("/vsigzip/" + (folder / "tile.gz").string(), bytes);
+    for (const std::size_t more : {std::size_t{1}, std::size_t{64} << 20U}) {
+        std::vector<unsigned char> longer(bytes.size() + more);
+        std::copy(bytes.begin(), bytes.end(), longer.begin());
+        const fs::path file = folder / "N46E008.hgt.gz";
+        write_bytes("/vsigzip/" + file.string(), longer);
+        std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+        stream.seekp(-4, std::ios::end);
+        for (unsigned shift = 0; shift < 32; shift += 8)
+            stream.put(static_cast<char>(bytes.size() >> shift & 0xffU));
+        stream.close();
+        const auto region = open_region(request_for({file.string()}));
+        ASSERT_FALSE(region.ok()) << more;
+        EXPECT_NE(region.error().line().find("N46E008.hgt.gz"), std::string::npos) << region.error().line();
+    }
 }
 
 TEST(Hgt, VoidsAndImplausibleHeightsAreHolesAndCounted) {
