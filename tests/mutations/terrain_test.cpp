@@ -106,6 +106,7 @@ struct Format {
     const char* options;
     std::vector<std::string> damaged;
     bool has_checksum;
+    bool needs_place{};  // the format states no CRS: opened through a VRT that does
 };
 
 TEST(Mutated, Rasters) {
@@ -141,6 +142,9 @@ TEST(Mutated, Rasters) {
         {"GPKG", "r.gpkg", "-of GPKG -ot Float32", {"r.gpkg"}, false},
         {"XYZ", "r.xyz", "-of XYZ", {"r.xyz"}, false},
         {"VRT", "r.vrt", "-of VRT", {"r.vrt", "corner.tif"}, false},
+        {"GSAG", "r.grd", "-of GSAG", {"r.grd"}, false, true},
+        {"GSBG", "r.grd", "-of GSBG", {"r.grd"}, false, true},
+        {"GS7BG", "r.grd", "-of GS7BG", {"r.grd"}, false, true},
     };
     const fs::path source = corner(60);
     for (const Format& format : formats) {
@@ -150,6 +154,12 @@ TEST(Mutated, Rasters) {
         ASSERT_EQ(shell("cd " + quoted(sample.folder) + " && gdal_translate " + format.options +
                         " corner.tif " + format.file),
                   0);
+        if (format.needs_place) {
+            ASSERT_EQ(shell("cd " + quoted(sample.folder) + " && gdal_translate -of VRT -a_srs EPSG:4269 " +
+                            format.file + " r.vrt"),
+                      0);
+            sample.opened = "r.vrt";
+        }
         expect_terrain(sample, 1400 / 12 + 1);
     }
 }
