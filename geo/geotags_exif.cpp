@@ -116,36 +116,35 @@ ExifField short_integer(std::uint16_t tag, std::uint32_t value) {
     return {tag, ExifType::short_integer, Integers{value}};
 }
 
+// Not an initializer list: where copying out of one throws (there is no memory), GCC 12 frees it twice.
+template <class... Fields>
+std::vector<ExifField> fields_of(Fields... fields) {
+    std::vector<ExifField> all;
+    all.reserve(sizeof...(fields));
+    (all.push_back(std::move(fields)), ...);
+    return all;
+}
+
 // Tags by number, as EXIF 2.31 (CIPA DC-008-2016) lists them: the names are the same in libexif and libtiff,
 // the macros are not.
 std::vector<ExifField> gps_fields(const Geotags& tags, const TimeText& time) {
     const ExifRational height = rational(std::abs(tags.H_m), 10'000);
     const std::uint8_t below = tags.H_m < 0 && height.numerator != 0;
-    std::vector<ExifField> fields{
-        {0, ExifType::byte, Bytes{2, 3, 0, 0}},
-        text(1, tags.lat_deg < 0 ? "S" : "N"),
-        rationals(2, degrees_minutes_seconds(tags.lat_deg)),
-        text(3, tags.lon_deg < 0 ? "W" : "E"),
-        rationals(4, degrees_minutes_seconds(tags.lon_deg)),
-        {5, ExifType::byte, Bytes{below}},
-        rationals(6, {height}),
-        rationals(7, {{time.hour, 1}, {time.minute, 1}, {time.second, 1}}),
-        text(16, "T"),
-        rationals(17, {direction(tags.heading_deg)}),
-        text(18, "WGS-84"),
-    };
+    std::vector<ExifField> fields = fields_of(
+        ExifField{0, ExifType::byte, Bytes{2, 3, 0, 0}}, text(1, tags.lat_deg < 0 ? "S" : "N"),
+        rationals(2, degrees_minutes_seconds(tags.lat_deg)), text(3, tags.lon_deg < 0 ? "W" : "E"),
+        rationals(4, degrees_minutes_seconds(tags.lon_deg)), ExifField{5, ExifType::byte, Bytes{below}},
+        rationals(6, {height}), rationals(7, {{time.hour, 1}, {time.minute, 1}, {time.second, 1}}),
+        text(16, "T"), rationals(17, {direction(tags.heading_deg)}), text(18, "WGS-84"));
     if (tags.destination) {
         const DestinationTag& destination = *tags.destination;
-        for (ExifField& field : std::vector<ExifField>{
-                 text(19, destination.lat_deg < 0 ? "S" : "N"),
-                 rationals(20, degrees_minutes_seconds(destination.lat_deg)),
-                 text(21, destination.lon_deg < 0 ? "W" : "E"),
-                 rationals(22, degrees_minutes_seconds(destination.lon_deg)),
-                 text(23, "T"),
-                 rationals(24, {direction(destination.bearing_deg)}),
-                 text(25, "K"),
-                 rationals(26, {rational(destination.distance_m / 1000, 1'000'000)}),
-             })
+        for (ExifField& field :
+             fields_of(text(19, destination.lat_deg < 0 ? "S" : "N"),
+                       rationals(20, degrees_minutes_seconds(destination.lat_deg)),
+                       text(21, destination.lon_deg < 0 ? "W" : "E"),
+                       rationals(22, degrees_minutes_seconds(destination.lon_deg)), text(23, "T"),
+                       rationals(24, {direction(destination.bearing_deg)}), text(25, "K"),
+                       rationals(26, {rational(destination.distance_m / 1000, 1'000'000)})))
             fields.push_back(std::move(field));
     }
     // GPSProcessingMethod: entered by hand, not by a receiver. A TIFF must have it.
@@ -224,29 +223,22 @@ Result<ExifFields> exif_fields(const Geotags& tags) {
     ORO_CHECK(check(tags));
     ORO_TRY(const TimeText time, time_text(tags.time_utc_s));
     ExifFields fields;
-    fields.image = {
+    fields.image = fields_of(
         rationals(0x011A, {{72, 1}}),  // a resolution must be given, and a picture on no paper has none
-        rationals(0x011B, {{72, 1}}),
-        short_integer(0x0128, 2),
-        text(0x0132, time.date_time),
-    };
+        rationals(0x011B, {{72, 1}}), short_integer(0x0128, 2), text(0x0132, time.date_time));
     if (!tags.software.empty()) fields.image.push_back(text(0x0131, tags.software));
     // UTF-8, as the Metadata Working Group's guidelines (2010) ask for.
     if (!tags.attribution.empty()) fields.image.push_back(text(0x8298, tags.attribution));
     const double focal_mm = focal_length_35mm(tags.vertical_fov_deg, tags.width_px, tags.height_px);
-    fields.photo = {
-        {0x9000, ExifType::undefined, Bytes{'0', '2', '3', '1'}},
-        text(0x9003, time.date_time),
-        text(0x9010, "+00:00"),
-        text(0x9011, "+00:00"),
-        {0x9101, ExifType::undefined, Bytes{1, 2, 3, 0}},
-        {0xA000, ExifType::undefined, Bytes{'0', '1', '0', '0'}},
-        short_integer(0xA001, 1),  // sRGB
-        {0xA002, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.width_px)}},
-        {0xA003, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.height_px)}},
+    fields.photo = fields_of(
+        ExifField{0x9000, ExifType::undefined, Bytes{'0', '2', '3', '1'}}, text(0x9003, time.date_time),
+        text(0x9010, "+00:00"), text(0x9011, "+00:00"),
+        ExifField{0x9101, ExifType::undefined, Bytes{1, 2, 3, 0}},
+        ExifField{0xA000, ExifType::undefined, Bytes{'0', '1', '0', '0'}}, short_integer(0xA001, 1),  // sRGB
+        ExifField{0xA002, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.width_px)}},
+        ExifField{0xA003, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.height_px)}},
         // 0 would mean unknown.
-        short_integer(0xA405, static_cast<std::uint32_t>(std::clamp(std::round(focal_mm), 1.0, 65535.0))),
-    };
+        short_integer(0xA405, static_cast<std::uint32_t>(std::clamp(std::round(focal_mm), 1.0, 65535.0))));
     fields.gps = gps_fields(tags, time);
     return fields;
 }
