@@ -101,7 +101,7 @@ Result<void> check_options(const TradeOptions& options, const std::string& csv, 
     return {};
 }
 
-// Both are on the disk before either gets its name: they belong together.
+// They belong together: both, or neither.
 Result<void> write_report(const TradeReport& report, const std::string& csv, const std::string& html,
                           bool overwrite) {
     ORO_TRY(WholeFile table, WholeFile::create(csv, overwrite));
@@ -109,10 +109,7 @@ Result<void> write_report(const TradeReport& report, const std::string& csv, con
     const std::string lines = trade_csv(report), text = trade_html(report);
     ORO_CHECK(table.write(lines.data(), lines.size()));
     ORO_CHECK(page.write(text.data(), text.size()));
-    ORO_CHECK(table.settle());
-    ORO_CHECK(page.settle());
-    ORO_CHECK(table.commit());
-    return page.commit();
+    return commit_together({&table, &page});
 }
 
 }  // namespace

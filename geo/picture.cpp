@@ -42,7 +42,7 @@ Result<void> EncodedPicture::write_row(std::span<const std::uint8_t> rgb) {
     return {};
 }
 
-Result<void> EncodedPicture::finish() {
+Result<WholeFile> EncodedPicture::finished_file() {
     if (fault_) return *fault_;
     assert(!finished_);
     if (rows_ != parts_.height_px) {
@@ -52,9 +52,14 @@ Result<void> EncodedPicture::finish() {
     if (!end()) return fail();
     release();
     if (fault_) return fail();
-    const Result<void> committed = parts_.file.commit();
-    if (!committed.ok()) fault_ = committed.error();
     finished_ = true;
+    return std::move(parts_.file);
+}
+
+Result<void> EncodedPicture::finish() {
+    ORO_TRY(WholeFile file, finished_file());
+    const Result<void> committed = file.commit();
+    if (!committed.ok()) fault_ = committed.error();
     return committed;
 }
 

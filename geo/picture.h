@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/result.h"
+#include "geo/whole_file.h"
 
 namespace oro {
 
@@ -55,6 +56,8 @@ class PictureWriter {
     virtual Result<void> write_row(std::span<const std::uint8_t> rgb) = 0;
     // After the last row: closes, syncs and renames.
     virtual Result<void> finish() = 0;
+    // After the last row, instead of finish(): the whole picture, which has no name yet.
+    virtual Result<WholeFile> finished_file() = 0;
 };
 
 // Errors: a name or size that the format cannot have (usage; a JPEG is at most 65500 pixels wide and high);

@@ -29,6 +29,7 @@ class EncodedPicture : public PictureWriter {
   public:
     Result<void> write_row(std::span<const std::uint8_t> rgb) final;
     Result<void> finish() final;
+    Result<WholeFile> finished_file() final;
 
   protected:
     explicit EncodedPicture(PictureParts parts);

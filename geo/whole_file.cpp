@@ -6,10 +6,8 @@
 
 #include <cassert>
 #include <cerrno>
-#include <mutex>
-#include <random>
-#include <set>
 #include <utility>
+#include <vector>
 
 #include "core/file_target.h"
 #include "core/open_file.h"
@@ -27,69 +25,28 @@ std::string folder_of(const std::string& path) {
     return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// The temporary names in use. They stay to the very end of the program: a signal may come then, too.
-struct Unfinished {
-    std::mutex mutex;
-    std::set<std::string> paths;
-};
-Unfinished& unfinished() {
-    static auto* const all = new Unfinished;
-    return *all;
-}
-
-// A new file ".orograph-RANDOM" in the folder, opened for reading (TIFF reads back what it wrote) and
-// writing. Not mkstemp: the mode 0666 given here is cut by the umask in the kernel, whereas the umask cannot
-// be read without changing it for the other threads. The name does not hold the real one, which may be as
-// long as a name can be.
-int open_temporary(const std::string& folder, std::string& temporary_path) {
-    static constexpr char letters[] = "abcdefghijklmnopqrstuvwxyz0123456789";
-    std::random_device random;
-    std::uniform_int_distribution<std::size_t> letter(0, sizeof(letters) - 2);
-    const std::scoped_lock lock(unfinished().mutex);
-    for (int attempt = 0; attempt < 100; ++attempt) {
-        std::string path = (folder == "/" ? "" : folder) + "/.orograph-";
-        for (int i = 0; i < 10; ++i) path += letters[letter(random)];
-        // Before the file is there: without memory for its name nobody would remove it.
-        const auto name = unfinished().paths.insert(path).first;
-        const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0) {
-            temporary_path = std::move(path);
-            return descriptor;
-        }
-        const int why = errno;
-        unfinished().paths.erase(name);
-        errno = why;
-        if (why != EEXIST) return descriptor;
-    }
-    return -1;
-}
-
-void forget_temporary(const std::string& path) {
-    const std::scoped_lock lock(unfinished().mutex);
-    unfinished().paths.erase(path);
-}
-
 }  // namespace
 
-Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
+Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite, Temporary kind) {
     ignore_size_limit_signal();
     WholeFile file;
     file.path_ = path;
     file.overwrite_ = overwrite;
     ORO_TRY(const unsigned old_mode, check_target(file.path_, overwrite));
     const std::string folder = folder_of(file.path_);
-    const int descriptor = open_temporary(folder, file.temporary_path_);
-    if (descriptor < 0) {
-        const std::string why =
-            errno == ENOENT ? "is not there" : "cannot be written in: " + system_reason(errno);
-        return fault(path, "the folder " + folder + " " + why);
+    if (const int why = file.temporary_.make(folder, kind); why != 0) {
+        const std::string reason =
+            why == ENOENT ? "is not there" : "cannot be written in: " + system_reason(why);
+        return fault(path, "the folder " + folder + " " + reason);
     }
     // A file that its owner had closed to others stays closed to them when it is replaced.
-    if (old_mode != 0) (void)fchmod(descriptor, old_mode);
-    file.stream_ = fdopen(descriptor, "w+b");
+    if (old_mode != 0) (void)fchmod(file.temporary_.descriptor(), old_mode);
+    // The lock is the temporary file's, and outlasts the stream.
+    const int descriptor = fcntl(file.temporary_.descriptor(), F_DUPFD_CLOEXEC, 0);
+    if (descriptor >= 0) file.stream_ = fdopen(descriptor, "w+b");
     if (!file.stream_) {
         const int why = errno;
-        close(descriptor);
+        if (descriptor >= 0) close(descriptor);
         return fault(path, "cannot be written: " + system_reason(why));
     }
     return file;
@@ -98,7 +55,7 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
 WholeFile::WholeFile(WholeFile&& other) noexcept
     : stream_(std::exchange(other.stream_, nullptr)),
       path_(std::move(other.path_)),
-      temporary_path_(std::exchange(other.temporary_path_, {})),
+      temporary_(std::move(other.temporary_)),
       overwrite_(other.overwrite_) {}
 
 WholeFile& WholeFile::operator=(WholeFile&& other) noexcept {
@@ -106,7 +63,7 @@ WholeFile& WholeFile::operator=(WholeFile&& other) noexcept {
     abandon();
     stream_ = std::exchange(other.stream_, nullptr);
     path_ = std::move(other.path_);
-    temporary_path_ = std::exchange(other.temporary_path_, {});
+    temporary_ = std::move(other.temporary_);
     overwrite_ = other.overwrite_;
     return *this;
 }
@@ -117,10 +74,7 @@ WholeFile::~WholeFile() {
 
 void WholeFile::abandon() noexcept {
     if (stream_) std::fclose(std::exchange(stream_, nullptr));
-    if (temporary_path_.empty()) return;
-    unlink(temporary_path_.c_str());
-    forget_temporary(temporary_path_);
-    temporary_path_.clear();
+    temporary_ = TemporaryFile();
 }
 
 Result<void> WholeFile::write(const void* bytes, std::size_t count) {
@@ -137,29 +91,54 @@ Result<void> WholeFile::settle() {
     return fault(path_, "cannot be written: " + system_reason(errno ? errno : EIO));
 }
 
-Result<void> WholeFile::commit() {
-    if (auto settled = settle(); !settled.ok()) {
-        abandon();
-        return settled;
-    }
-    int why = std::fclose(std::exchange(stream_, nullptr)) == 0 ? 0 : errno;
-    if (why == 0) why = take_file_name(temporary_path_, path_, overwrite_);
-    if (why == EEXIST && !overwrite_) {
-        abandon();
-        return fault(path_, "appeared while it was being written, and is left as it is");
-    }
-    if (why != 0) {
-        abandon();
-        return fault(path_, "cannot be written: " + system_reason(why));
-    }
-    forget_temporary(temporary_path_);
-    temporary_path_.clear();
-    return {};
+int WholeFile::take_name() {
+    int why = temporary_.take_temporary_name();
+    // A stream that was flushed and synced has nothing left to lose.
+    if (std::fclose(std::exchange(stream_, nullptr)) != 0 && why == 0) why = errno;
+    if (why == 0) why = take_file_name(temporary_.path(), path_, overwrite_);
+    if (why == 0) temporary_.forget_name();
+    return why;
 }
 
-void remove_unfinished_files() {
-    unfinished().mutex.lock();  // for good: see the header
-    for (const std::string& path : unfinished().paths) unlink(path.c_str());
+Result<void> WholeFile::commit() {
+    return commit_together({this});
+}
+
+// A name that was taken is given back to what had it, or was nobody's before.
+void WholeFile::give_back(TemporaryFile& before, bool was_there) {
+    const bool given = before.path().empty() ? !was_there && unlink(path_.c_str()) == 0
+                                             : rename(before.path().c_str(), path_.c_str()) == 0;
+    if (given) before.forget_name();
+}
+
+Result<void> commit_together(std::initializer_list<WholeFile*> files) {
+    const auto failed = [&](const Error& error) {
+        for (WholeFile* file : files) file->abandon();
+        return error;
+    };
+    for (WholeFile* file : files) {
+        if (const auto settled = file->settle(); !settled.ok()) return failed(settled.error());
+    }
+    const NamesHeld held;
+    struct Taken {
+        WholeFile* file;
+        bool was_there;
+        TemporaryFile before;  // what had the name, by a second one
+    };
+    std::vector<Taken> taken;
+    for (WholeFile* file : files) {
+        Taken now{file, access(file->path_.c_str(), F_OK) == 0, {}};
+        if (now.was_there && taken.size() + 1 < files.size()) (void)now.before.keep(file->path_);
+        if (const int why = file->take_name(); why != 0) {
+            for (Taken& other : taken) other.file->give_back(other.before, other.was_there);
+            const bool appeared = why == EEXIST && !file->overwrite_;
+            return failed(fault(file->path_, appeared
+                                                 ? "appeared while it was being written, and is left as it is"
+                                                 : "cannot be written: " + system_reason(why)));
+        }
+        taken.push_back(std::move(now));
+    }
+    return {};
 }
 
 Result<void> write_whole_file(const std::string& path, const std::string& text, bool overwrite) {

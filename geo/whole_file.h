@@ -2,18 +2,21 @@
 #pragma once
 
 #include <cstdio>
+#include <initializer_list>
 #include <string>
 
 #include "core/result.h"
+#include "geo/temporary_file.h"
 
 namespace oro {
 
-// A file under a temporary name in the same folder, which takes its real name on commit(). Destroyed without commit, it is
-// removed and whatever had the name before is untouched.
+// A file without a name, or under a temporary one, in the same folder, which takes its real name on commit().
+// Destroyed without commit, it is removed and whatever had the name before is untouched.
 class WholeFile {
   public:
     // Errors: unwritable folder, a folder of that name, an existing file when overwrite is false.
-    static Result<WholeFile> create(const std::string& path, bool overwrite);
+    static Result<WholeFile> create(const std::string& path, bool overwrite,
+                                    Temporary kind = Temporary::nameless);
     WholeFile(WholeFile&& other) noexcept;
     WholeFile& operator=(WholeFile&& other) noexcept;
     WholeFile(const WholeFile&) = delete;
@@ -21,29 +24,33 @@ class WholeFile {
     ~WholeFile();
 
     [[nodiscard]] std::FILE* stream() const { return stream_; }
-    [[nodiscard]] const std::string& temporary_path() const { return temporary_path_; }
     // Appends; reports the system's reason (a full disk, a file size limit).
     Result<void> write(const void* bytes, std::size_t count);
     // Puts what was written so far on the disk, so that of commit() only the renaming is left: for files that
     // must appear together.
     Result<void> settle();
-    // Flushes, syncs, closes and renames over the real name (fails, when overwrite is false and the name was taken since).
+    // Flushes, syncs, closes and renames over the real name (fails, when overwrite is false and the name was
+    // taken since).
     Result<void> commit();
 
   private:
     WholeFile() = default;
+    friend Result<void> commit_together(std::initializer_list<WholeFile*> files);
     void abandon() noexcept;
+    // What is left of commit() when all is on the disk. 0, or the system's error number.
+    int take_name();
+    void give_back(TemporaryFile& before, bool was_there);
 
     std::FILE* stream_{nullptr};
     std::string path_;
-    std::string temporary_path_;
+    TemporaryFile temporary_;
     bool overwrite_{false};
 };
 
-// For a program that a signal ends: removes the temporary files of all unfinished WholeFiles, and lets no new
-// one appear (a thread that wants one waits). The program must end after it. From any thread; not from a signal
-// handler.
-void remove_unfinished_files();
+// commit() of files that belong together: all have their names after it, or none has: what had them before
+// has them again. Only a power cut between two renamings, which take no time, leaves some; the last file is
+// the one that matters.
+Result<void> commit_together(std::initializer_list<WholeFile*> files);
 
 // Writes a whole text file in one go.
 Result<void> write_whole_file(const std::string& path, const std::string& text, bool overwrite);

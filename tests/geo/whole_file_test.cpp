@@ -1,12 +1,15 @@
 #include "geo/whole_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -43,8 +46,6 @@ TEST(WholeFile, AppearsOnlyWhenCommitted) {
     ASSERT_TRUE(file.ok()) << file.error().line();
     ASSERT_TRUE(file->write("height", 6).ok());
     EXPECT_FALSE(fs::exists(folder / "a.txt"));
-    EXPECT_EQ(fs::path(file->temporary_path()).parent_path(), folder);
-    EXPECT_TRUE(fs::path(file->temporary_path()).filename().string().starts_with('.'));
     const auto committed = file->commit();
     ASSERT_TRUE(committed.ok()) << committed.error().line();
     EXPECT_EQ(content(folder / "a.txt"), "height");
@@ -58,7 +59,7 @@ TEST(WholeFile, LeavesNothingWhenDestroyed) {
         auto file = WholeFile::create(folder / "a.txt", true);
         ASSERT_TRUE(file.ok());
         ASSERT_TRUE(file->write("new", 3).ok());
-        EXPECT_EQ(names_in(folder).size(), 2U);
+        EXPECT_EQ(names_in(folder), Names{"a.txt"}) << "no name that a kill could leave";
     }
     EXPECT_EQ(names_in(folder), Names{"a.txt"});
     EXPECT_EQ(content(folder / "a.txt"), "old");
@@ -194,10 +195,85 @@ TEST(WholeFile, MovesWithItsFile) {
     WholeFile file = std::move(*first);
     ASSERT_TRUE(file.write("text", 4).ok());
     *second = std::move(file);  // "second" is abandoned
-    EXPECT_EQ(names_in(folder).size(), 1U);
+    EXPECT_EQ(names_in(folder), Names{});
     ASSERT_TRUE(second->commit().ok());
     EXPECT_EQ(names_in(folder), Names{"first"});
     EXPECT_EQ(content(folder / "first"), "text");
+}
+
+// Where a file system has no files without names.
+TEST(WholeFile, MayHaveATemporaryName) {
+    const fs::path folder = test::scratch_folder();
+    {
+        auto file = WholeFile::create(folder / "a.txt", false, Temporary::named);
+        ASSERT_TRUE(file.ok()) << file.error().line();
+        ASSERT_TRUE(file->write("new", 3).ok());
+        ASSERT_EQ(names_in(folder).size(), 1U);
+        EXPECT_TRUE(names_in(folder).front().starts_with(".orograph-"));
+    }
+    EXPECT_EQ(names_in(folder), Names{});
+    auto file = WholeFile::create(folder / "a.txt", false, Temporary::named);
+    ASSERT_TRUE(file.ok() && file->write("new", 3).ok() && file->commit().ok());
+    EXPECT_EQ(names_in(folder), Names{"a.txt"});
+    EXPECT_EQ(content(folder / "a.txt"), "new");
+}
+
+// A child that is killed leaves a file under a temporary name; the next run removes it. One that somebody
+// still holds stays, and so does what only looks alike.
+TEST(WholeFile, RemovesWhatAKilledProgramLeft) {
+    const fs::path folder = test::scratch_folder();
+    const pid_t child = fork();
+    if (child == 0) {
+        const auto file = WholeFile::create(folder / "a.txt", false, Temporary::named);
+        (void)raise(file.ok() ? SIGKILL : SIGTERM);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+    const Names left = names_in(folder);
+    ASSERT_EQ(left.size(), 1U);
+    const std::string name = left.front();
+    std::string alike = name;
+    alike.back() = alike.back() == '0' ? '1' : '0';
+    put(folder / alike, "mine");
+    fs::copy_file(folder / name, folder / "kept");
+    const int held = open((folder / name).c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_EQ(flock(held, LOCK_EX), 0);
+    { const auto file = WholeFile::create(folder.string() + "/./b.txt", false); }
+    EXPECT_EQ(names_in(folder).size(), 3U) << "somebody holds it";
+    close(held);
+    { const auto file = WholeFile::create(folder / "b.txt", false); }
+    EXPECT_EQ(names_in(folder), (Names{alike, "kept"}));
+}
+
+// The second of two cannot have its name: the first gives its own back.
+TEST(WholeFile, FilesThatBelongTogetherAppearTogether) {
+    for (const Temporary kind : {Temporary::nameless, Temporary::named}) {
+        for (const bool was_there : {true, false}) {
+            const fs::path folder = test::scratch_folder();
+            if (was_there) put(folder / "a.txt", "old a");
+            auto a = WholeFile::create(folder / "a.txt", true, kind);
+            auto b = WholeFile::create(folder / "b.txt", true, kind);
+            ASSERT_TRUE(a.ok() && b.ok() && a->write("new a", 5).ok() && b->write("new b", 5).ok());
+            fs::create_directory(folder / "b.txt");  // no file's name from now on
+            const auto committed = commit_together({&*a, &*b});
+            ASSERT_FALSE(committed.ok());
+            EXPECT_NE(committed.error().line().find("b.txt: cannot be written"), std::string::npos)
+                << committed.error().line();
+            EXPECT_EQ(names_in(folder), was_there ? (Names{"a.txt", "b.txt"}) : Names{"b.txt"});
+            if (!was_there) continue;
+            EXPECT_EQ(content(folder / "a.txt"), "old a");
+        }
+        const fs::path folder = test::scratch_folder();
+        put(folder / "a.txt", "old a");
+        auto a = WholeFile::create(folder / "a.txt", true, kind);
+        auto b = WholeFile::create(folder / "b.txt", false, kind);
+        ASSERT_TRUE(a.ok() && b.ok() && a->write("new a", 5).ok() && b->write("new b", 5).ok());
+        ASSERT_TRUE(commit_together({&*a, &*b}).ok());
+        EXPECT_EQ(content(folder / "a.txt"), "new a");
+        EXPECT_EQ(content(folder / "b.txt"), "new b");
+        EXPECT_EQ(names_in(folder), (Names{"a.txt", "b.txt"}));
+    }
 }
 
 // A limit on the size of files stands in for a full disk: both fail in write(2), at any later moment. The
