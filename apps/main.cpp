@@ -28,16 +28,18 @@ constexpr const char* exit_codes =
 
 void add_shot(CLI::App& app, oro::ShotOptions& options) {
     CLI::App& command =
-        *app.add_subcommand("shot", "Write a geotagged picture (.png, .jpg, .tif) and its view (.json)");
+        *app.add_subcommand("shot", "Write a geotagged picture (.png, .jpg, .tif) that carries its view");
     oro::add_region_options(command, options.region);
     oro::add_view_options(command, options.view);
     oro::add_memory_options(command, options.memory);
-    command.add_option("--view", options.view_file,
-                       "Take sources and eye from a view: the .json beside a picture, or the picture");
+    command.add_option(
+        "--view", options.view_file,
+        "Take sources and eye from a picture that carries its view, or from a view in a .json");
     command.add_option("--out", options.out, "The picture to write");
     command.add_flag("--verify", options.verify,
                      "Measure the picture against the full resolution, in metres and pixels, and write "
                      "NAME.error.png beside it");
+    oro::add_no_paths(command, options.no_paths);
     command.add_flag("--overwrite", options.overwrite, "Replace files that are there");
     command.add_flag("--json", options.json, "Print one JSON object about the picture on standard output");
     command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
@@ -48,7 +50,7 @@ void add_compare(CLI::App& app, oro::CompareOptions& options) {
         "compare", "Measure a picture's view against the full resolution: how far off it is drawn");
     command
         .add_option("PICTURE", options.view_file,
-                    "A picture that carries its view, or the .json beside it; PATHs after it are its data, "
+                    "A picture that carries its view, or a view in a .json; PATHs after it are its data, "
                     "if they lie elsewhere now")
         ->required();
     oro::add_region_options(command, options.region);
@@ -70,7 +72,8 @@ void add_view(CLI::App& app, oro::WindowOptions& options) {
     oro::add_view_options(command, options.view);
     oro::add_memory_options(command, options.memory);
     command.add_option("--view", options.view_file,
-                       "Start from a view: the .json beside a picture, or the picture");
+                       "Start from a picture that carries its view, or from a view in a .json");
+    oro::add_no_paths(command, options.no_paths);
     command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
 }
 
@@ -79,8 +82,9 @@ void add_plan(CLI::App& app, oro::PlanOptions& options) {
         "plan", "Predict how far off a view would be, and what makes it so: in metres and pixels");
     oro::add_region_options(command, options.region);
     oro::add_view_options(command, options.view);
-    command.add_option("--view", options.view_file,
-                       "Take sources and eye from a view: the .json beside a picture, or the picture");
+    command.add_option(
+        "--view", options.view_file,
+        "Take sources and eye from a picture that carries its view, or from a view in a .json");
     command.add_flag("--json", options.json, "Print one JSON object on standard output");
     command.add_flag("-q,--quiet", options.quiet, "Say nothing but the table and errors");
 }
@@ -92,8 +96,9 @@ void add_trade(CLI::App& app, oro::TradeOptions& options) {
     oro::add_region_options(command, options.region);
     oro::add_view_options(command, options.view);
     oro::add_memory_options(command, options.memory);
-    command.add_option("--view", options.view_file,
-                       "Take sources and eye from a view: the .json beside a picture, or the picture");
+    command.add_option(
+        "--view", options.view_file,
+        "Take sources and eye from a picture that carries its view, or from a view in a .json");
     command.add_option("--views", options.views, "Views of the set (default 6)")->check(CLI::Range(1, 1000));
     command
         .add_option("--repeats", options.repeats,
@@ -131,12 +136,24 @@ void add_doctor(CLI::App& app, oro::DoctorOptions& options) {
     command.add_flag("--json", options.json, "Print one JSON object on standard output");
 }
 
+// The parser takes 010 for eight and 0x10 for sixteen, as C does.
+std::string plain_whole_number(std::string& text) {
+    const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+    if (text.size() == sign || text.find_first_not_of("0123456789", sign) != std::string::npos)
+        return "'" + text + "' is no whole number in decimal digits";
+    const std::size_t first = text.find_first_not_of('0', sign);
+    text.erase(sign, (first == std::string::npos ? text.size() - 1 : first) - sign);
+    return {};
+}
+
 // `--tau "$TAU"` with nothing in TAU must not mean that there is no --tau.
-void refuse_empty_values(CLI::App& app) {
+void check_values(CLI::App& app) {
     const auto fault = [](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); };
     for (CLI::App* command : app.get_subcommands({})) {
         for (CLI::Option* option : command->get_options()) {
             if (option->get_items_expected_max() > 0) option->check(fault);
+            if (option->get_type_name().starts_with("INT"))
+                option->transform(CLI::Validator(plain_whole_number, ""));
         }
     }
 }
@@ -216,7 +233,7 @@ int run_command_line(int argc, char** argv) {
     add_bake(app, bake);
     add_info(app, info);
     add_doctor(app, doctor);
-    refuse_empty_values(app);
+    check_values(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

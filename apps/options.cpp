@@ -88,6 +88,12 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
                        "The picture's time, e.g. 2026-11-21T09:00:00Z (default: now)");
 }
 
+void add_no_paths(CLI::App& command, bool& no_paths) {
+    command.add_flag(
+        "--no-paths", no_paths,
+        "Leave the paths of data and style out of the picture; --view then needs the data named");
+}
+
 void add_memory_options(CLI::App& command, MemoryOptions& options) {
     command
         .add_option("--gpu-memory", options.gpu_memory_mb,

@@ -61,6 +61,7 @@ struct ShotOptions {
     std::string view_file;
     std::string out;
     bool verify{false};
+    bool no_paths{false};  // the picture tells no paths
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
@@ -102,6 +103,7 @@ struct WindowOptions {
     ViewOptions view;
     MemoryOptions memory;
     std::string view_file;
+    bool no_paths{false};  // its pictures tell no paths
     bool quiet{false};
 };
 
@@ -126,6 +128,7 @@ struct DoctorOptions {
 
 void add_region_options(CLI::App& command, RegionOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
+void add_no_paths(CLI::App& command, bool& no_paths);
 void add_memory_options(CLI::App& command, MemoryOptions& options);
 
 }  // namespace oro

@@ -4,14 +4,16 @@
 
 #include "apps/pipeline_choice.h"
 #include "apps/region_json.h"
-#include "geo/whole_file.h"
+#include "apps/view_paths.h"
 
 namespace oro {
 
 PictureFiles picture_files(const std::string& picture) {
     const std::filesystem::path path(picture);
-    return {picture, std::filesystem::path(path).replace_extension(".json").string(),
-            std::filesystem::path(path).replace_extension(".error.png").string()};
+    const bool is_png = path.extension() == ".png";
+    return {picture,
+            (is_png ? std::filesystem::path(path).replace_extension() : path).string() + ".error.png",
+            picture};
 }
 
 Geotags geotags_of(const View& view, const Region& region, const std::optional<SeenPlace>& middle) {
@@ -39,20 +41,20 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
     return tags;
 }
 
-Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                    const Region& region, const std::optional<SeenPlace>& middle,
-                                    const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
-                                    const RenderProgress& progress) {
+Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
+                                  const Region& region, const std::optional<SeenPlace>& middle,
+                                  const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                  const RenderProgress& progress) {
     // The eye and the tags come from heights that were asked for by now.
     ORO_CHECK(region.field.health());
     PictureOptions options;
     ORO_TRY(options.path, choose_path(view.pipeline, gpu));
     // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
-    View drawn = view;
+    View drawn = view_told_by(view, files.told_from);
     drawn.pipeline = name_of(options.path);
+    ORO_CHECK(check_view_opens(drawn, files.picture));
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,
             create_picture(files.picture, geotags_of(drawn, region, middle), overwrite));
-    ORO_TRY(WholeFile view_file, WholeFile::create(files.view, overwrite));
     options.samples = view.samples;
     options.tau_px = view.tau_px;
     options.model = view.model;
@@ -66,14 +68,18 @@ Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, c
         return Error{ErrorKind::failed, "--gpu-memory",
                      "the GPU may hold " + std::to_string(scene.store().capacity()) +
                          " pages of terrain; this view needs more (a larger --tau needs fewer)"};
-    // The view is on the disk before the picture gets its name, and gets its own name after: when the disk is
-    // full, neither changes.
-    const std::string text = view_to_json(drawn, true) + "\n";
-    ORO_CHECK(view_file.write(text.data(), text.size()));
-    ORO_CHECK(view_file.settle());
-    ORO_CHECK(writer->finish());
-    ORO_CHECK(view_file.commit());
-    return report;
+    ORO_TRY(WholeFile file, writer->finished_file());
+    return DrawnPicture{report, std::move(file)};
+}
+
+Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
+                                    const Region& region, const std::optional<SeenPlace>& middle,
+                                    const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                    const RenderProgress& progress) {
+    ORO_TRY(DrawnPicture picture,
+            draw_picture(files, overwrite, view, region, middle, gpu, scene, style, progress));
+    ORO_CHECK(picture.file.commit());
+    return picture.report;
 }
 
 }  // namespace oro

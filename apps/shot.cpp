@@ -1,16 +1,14 @@
 // orograph shot: from files to a picture that knows where it was taken from.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <span>
 
 #include "apps/accuracy.h"
 #include "apps/commands.h"
-#include "apps/interruption.h"
 #include "apps/json_text.h"
 #include "apps/model_names.h"
 #include "apps/picking.h"
@@ -23,6 +21,7 @@
 #include "apps/verification.h"
 #include "apps/view.h"
 #include "core/ground.h"
+#include "core/open_file.h"
 #include "geo/whole_file.h"
 
 namespace oro {
@@ -77,11 +76,10 @@ Result<PictureFiles> shot_files(const ShotOptions& options) {
     return picture_files(out);
 }
 
-// A picture drawn again from its own view: made in a scratch folder and compared, so that nothing is
-// replaced.
+// A picture drawn again from its own view: drawn without a name and compared, so that nothing is replaced.
 bool is_check(const ShotOptions& options, const PictureFiles& files) {
     std::error_code ignored;
-    return options.out.empty() && !options.overwrite && fs::exists(files.picture, ignored);
+    return options.out.empty() && !options.overwrite && fs::is_regular_file(files.picture, ignored);
 }
 
 ordered_json destination_json(const std::optional<SeenPlace>& place) {
@@ -106,7 +104,8 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     const PictureReport& counts = shot.picture;
     ordered_json json;
     json["picture"] = files.picture;
-    json["view"] = files.view;
+    json["view"] = ordered_json::parse(view_to_json(shot.view, false));
+    if (!shot.view.tells_paths) json["view"]["sources"] = ordered_json::array();
     json["eye"] = {{"lat_deg", tags.lat_deg},
                    {"lon_deg", tags.lon_deg},
                    {"h_m", tags.h_m},
@@ -182,7 +181,8 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
 }
 
 std::vector<std::string> written_files(const ShotOptions& options, const PictureFiles& files) {
-    std::vector<std::string> all{files.picture, files.view};
+    std::vector<std::string> all;
+    if (!is_check(options, files)) all.push_back(files.picture);
     if (options.verify) all.push_back(files.error);
     return all;
 }
@@ -197,15 +197,61 @@ Result<void> check_out(const ShotOptions& options, const PictureFiles& files) {
     return {};
 }
 
-// Measures what was drawn, the same way, and writes the picture of its errors.
-Result<void> verify_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu, Scene& scene,
-                         const Style& style, ShotResult& shot) {
+// Measures what was drawn, the same way, and makes the picture of its errors, which has no name yet.
+Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu,
+                              Scene& scene, const Style& style, ShotResult& shot) {
     const auto start = Clock::now();
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
     ORO_TRY(shot.verification, verify_view(shot.view, *truth, gpu, scene, shot.picture.path, style.frame));
-    ORO_CHECK(write_error_picture(files.error, *shot.verification, shot.view.tau_px, options.overwrite));
+    ORO_TRY(const std::vector<std::uint8_t> png, error_picture_png(*shot.verification, shot.view.tau_px));
+    ORO_TRY(WholeFile file, WholeFile::create(files.error, options.overwrite));
+    ORO_CHECK(file.write(png.data(), png.size()));
     shot.times.verify_s = seconds_since(start);
-    return {};
+    return file;
+}
+
+// Where a picture that is only compared would be, if it ever got a name.
+PictureFiles unnamed(const PictureFiles& files) {
+    std::error_code failed;
+    const fs::path folder = fs::temp_directory_path(failed);
+    PictureFiles other = files;
+    other.picture =
+        ((failed ? fs::path("/tmp") : folder) / ("orograph-check-" + std::to_string(getpid()))).string() +
+        fs::path(files.picture).extension().string();
+    return other;
+}
+
+// True when a drawn picture has the bytes of a file.
+Result<bool> is_same(WholeFile& drawn, const std::string& path) {
+    ORO_TRY(const OpenFile other, OpenFile::open(path, OpenFile::Use::read));
+    ORO_TRY(std::uint64_t left, other.size());
+    std::FILE* const stream = drawn.stream();
+    if (std::fseek(stream, 0, SEEK_END) != 0 || static_cast<std::uint64_t>(ftello(stream)) != left)
+        return false;
+    std::rewind(stream);
+    std::vector<std::byte> ours(1 << 16), theirs(ours.size());
+    for (std::uint64_t at = 0; left > 0;) {
+        const std::size_t count = std::min<std::uint64_t>(left, ours.size());
+        ORO_CHECK(other.read(at, std::span(theirs).first(count)));
+        if (std::fread(ours.data(), 1, count, stream) != count ||
+            !std::equal(ours.begin(), ours.begin() + static_cast<std::ptrdiff_t>(count), theirs.begin()))
+            return false;
+        at += count;
+        left -= count;
+    }
+    return true;
+}
+
+// Gives what was drawn its names, or compares it with the picture that is there.
+Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, WholeFile picture,
+                         std::optional<WholeFile> errors) {
+    if (!is_check(options, files)) return errors ? commit_together({&*errors, &picture}) : picture.commit();
+    if (errors) ORO_CHECK(errors->commit());
+    ORO_TRY(const bool same, is_same(picture, files.picture));
+    if (same) return {};
+    return Error{
+        ErrorKind::failed, files.picture,
+        "is not what its view draws now; left as it is (--overwrite replaces it, --out writes another)"};
 }
 
 // The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
@@ -230,8 +276,19 @@ Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages,
     return {};
 }
 
-// `told` are the files that messages and --json name: those of a check are in a scratch folder and soon gone.
-Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, const PictureFiles& told) {
+// What was drawn and measured.
+void tell(const ShotOptions& options, const PictureFiles& files, bool checks, const ShotResult& shot,
+          const Gpu& gpu, const Style& style) {
+    if (!checks) say(options.quiet, "wrote " + files.picture);
+    if (shot.verification) {
+        say(options.quiet, "wrote " + files.error);
+        if (!options.quiet)
+            std::fputs(verification_text(*shot.verification, shot.view.tau_px).c_str(), stderr);
+    }
+    if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, gpu, style), true).c_str());
+}
+
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     ORO_CHECK(check_out(options, files));
     if (options.view.tolerance) {
         if (options.view.accuracy)
@@ -245,6 +302,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
         options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
         shot.region));
+    if (options.no_paths) shot.view.tells_paths = false;
     shot.times.read_s = seconds_since(reading);
     ORO_CHECK(spare_inputs(written_files(options, files), shot.view, shot.region));
     ORO_TRY(const Style style, load_style(shot.view.style, shot.view.sun));
@@ -264,54 +322,33 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     shot.times.pages_s = seconds_since(start);
     const auto drawing = Clock::now();
     ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
-    ORO_TRY(shot.picture,
-            write_picture(files, options.overwrite, shot.view, shot.region, shot.middle, *gpu, scene,
-                          style.frame, [&](double share) { bar.show(share, "drawing"); }));
+    const bool checks = is_check(options, files);
+    ORO_TRY(DrawnPicture picture, draw_picture(checks ? unnamed(files) : files, options.overwrite || checks,
+                                               shot.view, shot.region, shot.middle, *gpu, scene, style.frame,
+                                               [&](double share) { bar.show(share, "drawing"); }));
+    shot.picture = picture.report;
     shot.times.draw_s = seconds_since(drawing);
     shot.pages_on_gpu = scene.store().size();
     shot.page_bytes = scene.store().bytes();
     shot.height_step_m = scene.height_step_m();
+    std::optional<WholeFile> errors;
     if (options.verify) {
         bar.show(1.0, "measuring errors");
-        ORO_CHECK(verify_shot(options, files, *gpu, scene, style, shot));
+        ORO_TRY(errors, verify_shot(options, files, *gpu, scene, style, shot));
     }
     bar.clear();
-    say(options.quiet || files.picture != told.picture, "wrote " + files.picture + " and " + files.view);
-    if (shot.verification) {
-        say(options.quiet, "wrote " + files.error);
-        if (!options.quiet)
-            std::fputs(verification_text(*shot.verification, shot.view.tau_px).c_str(), stderr);
-    }
-    if (options.json) std::printf("%s\n", json_text(shot_json(shot, told, *gpu, style), true).c_str());
-    return {};
-}
-
-bool same_bytes(const std::string& a, const std::string& b) {
-    std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
-    return one && other &&
-           std::equal(std::istreambuf_iterator<char>(one), {}, std::istreambuf_iterator<char>(other), {});
-}
-
-Result<void> check_shot(const ShotOptions& options, const PictureFiles& files) {
-    const ScratchFolder scratch;
-    if (!scratch.made()) return Error{ErrorKind::failed, scratch.path(), "cannot be made"};
-    PictureFiles again =
-        picture_files((fs::path(scratch.path()) / fs::path(files.picture).filename()).string());
-    again.error = files.error;  // the one file of a check that is wanted
-    ORO_CHECK(take_shot(options, again, files));
-    if (!same_bytes(again.picture, files.picture))
-        return Error{
-            ErrorKind::failed, files.picture,
-            "is not what its view draws now; left as it is (--overwrite replaces it, --out writes another)"};
-    say(options.quiet, files.picture + " is there already, and its view draws the same bytes");
-    return {};
+    const Result<void> finished = finish_shot(options, files, std::move(picture.file), std::move(errors));
+    if (finished.ok() || checks) tell(options, files, checks, shot, *gpu, style);
+    if (finished.ok() && checks)
+        say(options.quiet, files.picture + " is there already, and its view draws the same bytes");
+    return finished;
 }
 
 }  // namespace
 
 Result<void> run_shot(const ShotOptions& options) {
     ORO_TRY(const PictureFiles files, shot_files(options));
-    return is_check(options, files) ? check_shot(options, files) : take_shot(options, files, files);
+    return take_shot(options, files);
 }
 
 }  // namespace oro

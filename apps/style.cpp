@@ -6,6 +6,7 @@
 
 #include "apps/data_folder.h"
 #include "apps/json_fields.h"
+#include "apps/view_limits.h"
 
 namespace oro {
 namespace {
@@ -52,8 +53,10 @@ Style read_style(const nlohmann::json& json, const std::optional<SunDirection>& 
         style.tints[style.tint_count++] = {H_m, colour_of(stop, "colour")};
     }
     const auto& own_sun = json_field(json, "sun");
-    SunDirection sun{json_number(own_sun, "azimuth_deg", -1e9, 1e9),
-                     json_number(own_sun, "elevation_deg", -90, 90)};
+    SunDirection sun{json_number(own_sun, "azimuth_deg", view_limits::sun_azimuth_deg.low,
+                                 view_limits::sun_azimuth_deg.high),
+                     json_number(own_sun, "elevation_deg", view_limits::sun_elevation_deg.low,
+                                 view_limits::sun_elevation_deg.high)};
     if (wanted_sun) sun = *wanted_sun;
     const double azimuth = radians_from_deg(sun.azimuth_deg).rad,
                  elevation = radians_from_deg(sun.elevation_deg).rad;
@@ -71,8 +74,12 @@ Style read_style(const nlohmann::json& json, const std::optional<SunDirection>& 
 
 }  // namespace
 
+bool is_style_path(const std::string& style) {
+    return style.ends_with(".json") || style.find('/') != std::string::npos;
+}
+
 Result<Style> load_style(const std::string& name, const std::optional<SunDirection>& sun) {
-    const bool is_path = name.ends_with(".json") || name.find('/') != std::string::npos;
+    const bool is_path = is_style_path(name);
     const std::string path = is_path ? name : (data_folder() / "styles" / (name + ".json")).string();
     const auto text = read_text_file(path);
     if (!text.ok())

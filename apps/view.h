@@ -1,4 +1,4 @@
-// A view: all that decides a picture, complete and resolved. Written beside every picture and read back.
+// A view: all that decides a picture, complete and resolved. Written into every picture and read back.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +34,8 @@ struct View {
     HeightStorage heights{HeightStorage::f32};
     std::string accuracy;  // the bundle that these come from; empty when they were chosen one by one
     std::int64_t time_utc_s{};
+    bool tells_paths{true};           // false: its picture names neither sources nor the folder of a style
+    bool paths_from_own_file{false};  // relative paths start from the file that the view is in
 };
 
 // What to read, from the options. Usage errors: no path, a malformed box or tile.
@@ -43,7 +45,8 @@ Result<RegionRequest> region_request(const RegionOptions& options);
 Result<View> view_without_eye(const ViewOptions& options, RegionRequest region);
 
 // Puts the eye of a view where the options say: at a place over the ground or above sea level, or so that the
-// whole region is in the picture. Errors: no data under an eye that is placed over the ground (no_data).
+// whole region is in the picture. Errors: no data under an eye that is placed over the ground (no_data); an
+// eye beyond view_limits (usage).
 Result<void> place_eye(View& view, const ViewOptions& options, const Region& region);
 
 // Changes a view read from a file as far as options other than the eye's are given; those of the eye are
@@ -56,8 +59,11 @@ Result<void> change_region(View& view, const RegionOptions& options);
 std::string view_to_json(const View& view, bool pretty);
 // Errors name what is missing or wrong, and `where` it was read from.
 Result<View> view_from_json(const std::string& text, const std::string& where);
-// From a .json file, or from a picture that carries its view.
+// From a .json file, or from a picture that carries its view; its paths then lead from the working folder.
 Result<View> read_view(const std::string& path);
+// That the view, written, is read back as it is. Errors: what the reader would say of it. To be asked before
+// a picture is drawn that nobody could open again.
+Result<void> check_view_opens(const View& view, const std::string& where);
 
 // Takes N out of a region: heights are then above the ellipsoid, for the eye's place as for the terrain's.
 void leave_geoid_out(Region& region);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "apps/view.h"
+#include "apps/view_limits.h"
 #include "core/ground.h"
 #include "geo/place.h"
 
@@ -126,11 +127,21 @@ Result<void> turn_to(View& view, const std::string& text, const Region& region) 
     return {};
 }
 
+// A view's file holds no more than these; --at alone says where the eye is.
+Result<void> check_eye(const ViewOptions& options, const Geodetic& eye) {
+    if (view_limits::eye_h_m.hold(eye.h_m)) return {};
+    char text[120];
+    std::snprintf(text, sizeof text, "the eye would be at h %g m, not between %g and %g", eye.h_m,
+                  view_limits::eye_h_m.low, view_limits::eye_h_m.high);
+    return Error{ErrorKind::usage, "--at " + options.at.value_or(""), text};
+}
+
 }  // namespace
 
 Result<void> place_eye(View& view, const ViewOptions& options, const Region& region) {
     if (!options.at) return see_whole_region(view, options, region);
     ORO_CHECK(stand_at(view, options, region));
+    ORO_CHECK(check_eye(options, view.camera.eye));
     if (options.look_at) ORO_CHECK(turn_to(view, *options.look_at, region));
     return {};
 }

@@ -18,6 +18,9 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         ORO_TRY(view, read_view(view_file));
         ORO_CHECK(change_view(view, view_options));
         ORO_CHECK(change_region(view, region_options));
+        if (view.region.paths.empty())
+            return Error{ErrorKind::usage, "--view " + view_file,
+                         "does not tell where its elevation data lie: name them, too"};
         ORO_TRY(region, open_region(view.region, progress));
         if (!view.has_geoid) leave_geoid_out(region);
         return {};

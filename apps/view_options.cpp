@@ -9,6 +9,7 @@
 #include "apps/json_text.h"
 #include "apps/model_names.h"
 #include "apps/view.h"
+#include "apps/view_limits.h"
 
 namespace oro {
 namespace {
@@ -23,17 +24,16 @@ bool read_whole(std::string_view text, Number& value) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
-constexpr int largest_side_px = 65500;  // what JPEG can hold; PNG and TIFF hold more
-
 Result<void> set_size(const std::string& text, Camera& camera) {
     const std::size_t cross = text.find_first_of("xX");
     long long width = 0, height = 0;
     if (cross == std::string::npos || !read_whole(std::string_view(text).substr(0, cross), width) ||
         !read_whole(std::string_view(text).substr(cross + 1), height))
         return usage("--size", "'" + text + "' is not WIDTHxHEIGHT in pixels, e.g. 1920x1080");
-    if (width < 1 || height < 1 || width > largest_side_px || height > largest_side_px)
-        return usage("--size",
-                     "'" + text + "': each side must be 1 to " + std::to_string(largest_side_px) + " pixels");
+    constexpr Limits side_px = view_limits::side_px;
+    if (!side_px.hold(static_cast<double>(width)) || !side_px.hold(static_cast<double>(height)))
+        return usage("--size", "'" + text + "': each side must be 1 to " +
+                                   std::to_string(static_cast<int>(side_px.high)) + " pixels");
     camera.width_px = static_cast<int>(width);
     camera.height_px = static_cast<int>(height);
     return {};
@@ -44,11 +44,24 @@ Result<SunDirection> parse_sun(const std::string& text) {
     const std::size_t comma = text.find(',');
     const std::string_view all(text);
     if (comma == std::string::npos || !read_whole(all.substr(0, comma), sun.azimuth_deg) ||
-        !read_whole(all.substr(comma + 1), sun.elevation_deg) || !std::isfinite(sun.azimuth_deg) ||
-        !(sun.elevation_deg >= -90.0 && sun.elevation_deg <= 90.0))
-        return usage("--sun",
-                     "'" + text + "' is not azimuth,elevation in degrees, e.g. 315,45 (elevation -90 to 90)");
+        !read_whole(all.substr(comma + 1), sun.elevation_deg) ||
+        !view_limits::sun_azimuth_deg.hold(sun.azimuth_deg) ||
+        !view_limits::sun_elevation_deg.hold(sun.elevation_deg))
+        return usage("--sun", "'" + text +
+                                  "' is not azimuth,elevation in degrees, e.g. 315,45 (elevation -90 to 90, "
+                                  "azimuth within 1e9)");
     return sun;
+}
+
+// Of a picture without --time.
+Result<std::int64_t> picture_time_s() {
+    const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
+    std::int64_t fixed = 0;
+    if (epoch && (!read_whole(std::string_view(epoch), fixed) ||
+                  !view_limits::time_utc_s.hold(static_cast<double>(fixed))))
+        return usage("SOURCE_DATE_EPOCH",
+                     "'" + std::string(epoch) + "' is no number of seconds within the years 0 to 9999");
+    return time_now_s();
 }
 
 Result<std::int64_t> parse_time(const std::string& text) {
@@ -63,10 +76,10 @@ Result<std::int64_t> parse_time(const std::string& text) {
     return time_utc_s;
 }
 
-Result<double> within(const char* option, double value, double low, double high) {
-    if (value >= low && value <= high) return value;
+Result<double> within(const char* option, double value, const Limits& limits) {
+    if (limits.hold(value)) return value;
     char text[120];
-    std::snprintf(text, sizeof text, "%g is not between %g and %g", value, low, high);
+    std::snprintf(text, sizeof text, "%g is not between %g and %g", value, limits.low, limits.high);
     return usage(option, text);
 }
 
@@ -79,7 +92,8 @@ Result<void> apply_models(View& view, const ViewOptions& options) {
         ORO_TRY(view.model.earth, earth_named(*options.earth));
     }
     if (options.refraction_k) {
-        ORO_TRY(view.model.refraction_k, within("--refraction", *options.refraction_k, -1.0, 0.9));
+        ORO_TRY(view.model.refraction_k,
+                within("--refraction", *options.refraction_k, view_limits::refraction_k));
     }
     if (options.precision) {
         ORO_TRY(view.model.precision, precision_named(*options.precision));
@@ -101,17 +115,18 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
         view.sun = sun;
     }
     if (options.exaggeration) {
-        ORO_TRY(view.exaggeration, within("--exaggeration", *options.exaggeration, 0.01, 100.0));
+        ORO_TRY(view.exaggeration,
+                within("--exaggeration", *options.exaggeration, view_limits::exaggeration));
     }
     if (options.samples) {
-        ORO_TRY(const double samples, within("--samples", *options.samples, 1, 64));
+        ORO_TRY(const double samples, within("--samples", *options.samples, view_limits::samples));
         view.samples = static_cast<int>(samples);
     }
     if (options.style) view.style = *options.style;
     if (options.pipeline) view.pipeline = *options.pipeline;
     ORO_CHECK(apply_models(view, options));
     if (options.tau_px) {
-        ORO_TRY(view.tau_px, within("--tau", *options.tau_px, 0.0, 1000.0));
+        ORO_TRY(view.tau_px, within("--tau", *options.tau_px, view_limits::tau_px));
     }
     forget_other_bundle(view);
     if (options.time) {
@@ -152,26 +167,29 @@ Result<View> view_without_eye(const ViewOptions& options, RegionRequest region) 
     view.region = std::move(region);
     view.camera.width_px = 1280;
     view.camera.height_px = 720;
-    view.time_utc_s = options.time ? 0 : time_now_s();
+    if (!options.time) {
+        ORO_TRY(view.time_utc_s, picture_time_s());
+    }
     ORO_CHECK(apply_look(view, options));
     if (options.vertical_fov_deg) {
-        ORO_TRY(view.camera.vertical_fov_deg, within("--fov", *options.vertical_fov_deg, 0.05, 120.0));
+        ORO_TRY(view.camera.vertical_fov_deg,
+                within("--fov", *options.vertical_fov_deg, view_limits::fov_deg));
     }
     Attitude& attitude = view.camera.attitude;
     if (options.heading_deg) {
-        ORO_TRY(attitude.heading_deg, within("--heading", *options.heading_deg, -360.0, 360.0));
+        ORO_TRY(attitude.heading_deg, within("--heading", *options.heading_deg, view_limits::heading_deg));
         attitude.heading_deg = std::fmod(attitude.heading_deg + 360.0, 360.0);
     }
     if (options.pitch_deg) {
-        ORO_TRY(attitude.pitch_deg, within("--pitch", *options.pitch_deg, -90.0, 90.0));
+        ORO_TRY(attitude.pitch_deg, within("--pitch", *options.pitch_deg, view_limits::pitch_deg));
     }
     if (options.roll_deg) {
-        ORO_TRY(attitude.roll_deg, within("--roll", *options.roll_deg, -180.0, 180.0));
+        ORO_TRY(attitude.roll_deg, within("--roll", *options.roll_deg, view_limits::roll_deg));
     }
     if (options.look_at && (options.heading_deg || options.pitch_deg))
         return usage("--look-at", "cannot be combined with --heading or --pitch");
-    if (options.altitude_m) ORO_CHECK(within("--altitude", *options.altitude_m, -12000.0, 1e9));
-    if (options.above_m) ORO_CHECK(within("--above", *options.above_m, -12000.0, 1e9));
+    if (options.altitude_m) ORO_CHECK(within("--altitude", *options.altitude_m, view_limits::altitude_m));
+    if (options.above_m) ORO_CHECK(within("--above", *options.above_m, view_limits::above_m));
     if (!options.at && (options.above_m || options.altitude_m))
         return usage(options.above_m ? "--above" : "--altitude", "needs --at PLACE");
     if (!options.at && options.look_at) return usage("--look-at", "needs --at PLACE");

@@ -1,5 +1,4 @@
 // orograph view: a window to fly over a region.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -120,16 +119,12 @@ std::string free_picture_name(std::int64_t time_utc_s) {
     std::error_code ignored;
     for (int i = 1;; ++i) {
         const std::string name = stem + (i > 1 ? "-" + std::to_string(i) : "") + ".png";
-        if (!std::filesystem::exists(name, ignored) &&
-            !std::filesystem::exists(picture_files(name).view, ignored))
-            return name;
+        if (!std::filesystem::exists(name, ignored)) return name;
     }
 }
 
 Result<void> take_picture(Viewer& viewer) {
-    viewer.view.time_utc_s =
-        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
-            .count();
+    viewer.view.time_utc_s = time_now_s();
     const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
     const Camera& camera = viewer.view.camera;
     ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
@@ -225,6 +220,16 @@ Result<void> run_loop(Viewer& viewer) {
     }
 }
 
+// A window is drawn in one piece, where a picture has tiles.
+Result<void> check_window_size(const Camera& camera, const DeviceReport& device) {
+    const auto most = static_cast<int>(device.max_picture_side_px);
+    if (camera.width_px <= most && camera.height_px <= most) return {};
+    return Error{ErrorKind::usage, "--size",
+                 std::to_string(camera.width_px) + "x" + std::to_string(camera.height_px) +
+                     " is too large for a window: " + device.name + " draws at most " + std::to_string(most) +
+                     " pixels a side"};
+}
+
 }  // namespace
 
 Result<void> run_view(const WindowOptions& options) {
@@ -238,6 +243,7 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_CHECK(open_view(
         options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    if (options.no_paths) view.tells_paths = false;
     // Each of two levels is within tau of the full resolution: where one takes the other's place nothing
     // moves by more than twice that.
     if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
@@ -248,6 +254,7 @@ Result<void> run_view(const WindowOptions& options) {
     gpu_options.instance_extensions = extensions;
     gpu_options.presents = true;
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
+    ORO_CHECK(check_window_size(view.camera, gpu->report()));
     ORO_TRY(Scene scene, create_scene(
                              *gpu, region, view.exaggeration, options.memory,
                              [&](double share) { bar.show(share, "measuring levels"); }, view.heights));

@@ -43,7 +43,7 @@ class Accuracy : public testing::Test {
         EXPECT_TRUE(told.is_object()) << outcome.out;
         return told.is_object() ? told : json::object();
     }
-    json view_of_picture() const { return json::parse(bytes_of(folder / "p.json"), nullptr, false); }
+    json view_of_picture() const { return json::parse(oro::test::view_in(picture), nullptr, false); }
     // What `plan` says a view would be: the same resolution of options, and nothing drawn.
     json planned_view(const Words& more) const {
         Words words{"--json", "-q"};
@@ -96,7 +96,7 @@ TEST_F(Accuracy, AToleranceChoosesAndTheChoiceIsRecorded) {
     EXPECT_EQ(said(plan).at("cheapest").at("predicted_px"), accuracy.at("predicted_px"));
     // The view holds what was chosen: it chooses nothing any more.
     const fs::path again = folder / "again.png";
-    const Outcome drawn = run_orograph({"shot", "--view", folder / "p.json", "--out", again, "-q", "--json"});
+    const Outcome drawn = run_orograph({"shot", "--view", picture, "--out", again, "-q", "--json"});
     EXPECT_EQ(said(drawn).at("accuracy"), json({{"bundle", "balanced"}}));
     EXPECT_TRUE(bytes_of(again) == bytes_of(picture));
 }

@@ -205,11 +205,11 @@ TEST_F(BadInput, OutThatCannotBeWritten) {
 }
 
 TEST_F(BadInput, ExistingFileStaysWithoutOverwrite) {
-    for (const char* name : {"p.png", "p.json"}) {
+    for (const char* name : {"p.png", "p.error.png"}) {
         const fs::path there = oro::test::scratch_folder();
         write_bytes(there / name, "mine");
         const Outcome outcome =
-            run_orograph({"shot", bundled(), "--size", "64x48", "--out", there / "p.png", "-q"});
+            run_orograph({"shot", bundled(), "--size", "64x48", "--out", there / "p.png", "-q", "--verify"});
         expect_refusal(outcome, failed, {there / name, "--overwrite"});
         EXPECT_EQ(bytes_of(there / name), "mine");
         EXPECT_EQ(names_in(there), Words{name});
@@ -268,6 +268,24 @@ TEST_F(BadInput, NoMeshShader) {
     without.environment = {"OROGRAPH_WITHOUT=mesh_shader"};
     expect_refusal(shoot(bundled(), {"--pipeline", "mesh"}, without), no_device,
                    {"VK_EXT_mesh_shader", "--pipeline compute"});
+}
+
+// Found: 010 was eight.
+TEST_F(BadInput, WholeNumbersAreDecimal) {
+    const auto samples = [&](const char* text) {
+        return run_orograph({"shot", bundled(), "--size", "16x16", "--samples", text, "--json", "-q",
+                             "--overwrite", "--out", folder / "p.png"});
+    };
+    for (const auto& [text, number] : {std::pair{"010", "10"}, {"08", "8"}, {"0000064", "64"}}) {
+        const Outcome outcome = samples(text);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find(std::string("\"samples\": ") + number + ","), std::string::npos) << text;
+    }
+    for (const char* text : {"0x10", "1e1", "4.0", "0b11", " 4", "4 ", "four", "00", "-4"})
+        expect_refusal(samples(text), usage, {"--samples"});
+    expect_refusal(run_orograph({"trade", bundled(), "--views", "0x1"}), usage, {"--views"});
+    expect_refusal(run_orograph({"shot", bundled(), "--out", "p.png", "--memory", "0x40"}), usage,
+                   {"--memory"});
 }
 
 }  // namespace

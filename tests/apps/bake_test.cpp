@@ -131,7 +131,7 @@ TEST_F(Bake, AViewOfTilesIsDrawnFromTheBakedRegion) {
     ASSERT_EQ(
         run_orograph({"shot", bundled(), "--size", "160x90", "--out", folder / "p.png", "-q"}).exit_code, 0);
     const Outcome outcome =
-        run_orograph({"shot", file, "--view", folder / "p.json", "--out", folder / "again.png", "-q"});
+        run_orograph({"shot", file, "--view", folder / "p.png", "--out", folder / "again.png", "-q"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_TRUE(oro::test::pixels_of(folder / "again.png").rgb == oro::test::pixels_of(folder / "p.png").rgb);
 }
@@ -177,8 +177,8 @@ TEST_F(Bake, InputsAreSpared) {
     const std::string bytes = bytes_of(region);
     expect_refusal(run_orograph({"bake", region, "--out", region, "--overwrite"}), usage, {"would replace"});
     fs::create_symlink(region, folder / "p.png");
-    fs::create_symlink(region, folder / "q.json");
-    for (const char* name : {"p.png", "q.png"}) {
+    fs::create_symlink(region, folder / "q.jpg");
+    for (const char* name : {"p.png", "q.jpg"}) {
         expect_refusal(
             run_orograph({"shot", region, "--size", "64x48", "--out", folder / name, "--overwrite"}), usage,
             {"would replace", region});

@@ -67,7 +67,7 @@ class DamagedRegion : public Bake {
             return shot;
         }
         shot.picture = bytes_of(out / "p.png");
-        shot.view = bytes_of(out / "p.json");
+        shot.view = oro::test::view_in(out / "p.png");
         return shot;
     }
     // Puts other bytes in the region's place: a view names it by its path.

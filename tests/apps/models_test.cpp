@@ -56,7 +56,7 @@ TEST_F(ModelOptions, AreSaidAndKeptAndDrawnAgain) {
         const json said = shoot(picture, {"--" + name, value});
         const json expected = name == "refraction" ? json(0.9) : json(value);
         EXPECT_EQ(said["models"][name], expected);
-        const json view = json::parse(bytes_of(fs::path(picture).replace_extension(".json")));
+        const json view = json::parse(oro::test::view_in(picture));
         EXPECT_EQ(view[name], expected);
         EXPECT_NE(bytes_of(picture), bytes_of(folder / "plain.png"));
         const fs::path again = folder / "again.png";
@@ -90,7 +90,7 @@ TEST_F(ModelOptions, WithoutGeoidHeightsAreAboveTheEllipsoid) {
 
 TEST_F(ModelOptions, ViewsOfBeforeDrawAsBefore) {
     shoot(folder / "new.png", {});
-    json view = json::parse(bytes_of(folder / "new.json"));
+    json view = json::parse(oro::test::view_in(folder / "new.png"));
     for (const char* field : {"earth", "geoid", "refraction", "precision", "heights"})
         EXPECT_EQ(view.erase(field), 1U) << field;
     oro::test::write_bytes(folder / "old.json", view.dump());
@@ -113,7 +113,7 @@ TEST_F(ModelOptions, BadValuesAreRefused) {
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     }
     shoot(folder / "new.png", {});
-    json view = json::parse(bytes_of(folder / "new.json"));
+    json view = json::parse(oro::test::view_in(folder / "new.png"));
     view["precision"] = "rounded_posts";
     oro::test::write_bytes(folder / "bad.json", view.dump());
     const Outcome outcome = run_orograph({"shot", "--view", folder / "bad.json", "--out", folder / "x.png"});

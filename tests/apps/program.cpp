@@ -112,6 +112,19 @@ std::string bytes_of(const fs::path& file) {
     return bytes.str();
 }
 
+std::string view_in(const fs::path& png) {
+    const std::string bytes = bytes_of(png), starts = "<orograph:View>";
+    const std::size_t start = bytes.find(starts), end = bytes.find("</orograph:View>");
+    EXPECT_LT(start, end) << png << " carries no view";
+    if (start >= end) return {};
+    std::string view = bytes.substr(start + starts.size(), end - start - starts.size());
+    for (const auto& [entity, letter] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}}) {
+        for (std::size_t at = 0; (at = view.find(entity, at)) != std::string::npos; ++at)
+            view.replace(at, std::string(entity).size(), letter);
+    }
+    return view;
+}
+
 void write_bytes(const fs::path& file, const std::string& bytes) {
     std::ofstream stream(file, std::ios::binary);
     stream << bytes;

@@ -36,6 +36,8 @@ void expect_refusal(const Outcome& outcome, int exit_code, const std::vector<std
 
 // The file's bytes; a failed expectation when it cannot be read.
 std::string bytes_of(const std::filesystem::path& file);
+// The view that a PNG carries, JSON; a failed expectation when it carries none.
+std::string view_in(const std::filesystem::path& png);
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);
 // Names of what lies in a folder, sorted.
 std::vector<std::string> names_in(const std::filesystem::path& folder);

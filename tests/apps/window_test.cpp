@@ -94,7 +94,7 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
     const std::string data = (oro::test::bundled_data() / "jacksboro.tif").string();
     oro::test::Circumstances there;
     there.folder = folder;
-    there.environment = {"WAYLAND_DISPLAY", "OROGRAPH_VALIDATION=1"};
+    there.environment = {"WAYLAND_DISPLAY", "OROGRAPH_VALIDATION=1", "SOURCE_DATE_EPOCH=1767225600"};
     const auto session = oro::test::run_program(
         {"xvfb-run", "-a", "-s", "-screen 0 800x600x24", OROGRAPH_WINDOW_SESSION, OROGRAPH_PROGRAM, data},
         there);
@@ -134,6 +134,8 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
         if (name.rfind("orograph-", 0) == 0 && name.ends_with(".png")) picture = folder / name;
     }
     ASSERT_FALSE(picture.empty()) << session.out;
+    EXPECT_EQ(picture.filename(), "orograph-2026-01-01T000000Z.png")
+        << "SOURCE_DATE_EPOCH stands in for the clock";
     const json tags = object_of(oro::test::run_program({"exiftool", "-n", "-j", picture})).at(0);
     EXPECT_NEAR(tags["GPSLatitude"].get<double>(), 36.5, 1e-7);
     EXPECT_NEAR(tags["GPSLongitude"].get<double>(), -84.3, 1e-7);
@@ -145,6 +147,17 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
     EXPECT_EQ(again.exit_code, 0) << again.err;
     expect_picked(folder, object_of(again).at("destination"));
     EXPECT_TRUE(oro::test::bytes_of(folder / "again.png") == oro::test::bytes_of(picture));
+}
+
+// No device of today draws a picture so wide in one piece.
+TEST(Window, ASizeThatTheDeviceCannotDrawIsRefused) {
+    oro::test::Circumstances there;
+    there.environment = {"WAYLAND_DISPLAY"};
+    const auto outcome = oro::test::run_program(
+        {"xvfb-run", "-a", "-s", "-screen 0 800x600x24", OROGRAPH_PROGRAM, "view",
+         (oro::test::bundled_data() / "jacksboro.tif").string(), "-q", "--size", "65500x200"},
+        there);
+    oro::test::expect_refusal(outcome, 2, {"--size", "65500x200", "pixels a side"});
 }
 
 }  // namespace

@@ -1,0 +1,40 @@
+// The least and the most that each number of a view may be: one table for the command line, which makes
+// views, and for the reader of views, so that a picture that was written can be opened again.
+#pragma once
+
+#include <cstdint>
+
+namespace oro {
+
+struct Limits {
+    double low;
+    double high;
+
+    // False for what is no number, too.
+    [[nodiscard]] constexpr bool hold(double value) const { return value >= low && value <= high; }
+};
+
+namespace view_limits {
+
+inline constexpr Limits lat_deg{-90, 90};
+inline constexpr Limits lon_deg{-180, 180};
+inline constexpr Limits eye_h_m{-7e6, 2e9};  // from the Earth's middle to five times the moon's distance
+inline constexpr Limits heading_deg{-360, 360};
+inline constexpr Limits pitch_deg{-90, 90};
+inline constexpr Limits roll_deg{-180, 180};
+inline constexpr Limits fov_deg{0.05, 120};
+inline constexpr Limits side_px{1, 65500};  // what JPEG can hold; PNG and TIFF hold more
+inline constexpr Limits samples{1, 64};
+inline constexpr Limits exaggeration{0.01, 100};
+inline constexpr Limits sun_azimuth_deg{-1e9, 1e9};
+inline constexpr Limits sun_elevation_deg{-90, 90};
+inline constexpr Limits tau_px{0, 1000};
+inline constexpr Limits refraction_k{-1, 0.9};
+// The years 0 to 9999, as many as a picture's tags can tell.
+inline constexpr Limits time_utc_s{-62167219200, 253402300799};
+// Of options that place an eye, whose h is held to eye_h_m when it has its place.
+inline constexpr Limits altitude_m{-12000, 1e9};
+inline constexpr Limits above_m{-12000, 1e9};
+
+}  // namespace view_limits
+}  // namespace oro
