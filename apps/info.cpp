@@ -45,8 +45,12 @@ void print_region(const Region& region) {
                 grid.lon.spacing_deg(), grid.lat.spacing_deg());
     std::printf("  H           %.6g .. %.6g m above the geoid %s\n", static_cast<double>(range.lowest_m),
                 static_cast<double>(range.highest_m), one_line(region.geoid).c_str());
-    std::printf("  voids       %llu, %llu filled (%s)\n", static_cast<unsigned long long>(region.voids),
+    std::printf("  voids       %llu, %llu filled (%s)\n",
+                static_cast<unsigned long long>(region.void_posts()),
                 static_cast<unsigned long long>(region.filled), one_line(region.void_method).c_str());
+    std::printf("  outside     %llu posts beyond the rims of all sources, %llu in missing cells\n",
+                static_cast<unsigned long long>(region.outside),
+                static_cast<unsigned long long>(region.in_missing));
     std::printf(
         "  seams       %llu shared posts, %llu disagree by up to %.4g m; the finer spacing wins, among "
         "equals the first by file name\n",

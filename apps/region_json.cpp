@@ -54,7 +54,9 @@ ordered_json region_json(const Region& region) {
             {"spacing_deg", {{"lat", grid.lat.spacing_deg()}, {"lon", grid.lon.spacing_deg()}}},
             {"H_m", {{"lowest", range.lowest_m}, {"highest", range.highest_m}}},
             {"geoid", region.geoid},
-            {"voids", region.voids},
+            {"voids", region.void_posts()},
+            {"outside_sources", region.outside},
+            {"in_missing_cells", region.in_missing},
             {"filled", region.filled},
             {"void_method", region.void_method},
             {"seams", seams_json(region.seams)},
@@ -78,9 +80,16 @@ ordered_json file_json(const Region& region) {
 }
 
 std::string note_of_voids(const Region& region) {
-    if (region.voids == 0) return "";
-    return std::to_string(region.voids) + " void posts are holes (" + (region.file ? "baking with " : "") +
-           "--fill-voids fills what is near others)";
+    std::string note;
+    const auto add = [&](std::uint64_t posts, const std::string& what) {
+        if (posts > 0) note += (note.empty() ? "" : "; ") + std::to_string(posts) + what;
+    };
+    add(region.void_posts(), std::string(" void posts are holes (") + (region.file ? "baking with " : "") +
+                                 "--fill-voids fills what is near others)");
+    add(region.outside, " posts outside all sources are holes");
+    add(region.in_missing,
+        " posts in " + std::to_string(region.missing_cells.size()) + " missing cells are holes");
+    return note;
 }
 
 std::string attribution_of(const Region& region) {

@@ -12,7 +12,7 @@ nlohmann::ordered_json region_json(const Region& region);
 // The file of a baked region that is one whole; null for all others.
 nlohmann::ordered_json file_json(const Region& region);
 
-// A line about the region's void posts, if it has any.
+// A line about the region's posts without a height, by why, if it has any.
 std::string note_of_voids(const Region& region);
 
 // All attributions of a region, each once, joined by "; ".

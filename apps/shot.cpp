@@ -321,6 +321,12 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     shot.triangles_at_full_resolution = scene.pages().facts().triangles;
     shot.times.pages_s = seconds_since(start);
     const auto drawing = Clock::now();
+    const Camera& camera = shot.view.camera;
+    ORO_TRY(const FramePlan first, scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+                                              shot.view.tau_px, shot.view.model));
+    // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
+    const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
+    if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
     ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
     const bool checks = is_check(options, files);
     ORO_TRY(DrawnPicture picture, draw_picture(checks ? unnamed(files) : files, options.overwrite || checks,
@@ -328,6 +334,8 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
                                                [&](double share) { bar.show(share, "drawing"); }));
     shot.picture = picture.report;
     shot.times.draw_s = seconds_since(drawing);
+    if (shot.picture.triangles_drawn == 0)
+        say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
     shot.pages_on_gpu = scene.store().size();
     shot.page_bytes = scene.store().bytes();
     shot.height_step_m = scene.height_step_m();

@@ -49,6 +49,11 @@ Result<View> view_without_eye(const ViewOptions& options, RegionRequest region);
 // eye beyond view_limits (usage).
 Result<void> place_eye(View& view, const ViewOptions& options, const Region& region);
 
+// Nothing of a region is in a view: an error where the eye is not over the region's box (a view of another
+// place: no_data), a note for eyes over it, which may look into the sky. `view_file` is where the view comes
+// from, if from one.
+Result<std::string> nothing_in_view(const View& view, const Region& region, const std::string& view_file);
+
 // Changes a view read from a file as far as options other than the eye's are given; those of the eye are
 // usage errors.
 Result<void> change_view(View& view, const ViewOptions& options);

@@ -19,6 +19,22 @@ std::string place_name(double lat_deg, double lon_deg) {
     return text;
 }
 
+bool holds(const PostGrid& grid, double lat_deg, double lon_deg) {
+    const double row = grid.lat.index_at(lat_deg), column = grid.column_at(lon_deg);
+    return row >= 0.0 && row <= grid.rows() - 1 && column >= 0.0 && column <= grid.columns() - 1;
+}
+
+// The data's extent, for who asked for a place without any; and whether the place lies inside when its
+// latitude and longitude change places.
+std::string where_data_are(const PostGrid& grid, double lat_deg, double lon_deg) {
+    if (holds(grid, lat_deg, lon_deg)) return " (a hole in the data)";
+    char text[200];
+    std::snprintf(text, sizeof text, " (the data's box is %.6g,%.6g,%.6g,%.6g: west,south,east,north)",
+                  grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg());
+    if (std::abs(lon_deg) > 90.0 || !holds(grid, lon_deg, lat_deg)) return text;
+    return text + (". " + place_name(lon_deg, lat_deg)) + " lies inside: latitude comes first";
+}
+
 // Points all over the drawn surface, at most some 64 x 64 of them.
 std::vector<Ecef> surface_points(const HeightField& field, double exaggeration) {
     std::vector<Ecef> points;
@@ -108,7 +124,8 @@ Result<void> stand_at(View& view, const ViewOptions& options, const Region& regi
         ground_h_m(region.field, eye.lat_deg, eye.lon_deg, view.exaggeration);
     if (!ground)
         return Error{ErrorKind::no_data, "--at " + place_name(eye.lat_deg, eye.lon_deg),
-                     "no elevation data there to stand on; give --altitude METRES or another place"};
+                     "no elevation data there to stand on; give --altitude METRES or another place" +
+                         where_data_are(region.field.grid, eye.lat_deg, eye.lon_deg)};
     eye.h_m = *ground + options.above_m.value_or(2.0);
     return {};
 }
@@ -119,7 +136,8 @@ Result<void> turn_to(View& view, const std::string& text, const Region& region) 
         ground_h_m(region.field, place.lat_deg, place.lon_deg, view.exaggeration);
     if (!ground && !place.height_m)
         return Error{ErrorKind::no_data, "--look-at " + place_name(place.lat_deg, place.lon_deg),
-                     "no elevation data there; give a heading and pitch, or geo:LAT,LON,HEIGHT"};
+                     "no elevation data there; give a heading and pitch, or geo:LAT,LON,HEIGHT" +
+                         where_data_are(region.field.grid, place.lat_deg, place.lon_deg)};
     const double h_m = place.height_m.value_or(ground.value_or(0.0));
     const double roll_deg = view.camera.attitude.roll_deg;
     view.camera.attitude = attitude_towards(view.camera.eye, {place.lat_deg, place.lon_deg, h_m});
@@ -144,6 +162,16 @@ Result<void> place_eye(View& view, const ViewOptions& options, const Region& reg
     ORO_CHECK(check_eye(options, view.camera.eye));
     if (options.look_at) ORO_CHECK(turn_to(view, *options.look_at, region));
     return {};
+}
+
+Result<std::string> nothing_in_view(const View& view, const Region& region, const std::string& view_file) {
+    const Geodetic& eye = view.camera.eye;
+    const PostGrid& grid = region.field.grid;
+    const std::string what = "nothing of the region is in view";
+    if (holds(grid, eye.lat_deg, eye.lon_deg)) return what + ": the eye is over the data and looks past them";
+    return Error{ErrorKind::no_data, view_file.empty() ? "" : "--view " + view_file,
+                 what + " from " + place_name(eye.lat_deg, eye.lon_deg) +
+                     where_data_are(grid, eye.lat_deg, eye.lon_deg)};
 }
 
 }  // namespace oro

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/file_pages.h"
+#include "geo/holes.h"
 #include "geo/letter_case.h"
 #include "geo/region_description.h"
 #include "geo/region_grid.h"
@@ -162,10 +163,18 @@ Result<void> cut_out(Region& region, const RegionFile& file, const BoundingBox& 
     ORO_TRY(region.field.H_m, posts_of(file, cut, progress));
     region.field.grid = cut;
     region.field.undulation = undulation_of(file.outline().undulation, cut);
+    const std::uint64_t region_voids = region.voids;
     region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
     if (region.voids == region.field.H_m.size())
         return Error{ErrorKind::no_data, file.path(), "all its posts in the box that was asked for are void"};
     std::erase_if(region.missing_cells, [&](const std::string& cell) { return !touches(cell, cut); });
+    // Which of the others are void in their source and which have none is told for the whole alone; where all
+    // of it is one of them, so is the part.
+    const bool only_outside = region.outside > 0 && region_voids == region.outside + region.in_missing;
+    const Uncovered uncovered =
+        count_uncovered(region.field, region.missing_cells, [](std::size_t) { return false; });
+    region.in_missing = uncovered.in_missing;
+    region.outside = only_outside ? uncovered.outside : 0;
     region.notes.push_back("cut out of " + file.path() +
                            ": sources, seams and filled posts are told for all of it");
     return {};

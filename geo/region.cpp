@@ -8,6 +8,7 @@
 
 #include "geo/baked_region.h"
 #include "geo/hgt_source.h"
+#include "geo/holes.h"
 #include "geo/library_faults.h"
 #include "geo/raster_library.h"
 #include "geo/raster_source.h"
@@ -286,6 +287,10 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
         return Error{ErrorKind::no_data, where,
                      "no height in " + text_of(posts) + ": all its posts are void"};
     region.missing_cells = cells_without(found.sources, grid);
+    const Uncovered uncovered = count_uncovered(region.field, region.missing_cells,
+                                                [&](std::size_t post) { return surface.covered(post); });
+    region.outside = uncovered.outside;
+    region.in_missing = uncovered.in_missing;
     for (Source& source : found.sources) region.sources.push_back(std::move(source.report));
     if (progress) progress(1.0, "region read");
     return region;

@@ -79,13 +79,17 @@ struct Region {
     std::shared_ptr<const RegionFile> file;
     std::vector<SourceReport> sources;  // those that the region uses
     SeamReport seams;
-    std::string geoid;  // "EGM96 (egm96_15.gtx)": what N in the field is
+    std::string geoid;               // "EGM96 (egm96_15.gtx)": what N in the field is
     UndulationField geoid_left_out;  // N that the field had, where a view goes without it
     std::vector<std::string>
-        missing_cells;               // whole-degree cells of the region without any source, e.g. "N45E008"
-    std::uint64_t voids{};           // void posts in the region
-    std::uint64_t filled{};          // void posts filled
-    std::string void_method;         // "holes" or "filled by inverse-distance interpolation (GDALFillNodata)"
+        missing_cells;           // whole-degree cells of the region without any source, e.g. "N45E008"
+    std::uint64_t voids{};       // posts of the region without a height, for whatever reason; of these:
+    std::uint64_t outside{};     // beyond the rims of all sources, in cells that one touches
+    std::uint64_t in_missing{};  // in missing_cells
+    std::uint64_t filled{};      // void posts filled
+    std::string void_method;     // "holes" or "filled by inverse-distance interpolation (GDALFillNodata)"
+    // Void in the source that covers them: what --fill-voids is for.
+    [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }
     std::vector<std::string> notes;  // what a user must know, one line each (a geoid that stands in, ...)
 };
 

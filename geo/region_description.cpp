@@ -62,6 +62,7 @@ class Field {
         if (found == value_.end()) throw Fault{full + " is missing"};
         return {*found, full};
     }
+    [[nodiscard]] bool has(const char* name) const { return value_.is_object() && value_.contains(name); }
     [[nodiscard]] std::vector<Field> elements() const {
         require(value_.is_array(), "a list");
         std::vector<Field> all;
@@ -158,6 +159,11 @@ Region region_of(const Field& field) {
     region.geoid = field["geoid"].text();
     region.missing_cells = field["missing_cells"].texts();
     region.voids = field["voids"].count();
+    // Regions baked earlier do not tell these apart from voids.
+    if (field.has("outside")) region.outside = field["outside"].count();
+    if (field.has("in_missing")) region.in_missing = field["in_missing"].count();
+    if (region.outside > region.voids || region.in_missing > region.voids - region.outside)
+        throw Fault{"it tells of more posts without a source than without a height"};
     region.filled = field["filled"].count();
     region.void_method = field["void_method"].text();
     region.notes = field["notes"].texts();
@@ -175,6 +181,8 @@ std::string region_description(const Region& region) {
     all["geoid"] = region.geoid;
     all["missing_cells"] = region.missing_cells;
     all["voids"] = region.voids;
+    all["outside"] = region.outside;
+    all["in_missing"] = region.in_missing;
     all["filled"] = region.filled;
     all["void_method"] = region.void_method;
     all["notes"] = region.notes;

@@ -43,4 +43,78 @@ TEST(RegionWords, ACopyrightThatIsNoUtf8IsDrawnWithItsBadByteReplaced) {
     EXPECT_EQ(json::parse(info.out)["sources"][0]["attribution"], shown);
 }
 
+// 1,000 m everywhere.
+std::string tile() {
+    std::string posts;
+    for (int i = 0; i < 1201 * 1201; ++i) posts += "\x03\xe8";
+    return posts;
+}
+
+TEST(RegionWords, AViewOfAnotherPlaceIsRefusedAndTheSkyIsNoted) {
+    const fs::path folder = oro::test::scratch_folder();
+    oro::test::write_bytes(folder / "N46E008.hgt", tile());
+    const Outcome here = run_orograph({"shot", bundled(), "--at", "36.6,-84.2", "--above", "30", "--size",
+                                       "64x48", "--out", folder / "here.png"});
+    ASSERT_EQ(here.exit_code, 0) << here.err;
+    const Outcome there = run_orograph(
+        {"shot", folder / "N46E008.hgt", "--view", folder / "here.json", "--out", folder / "there.png"});
+    expect_refusal(there, 3, {"nothing of the region is in view", "8,46,9,47"});
+    EXPECT_FALSE(fs::exists(folder / "there.png"));
+    const Outcome sky = run_orograph({"shot", bundled(), "--at", "36.6,-84.2", "--above", "30000", "--pitch",
+                                      "60", "--fov", "20", "--size", "64x48", "--out", folder / "sky.png"});
+    EXPECT_EQ(sky.exit_code, 0) << sky.err;
+    EXPECT_NE(sky.err.find("nothing of the region is in view"), std::string::npos) << sky.err;
+    EXPECT_EQ(here.err.find("nothing"), std::string::npos) << here.err;
+}
+
+TEST(RegionWords, APlaceWithoutDataHearsOfTheirBoxAndOfSwappedCoordinates) {
+    const fs::path folder = oro::test::scratch_folder();
+    oro::test::write_bytes(folder / "N46E008.hgt", tile());
+    const auto shoot = [&](const Words& more) {
+        Words words{"shot", folder / "N46E008.hgt", "--size", "64x48", "--out", folder / "a.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_orograph(words);
+    };
+    expect_refusal(shoot({"--at", "8.5,46.5", "--above", "3"}), 3,
+                   {"no elevation data there", "8,46,9,47", "46.500000,8.500000 lies inside"});
+    const Outcome far = shoot({"--at", "12.5,46.5", "--above", "3"});
+    expect_refusal(far, 3, {"no elevation data there", "8,46,9,47"});
+    EXPECT_EQ(far.err.find("lies inside"), std::string::npos) << far.err;
+    expect_refusal(shoot({"--at", "46.5,8.5", "--look-at", "8.5,46.5"}), 3, {"--look-at", "lies inside"});
+}
+
+// Tiles with 3 x 3 void posts, and a missing tile between them.
+TEST(RegionWords, VoidsAndMissingTilesAreCountedApart) {
+    const fs::path folder = oro::test::scratch_folder();
+    fs::create_directory(folder / "tiles");
+    std::string holed = tile();
+    for (int row = 600; row < 603; ++row)
+        for (int column = 600; column < 603; ++column)
+            holed.replace(2 * static_cast<std::size_t>(row * 1201 + column), 2, std::string("\x80\0", 2));
+    oro::test::write_bytes(folder / "tiles" / "N46E008.hgt", holed);
+    oro::test::write_bytes(folder / "tiles" / "N46E010.hgt", tile());
+    const std::string baked = folder / "a.oro";
+    ASSERT_EQ(run_orograph({"bake", folder / "tiles", "--out", baked, "-q"}).exit_code, 0);
+    for (const std::string& from : {(folder / "tiles").string(), baked}) {
+        const Outcome info = run_orograph({"info", from, "--json", "-q"});
+        ASSERT_EQ(info.exit_code, 0) << info.err;
+        const json region = json::parse(info.out)["region"];
+        EXPECT_EQ(region["voids"], 9);
+        EXPECT_EQ(region["outside_sources"], 0);
+        EXPECT_EQ(region["in_missing_cells"], 1199 * 1201);
+        EXPECT_EQ(region["missing_cells"], json::array({"N46E009"}));
+    }
+    const Outcome shot = run_orograph({"shot", baked, "--size", "64x48", "--out", folder / "a.png"});
+    EXPECT_EQ(shot.exit_code, 0) << shot.err;
+    EXPECT_NE(shot.err.find("9 void posts are holes (baking with --fill-voids"), std::string::npos)
+        << shot.err;
+    EXPECT_NE(shot.err.find("1439999 posts in 1 missing cells are holes"), std::string::npos) << shot.err;
+    // Where no post is void, filling is not offered.
+    fs::remove(folder / "tiles" / "N46E008.hgt");
+    oro::test::write_bytes(folder / "tiles" / "N46E008.hgt", tile());
+    const Outcome whole =
+        run_orograph({"shot", folder / "tiles", "--size", "64x48", "--out", folder / "b.png"});
+    EXPECT_EQ(whole.err.find("--fill-voids"), std::string::npos) << whole.err;
+}
+
 }  // namespace

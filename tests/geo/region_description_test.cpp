@@ -59,6 +59,24 @@ std::string refusal(const std::string& text) {
     return read.error().line();
 }
 
+TEST(RegionDescription, ARegionBakedBeforeHolesWereToldApartIsRead) {
+    Region region;
+    region.voids = 30;
+    region.outside = 10;
+    region.in_missing = 5;
+    std::string text = region_description(region);
+    auto read = region_from_description(text, "a.oro");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(read->void_posts(), 15U);
+    for (const std::string part : {"\"outside\":10,", "\"in_missing\":5,"})
+        text.erase(text.find(part), part.size());
+    read = region_from_description(text, "a.oro");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(read->void_posts(), 30U);
+    region.outside = 31;
+    EXPECT_FALSE(region_from_description(region_description(region), "a.oro").ok());
+}
+
 TEST(RegionDescription, EveryFieldComesBack) {
     const Region region = unusual_region();
     const std::string text = region_description(region);
