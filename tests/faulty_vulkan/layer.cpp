@@ -13,8 +13,6 @@
 //                                           layer, and each object that was alive when its owner went ("leak
 //                                           ...").
 // Lies above the validation layer, which sees only calls that did not fail.
-#include <fcntl.h>
-#include <unistd.h>
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -23,30 +21,19 @@
 #include <cstring>
 #include <map>
 #include <memory>
-#include <mutex>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/faulty_vulkan/made_up_devices.h"
+#include "tests/faulty_vulkan/orders.h"
 
 namespace oro::test {
 namespace {
 
-// One order from ORO_FAULT.
-struct Fault {
-    std::string call;
-    int number{};  // 0: every one
-    VkResult result{};
-};
-
 struct State {
-    std::mutex mutex;
-    std::map<std::string, int> calls;
-    std::vector<Fault> faults;
-    bool lost{false};
     int instances{}, devices{}, surfaces{}, messengers{};
     PFN_vkGetInstanceProcAddr next_instance_proc{};
+    std::map<std::string, PFN_vkVoidFunction> below;
     PFN_vkGetDeviceProcAddr next_device_proc{};
     VkInstance instance{};
     VkDevice device{};
@@ -56,79 +43,21 @@ State& state() {
     return the;
 }
 
-void log_line(const std::string& line) {
-    const char* const file = std::getenv("ORO_FAULT_LOG");
-    const int to = file != nullptr ? open(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600) : -1;
-    if (to < 0) return;
-    const std::string text = line + "\n";
-    // A line that is not there makes the test that reads it fail.
-    if (write(to, text.data(), text.size()) < 0) std::abort();
-    close(to);
+// What lies below the layer, of a name. Asked while the instance is made: later, where nothing but the loader
+// lies below, it would give what lies on top.
+PFN_vkVoidFunction below(const char* name) {
+    const auto found = state().below.find(name);
+    return found != state().below.end() ? found->second : nullptr;
 }
 
-VkResult result_named(const std::string& name) {
-    static const std::map<std::string, VkResult> results{
-        {"VK_ERROR_OUT_OF_HOST_MEMORY", VK_ERROR_OUT_OF_HOST_MEMORY},
-        {"VK_ERROR_OUT_OF_DEVICE_MEMORY", VK_ERROR_OUT_OF_DEVICE_MEMORY},
-        {"VK_ERROR_INITIALIZATION_FAILED", VK_ERROR_INITIALIZATION_FAILED},
-        {"VK_ERROR_INCOMPATIBLE_DRIVER", VK_ERROR_INCOMPATIBLE_DRIVER},
-        {"VK_ERROR_DEVICE_LOST", VK_ERROR_DEVICE_LOST},
-        {"VK_ERROR_SURFACE_LOST_KHR", VK_ERROR_SURFACE_LOST_KHR},
-        {"VK_ERROR_OUT_OF_DATE_KHR", VK_ERROR_OUT_OF_DATE_KHR},
-        {"VK_SUBOPTIMAL_KHR", VK_SUBOPTIMAL_KHR},
-        {"VK_TIMEOUT", VK_TIMEOUT},
-    };
-    const auto found = results.find(name);
-    if (found == results.end()) std::abort();  // a mistake in the test
-    return found->second;
-}
-
-void read_orders() {
-    State& s = state();
-    const char* const orders = std::getenv("ORO_FAULT");
-    s.faults.clear();
-    std::istringstream all(orders != nullptr ? orders : "");
-    for (std::string order; std::getline(all, order, ';');) {
-        std::istringstream words(order);
-        Fault fault;
-        std::string result;
-        if (words >> fault.call >> fault.number >> result) {
-            fault.result = result_named(result);
-            s.faults.push_back(fault);
-        }
-    }
-}
-
-bool can_lose_device(const std::string& call) {
-    return call == "vkQueueSubmit2" || call == "vkWaitForFences" || call == "vkQueueWaitIdle" ||
-           call == "vkDeviceWaitIdle" || call == "vkGetQueryPoolResults" || call == "vkAcquireNextImageKHR" ||
-           call == "vkQueuePresentKHR" || call == "vkCreateSwapchainKHR";
-}
-
-// Counts a call, and tells what it is to give; VK_SUCCESS: what it gives by itself.
-VkResult ordered(const char* call) {
-    State& s = state();
-    const std::scoped_lock lock(s.mutex);
-    const int number = ++s.calls[call];
-    log_line(std::string("call ") + call);
-    if (s.lost && can_lose_device(call)) return VK_ERROR_DEVICE_LOST;
-    for (const Fault& fault : s.faults) {
-        if (fault.call != call || (fault.number != 0 && fault.number != number)) continue;
-        log_line(std::string("fault ") + call + " " + std::to_string(number));
-        if (fault.result == VK_ERROR_DEVICE_LOST) s.lost = true;
-        return fault.result;
-    }
-    return VK_SUCCESS;
-}
-
-// What lies below, of a name.
+// Of the device, of a name.
 template <class Function>
 Function next_of_device(const char* name) {
     return reinterpret_cast<Function>(state().next_device_proc(state().device, name));
 }
 template <class Function>
 Function next_of_instance(const char* name) {
-    return reinterpret_cast<Function>(state().next_instance_proc(state().instance, name));
+    return reinterpret_cast<Function>(below(name));
 }
 
 // A name as a template's argument.
@@ -151,7 +80,7 @@ struct OfDevice;
 template <Name name, class... Arguments>
 struct OfDevice<name, VkResult(VKAPI_PTR*)(Arguments...)> {
     static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
-        const bool was_lost = state().lost;
+        const bool was_lost = is_lost();
         const VkResult result = ordered(name.text);
         const auto next = next_of_device<VkResult(VKAPI_PTR*)(Arguments...)>(name.text);
         if (result == VK_SUCCESS) return next(arguments...);
@@ -181,7 +110,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const Vk
     if (made != VK_SUCCESS) return made;
     s.next_device_proc = next_device;
     s.device = *device;
-    s.lost = false;
+    device_is_new();
     ++s.devices;
     return VK_SUCCESS;
 }
@@ -245,6 +174,8 @@ VKAPI_ATTR void VKAPI_CALL destroy_surface(VkInstance instance, VkSurfaceKHR sur
     next_of_instance<PFN_vkDestroySurfaceKHR>("vkDestroySurfaceKHR")(instance, surface, allocator);
 }
 
+const std::map<std::string, PFN_vkVoidFunction>& hooks();
+
 VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
                                                const VkAllocationCallbacks* allocator, VkInstance* instance) {
     auto* link =
@@ -265,8 +196,10 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
     if (made != VK_SUCCESS) return made;
     s.instance = *instance;
     ++s.instances;
+    s.below.clear();
+    for (const auto& [name, own] : hooks()) s.below[name] = s.next_instance_proc(*instance, name.c_str());
     const char* const devices = std::getenv("ORO_FAULT_DEVICES");
-    make_up_devices(devices != nullptr ? devices : "", *instance, s.next_instance_proc);
+    make_up_devices(devices != nullptr ? devices : "", *instance, below);
     return VK_SUCCESS;
 }
 
@@ -315,14 +248,14 @@ VKAPI_ATTR VkResult VKAPI_CALL get_query_results(VkDevice device, VkQueryPool po
     return result;
 }
 
-PFN_vkVoidFunction hook(const char* name) {
+const std::map<std::string, PFN_vkVoidFunction>& hooks() {
 #define ORO_DEVICE(function) \
     { #function, reinterpret_cast < PFN_vkVoidFunction>(OfDevice <#function, PFN_##function>::call) }
 #define ORO_SURFACE(function) \
     { #function, reinterpret_cast < PFN_vkVoidFunction>(OfSurface <#function, PFN_##function>::call) }
 #define ORO_OWN(function, own) \
     { #function, reinterpret_cast < PFN_vkVoidFunction>(own) }
-    static const std::map<std::string, PFN_vkVoidFunction> hooks{
+    static const std::map<std::string, PFN_vkVoidFunction> all{
         ORO_OWN(vkCreateInstance, create_instance),
         ORO_OWN(vkDestroyInstance, destroy_instance),
         ORO_OWN(vkCreateDevice, create_device),
@@ -376,8 +309,12 @@ PFN_vkVoidFunction hook(const char* name) {
 #undef ORO_DEVICE
 #undef ORO_SURFACE
 #undef ORO_OWN
-    const auto found = hooks.find(name);
-    return found != hooks.end() ? found->second : nullptr;
+    return all;
+}
+
+PFN_vkVoidFunction hook(const char* name) {
+    const auto found = hooks().find(name);
+    return found != hooks().end() ? found->second : nullptr;
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_proc(VkDevice device, const char* name) {

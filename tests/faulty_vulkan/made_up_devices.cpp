@@ -28,7 +28,7 @@ struct Devices {
     std::vector<std::unique_ptr<MadeUpDevice>> all;
     VkInstance instance{};
     VkPhysicalDevice real{};
-    PFN_vkGetInstanceProcAddr next{};
+    FunctionBelow next{};
 };
 Devices& devices() {
     static Devices the;
@@ -37,7 +37,7 @@ Devices& devices() {
 
 template <class Function>
 Function next(const char* name) {
-    return reinterpret_cast<Function>(devices().next(devices().instance, name));
+    return reinterpret_cast<Function>(devices().next(name));
 }
 
 const MadeUpDevice* made_up(VkPhysicalDevice device) {
@@ -87,7 +87,7 @@ VkResult hand_out(const std::vector<Value>& values, std::uint32_t* count, Value*
 
 }  // namespace
 
-void make_up_devices(const std::string& list, VkInstance instance, PFN_vkGetInstanceProcAddr next_proc) {
+void make_up_devices(const std::string& list, VkInstance instance, FunctionBelow next_proc) {
     Devices& the = devices();
     the.instance = instance;
     the.next = next_proc;

@@ -8,11 +8,14 @@
 
 namespace oro::test {
 
+// What lies below the layer, of a name.
+using FunctionBelow = PFN_vkVoidFunction (*)(const char* name);
+
 // Takes on a list: "discrete Big GPU;software Slow without mesh_shader,atomics". A device is a kind
 // (discrete, integrated, virtual, software), a name, and what it lacks: mesh_shader, atomics, swapchain,
 // timestamps, vulkan13, addresses (bufferDeviceAddress), or whole_timestamps (of 64 bits, 36 count; the
 // others are noise). "none" is a list without a device; "" leaves the driver's own.
-void make_up_devices(const std::string& list, VkInstance instance, PFN_vkGetInstanceProcAddr next);
+void make_up_devices(const std::string& list, VkInstance instance, FunctionBelow next);
 
 // The driver's device behind one of these (or itself).
 VkPhysicalDevice real_device(VkPhysicalDevice device);
