@@ -11,8 +11,8 @@ namespace {
 // A baked region's levels are those of its own heights; exaggerated ones, and those that its geoid was taken
 // from, need levels of their own, and to measure these, all posts in memory.
 Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exaggeration,
-                                              const RenderProgress& progress) {
-    if (!region.file) return pages_in_memory(region.field, exaggeration, thread_count(), progress);
+                                              const RenderProgress& progress, const std::stop_token& stop) {
+    if (!region.file) return pages_in_memory(region.field, exaggeration, thread_count(), progress, stop);
     const bool own_geoid = region.field.undulation.N_m.size() == region.file->outline().undulation.N_m.size();
     if (own_geoid && exaggeration == 1.0) return pages_of_file(region.file);
     ORO_TRY(HeightField field, field_in_memory(*region.file));
@@ -23,8 +23,10 @@ Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exagg
 }  // namespace
 
 Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double exaggeration,
-                                                  const RenderProgress& progress) {
-    ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(region, exaggeration, progress));
+                                                  const RenderProgress& progress,
+                                                  const std::stop_token& stop) {
+    ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(region, exaggeration, progress, stop));
+    if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
     if (pages->facts().triangles == 0)
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
     return pages;

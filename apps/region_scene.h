@@ -1,16 +1,19 @@
 // From a region that was read to one that can be drawn.
 #pragma once
 
+#include <stop_token>
+
 #include "apps/options.h"
 #include "geo/region.h"
 #include "render/scene.h"
 
 namespace oro {
 
-// Pages of a region with levels for that exaggeration. Errors: damage in a baked region; nothing to draw in
-// it (no_data).
+// Pages of a region with levels for that exaggeration. stop: as pages_in_memory(). Errors: damage in a baked
+// region; nothing to draw in it (no_data); stopped.
 Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double exaggeration,
-                                                  const RenderProgress& progress = {});
+                                                  const RenderProgress& progress = {},
+                                                  const std::stop_token& stop = {});
 // Makes them ready for a GPU. Errors: out of device memory. heights: how they are kept there.
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
                            HeightStorage heights = HeightStorage::f32);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "apps/commands.h"
+#include "apps/finer_levels.h"
 #include "apps/flight.h"
 #include "apps/json_text.h"
 #include "apps/picking.h"
@@ -29,14 +30,16 @@ struct Viewer {
     Region region;
     gpu::FrameStyle style;
     const Gpu& gpu;
-    Scene& scene;
+    std::unique_ptr<Scene> scene;  // of every n-th post while `finer` is being measured
     Window& window;
     FrameRenderer& renderer;
     bool asking_place{false};
-    std::string place_text;
-    std::string message;                 // shown in the title until the eye moves
-    std::vector<PageIndex> missing;      // what the last frame should have had
-    std::optional<TrueSurface> surface;  // made when it is first asked, for all questions after
+    std::string place_text{};
+    std::string shown_title{};
+    std::string message{};                 // shown in the title until the eye moves
+    std::vector<PageIndex> missing{};      // what the last frame should have had
+    std::optional<TrueSurface> surface{};  // made when it is first asked, for all questions after
+    std::unique_ptr<FinerLevels> finer{};  // the levels that the view asks for, until they are here
 };
 
 Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px) {
@@ -52,7 +55,11 @@ std::string title_of(const Viewer& viewer) {
     char text[160];
     std::snprintf(text, sizeof text, "%.6f° %.6f°  H %.1f m  heading %.1f°", camera.eye.lat_deg,
                   camera.eye.lon_deg, camera.eye.h_m - N_m, camera.attitude.heading_deg);
-    return (viewer.message.empty() ? "" : viewer.message + "  |  ") + text;
+    char coarse[60] = "";
+    if (viewer.finer)
+        std::snprintf(coarse, sizeof coarse, "coarse: finer detail is measured, %.0f %%  |  ",
+                      100.0 * viewer.finer->share());
+    return coarse + (viewer.message.empty() ? "" : viewer.message + "  |  ") + text;
 }
 
 FlightStep step_of(const WindowInput& input, const Camera& camera) {
@@ -123,13 +130,42 @@ std::string free_picture_name(std::int64_t time_utc_s) {
     }
 }
 
+// Takes the measured levels in place of the coarse ones, and waits for them where they are not ready. The eye
+// stays: from its first frame on, the new scene has what a coarse picture needs.
+Result<void> take_finer_levels(Viewer& viewer) {
+    constexpr double first_tau_px = 4.0;
+    ORO_TRY(std::unique_ptr<RegionPages> pages, viewer.finer->wait());
+    viewer.finer.reset();
+    ORO_TRY(Scene scene,
+            create_scene(viewer.gpu, std::move(pages), viewer.options.memory, viewer.view.heights));
+    const Camera& camera = viewer.view.camera;
+    ORO_CHECK(scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+                                 std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
+    viewer.scene = std::make_unique<Scene>(std::move(scene));
+    viewer.missing.clear();
+    return {};
+}
+
+void show_title(Viewer& viewer) {
+    const std::string title = title_of(viewer);
+    if (title == viewer.shown_title) return;
+    viewer.window.set_title(title);
+    viewer.shown_title = title;
+}
+
 Result<void> take_picture(Viewer& viewer) {
+    if (viewer.finer) {
+        // A picture is what its view says, and nothing coarser.
+        viewer.message = "the picture waits for finer detail";
+        show_title(viewer);
+        ORO_CHECK(take_finer_levels(viewer));
+    }
     viewer.view.time_utc_s = time_now_s();
     const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
     const Camera& camera = viewer.view.camera;
     ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
     const auto written = write_picture(files, false, viewer.view, viewer.region, middle, viewer.gpu,
-                                       viewer.scene, viewer.style, {});
+                                       *viewer.scene, viewer.style, {});
     viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
     say(viewer.options.quiet && written.ok(), viewer.message);
     return {};
@@ -150,7 +186,6 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
     const double wait_s = changed && can_draw ? 0.0 : viewer.missing.empty() ? 0.05 : 0.005;
     const WindowInput input = viewer.window.poll(wait_s);
     if (input.closed) return false;
-    const std::string title_before = title_of(viewer);
     if (viewer.asking_place) {
         ask_place(viewer, input);
         changed = changed || !viewer.asking_place;
@@ -175,11 +210,14 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
             viewer.message.clear();
             changed = true;
         }
-        if (input.take_picture) ORO_CHECK(take_picture(viewer));
+        if (input.take_picture) {
+            ORO_CHECK(take_picture(viewer));
+            changed = true;  // it may have brought finer detail
+        }
     }
     // The eye stands on ground that was asked for: it ends as a page does that cannot be drawn.
     ORO_CHECK(viewer.region.field.health());
-    if (title_of(viewer) != title_before) viewer.window.set_title(title_of(viewer));
+    show_title(viewer);
     return true;
 }
 
@@ -193,14 +231,14 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         changed = true;
     }
     if (!viewer.missing.empty()) {
-        ORO_TRY(const bool better, viewer.scene.advance(viewer.missing));
+        ORO_TRY(const bool better, viewer.scene->advance(viewer.missing));
         changed = changed || better;
     }
     if (!changed) return {};
     camera.width_px = static_cast<int>(extent.width);
     camera.height_px = static_cast<int>(extent.height);
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    ORO_TRY(FramePlan plan, viewer.scene.plan(camera, tile, viewer.view.tau_px, viewer.view.model));
+    ORO_TRY(FramePlan plan, viewer.scene->plan(camera, tile, viewer.view.tau_px, viewer.view.model));
     viewer.missing = plan.missing;
     ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
@@ -210,14 +248,25 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
 
 Result<void> run_loop(Viewer& viewer) {
     bool changed = true;
-    viewer.window.set_title(title_of(viewer));
+    show_title(viewer);
     for (;;) {
+        if (viewer.finer && viewer.finer->ready()) {
+            ORO_CHECK(take_finer_levels(viewer));
+            changed = true;
+        }
         ORO_CHECK(draw_frame(viewer, changed));
         if (!viewer.gpu.validation_messages().empty())
             return Error{ErrorKind::failed, "Vulkan validation", viewer.gpu.validation_messages().front()};
         ORO_TRY(const bool stays, turn(viewer, changed));
         if (!stays) return {};
     }
+}
+
+// What a window begins with: all levels, or where measuring them takes long, those of every n-th post.
+Result<std::unique_ptr<RegionPages>> first_pages(const Region& region, const View& view,
+                                                 const RenderProgress& progress) {
+    if (!measures_long(region)) return region_pages(region, view.exaggeration, progress);
+    return pages_in_memory(coarse_field(region.field), view.exaggeration, thread_count());
 }
 
 // A window is drawn in one piece, where a picture has tiles.
@@ -255,9 +304,10 @@ Result<void> run_view(const WindowOptions& options) {
     gpu_options.presents = true;
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
     ORO_CHECK(check_window_size(view.camera, gpu->report()));
-    ORO_TRY(Scene scene, create_scene(
-                             *gpu, region, view.exaggeration, options.memory,
-                             [&](double share) { bar.show(share, "measuring levels"); }, view.heights));
+    const bool coarse_first = measures_long(region);
+    ORO_TRY(std::unique_ptr<RegionPages> pages,
+            first_pages(region, view, [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), options.memory, view.heights));
     bar.clear();
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
     if (const std::string holes = note_of_voids(region); !holes.empty()) say(options.quiet, "note: " + holes);
@@ -273,14 +323,10 @@ Result<void> run_view(const WindowOptions& options) {
                   std::move(region),
                   style.frame,
                   *gpu,
-                  scene,
+                  std::make_unique<Scene>(std::move(scene)),
                   *window,
-                  renderer,
-                  false,
-                  "",
-                  "",
-                  {},
-                  std::nullopt};
+                  renderer};
+    if (coarse_first) viewer.finer = std::make_unique<FinerLevels>(viewer.region, viewer.view.exaggeration);
     return run_loop(viewer);
 }
 

@@ -40,7 +40,8 @@ RegionPages::RegionPages(RegionFacts facts)
     : facts_(std::move(facts)), levels_(level_count(facts_.grid)), goes_round_(facts_.grid.goes_round()) {}
 
 std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,
-                                             const std::function<void(double share)>& progress) {
+                                             const std::function<void(double share)>& progress,
+                                             const std::stop_token& stop) {
     RegionFacts facts{field.grid, field.undulation, region_shape(field, exaggeration), 0};
     DrawnHeights heights = drawn_heights(field, exaggeration, threads);
     std::uint64_t all = 0;
@@ -48,13 +49,18 @@ std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double ex
         all += level_grid(field.grid, level).pages().count();
     }
     std::uint64_t done = 0;
-    LevelPyramid pyramid = build_pyramid(
-        field.grid, facts.shape, heights, threads, [&](const PyramidPage& page, const gpu::PageBlock&) {
-            if (page.summary.index.level == 0) facts.triangles += page.summary.triangles;
-            ++done;
-            if (progress) progress(static_cast<double>(done) / static_cast<double>(all));
-        });
-    return std::make_unique<PagesInMemory>(std::move(facts), std::move(pyramid), std::move(heights));
+    PyramidHooks hooks;
+    hooks.sink = [&](int, const PyramidPage& page, const gpu::PageBlock&,
+                     const StitchedErrors&) -> Result<void> {
+        if (stop.stop_requested()) return Error{ErrorKind::failed, "levels", "nobody wants them any more"};
+        if (page.summary.index.level == 0) facts.triangles += page.summary.triangles;
+        ++done;
+        if (progress) progress(static_cast<double>(done) / static_cast<double>(all));
+        return {};
+    };
+    Result<LevelPyramid> pyramid = build_pyramid_with(field.grid, facts.shape, heights, threads, hooks);
+    if (!pyramid.ok()) return nullptr;
+    return std::make_unique<PagesInMemory>(std::move(facts), std::move(pyramid).value(), std::move(heights));
 }
 
 }  // namespace oro

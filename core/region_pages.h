@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 
 #include "core/page.h"
 #include "core/post_grid.h"
@@ -49,8 +50,9 @@ class RegionPages {
 
 // Builds all levels of a field with up to `threads` threads (core/pyramid.h) and keeps what load() needs of
 // them: 12 KB a page and 4 bytes a post. The field is not needed afterwards. progress is told shares of the
-// whole from the caller's thread.
+// whole from the caller's thread. stop: nothing is given once it is asked for (within some 0.1 s).
 std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,
-                                             const std::function<void(double share)>& progress = {});
+                                             const std::function<void(double share)>& progress = {},
+                                             const std::stop_token& stop = {});
 
 }  // namespace oro
