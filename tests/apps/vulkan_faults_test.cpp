@@ -119,6 +119,13 @@ void expect_told(const FaultyRun& run, const std::string& result) {
     EXPECT_EQ(run.messages, Words{});
 }
 
+// Room for fewer pages was asked for and found: the picture is as good as ever.
+bool made_do_with_fewer_pages(const std::string& call, const std::string& result, const FaultyRun& run,
+                              const FaultyRun& good) {
+    return call == "vkAllocateMemory" && result == out_of_memory && run.outcome.exit_code == 0 &&
+           run.calls.at(call) == good.calls.at(call) + 1 && run.files == good.files && run.messages.empty();
+}
+
 class EachCallOfVulkan : public testing::TestWithParam<const char*> {};
 
 TEST_P(EachCallOfVulkan, FailsWithALineAndNothingLeft) {
@@ -128,15 +135,22 @@ TEST_P(EachCallOfVulkan, FailsWithALineAndNothingLeft) {
     EXPECT_EQ(good.messages, Words{});
     EXPECT_EQ(good.files, Words{"p.png"});
     EXPECT_GE(good.calls.size(), 25U);
+    int fewer_pages = 0;
     for (const auto& [call, count] : good.calls) {
         for (int number = 1; number <= count; ++number) {
             for (const std::string& result : results_of(call, number == 1)) {
                 const std::string fault = call + " " + std::to_string(number) + " " + result;
                 SCOPED_TRACE(fault);
-                expect_told(run_with_faults(words, fault), result);
+                const FaultyRun run = run_with_faults(words, fault);
+                if (made_do_with_fewer_pages(call, result, run, good)) {
+                    ++fewer_pages;
+                } else {
+                    expect_told(run, result);
+                }
             }
         }
     }
+    EXPECT_EQ(fewer_pages, 1);
 }
 INSTANTIATE_TEST_SUITE_P(Pipelines, EachCallOfVulkan, testing::Values("mesh", "compute"),
                          [](const auto& way) { return std::string(way.param); });
