@@ -71,7 +71,7 @@ TEST_F(ToldView, WhatCannotBeOpenedAgainIsNotWritten) {
 // The least and the most of each option: written, and opened again to the same bytes.
 TEST_F(ToldView, LimitsAreTheSameOnBothSides) {
     const std::vector<Words> edges{{"--at", "geo:36.5,-84.3,2000000000"},
-                                   {"--at", "geo:90,180,-7000000"},
+                                   {"--at", "geo:90,180,-7000000", "--look-at", "36.6,-84.2"},
                                    {"--at", "36.5,-84.3", "--altitude", "1e9", "--heading", "-360"},
                                    {"--at", "36.5,-84.3", "--altitude", "-12000", "--heading", "360"},
                                    {"--sun", "1e9,90", "--samples", "64"},
