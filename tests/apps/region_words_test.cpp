@@ -57,7 +57,7 @@ TEST(RegionWords, AViewOfAnotherPlaceIsRefusedAndTheSkyIsNoted) {
                                        "64x48", "--out", folder / "here.png"});
     ASSERT_EQ(here.exit_code, 0) << here.err;
     const Outcome there = run_orograph(
-        {"shot", folder / "N46E008.hgt", "--view", folder / "here.json", "--out", folder / "there.png"});
+        {"shot", folder / "N46E008.hgt", "--view", folder / "here.png", "--out", folder / "there.png"});
     expect_refusal(there, 3, {"nothing of the region is in view", "8,46,9,47"});
     EXPECT_FALSE(fs::exists(folder / "there.png"));
     const Outcome sky = run_orograph({"shot", bundled(), "--at", "36.6,-84.2", "--above", "30000", "--pitch",
