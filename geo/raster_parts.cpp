@@ -146,6 +146,7 @@ class Walk {
         return extent;
     }
 
+    [[nodiscard]] std::uint64_t distinct() const { return extents_.size(); }
     RasterParts take() { return {{files_.begin(), files_.end()}, std::move(doubts_)}; }
 
   private:
@@ -250,7 +251,11 @@ class Walk {
 
 Result<RasterParts> parts_of_raster(const std::string& file) {
     Walk walk;
-    ORO_CHECK(walk.visit(file, 0));
+    ORO_TRY(const Extent extent, walk.visit(file, 0));
+    if (extent.sources > 1000 && extent.sources > most_times_named * walk.distinct())
+        return fault("is a VRT that stands for " + std::to_string(extent.sources) + " sources and has " +
+                     std::to_string(walk.distinct()) + " files: each may be named " +
+                     std::to_string(most_times_named) + " times, which is the limit");
     return walk.take();
 }
 

@@ -14,6 +14,8 @@ namespace oro {
 inline constexpr int deepest_vrt = 4;
 // ... name so many sources, those of its sources counted each time they are named, ...
 inline constexpr std::uint64_t most_vrt_sources = 100'000;
+// ... name each so many times where it names more than a thousand, ...
+inline constexpr std::uint64_t most_times_named = 16;
 // ... and be so long.
 inline constexpr std::uint64_t most_vrt_bytes = std::uint64_t{64} << 20U;
 

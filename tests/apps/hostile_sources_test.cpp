@@ -320,6 +320,10 @@ TEST_F(HostileSources, VrtsOfVrtsAreBounded) {
     write_bytes(folder / "1.vrt", vrt_of(Words(500, near)));
     write_bytes(folder / "2.vrt", vrt_of(Words(500, folder / "1.vrt")));
     expect_refused(folder / "2.vrt", "100000 sources, which is the limit");
+    // Fewer, one over the other: each post of it asks them all.
+    write_bytes(folder / "1.vrt", vrt_of(Words(100, near)));
+    write_bytes(folder / "2.vrt", vrt_of(Words(100, folder / "1.vrt")));
+    expect_refused(folder / "2.vrt", "16 times, which is the limit");
     write_bytes(folder / "self.vrt", vrt_of({folder / "self.vrt"}));
     expect_refused(folder / "self.vrt", "names itself");
 }
