@@ -10,8 +10,11 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <type_traits>
+#include <vector>
 
 #include "core/little_endian.h"
 #include "core/post_grid.h"
@@ -159,33 +162,51 @@ unsigned kind_of(const PagePayload& payload) {
     return (all_whole ? whole_metres : floats) | (any_void ? with_voids : 0U);
 }
 
-// What a thread keeps for all that it presses or unpacks; not to be had without memory.
-class Packer {
+// What is kept for pressing and unpacking, one for each thread that does so at a time; not to be had without
+// memory. Lent, and not a thread's own: glibc aborts when it has no memory to enter what a thread must
+// destroy.
+template <class Context, Context* (*create)(), std::size_t (*destroy)(Context*)>
+class Lent {
   public:
-    Packer() : context_(ZSTD_createCCtx()) {
-        if (context_ == nullptr) throw std::bad_alloc();
+    Lent() {
+        {
+            const std::scoped_lock lock(idle().mutex);
+            if (!idle().contexts.empty()) {
+                context_ = std::move(idle().contexts.back());
+                idle().contexts.pop_back();
+            }
+        }
+        if (!context_) context_.reset(create());
+        if (!context_) throw std::bad_alloc();
     }
-    Packer(const Packer&) = delete;
-    Packer& operator=(const Packer&) = delete;
-    ~Packer() { ZSTD_freeCCtx(context_); }
-    [[nodiscard]] ZSTD_CCtx* get() const { return context_; }
+    Lent(const Lent&) = delete;
+    Lent& operator=(const Lent&) = delete;
+    ~Lent() {
+        try {
+            const std::scoped_lock lock(idle().mutex);
+            idle().contexts.push_back(std::move(context_));
+        } catch (const std::bad_alloc&) {  // then it is destroyed
+        }
+    }
+    [[nodiscard]] Context* get() const { return context_.get(); }
 
   private:
-    ZSTD_CCtx* context_;
-};
-class Unpacker {
-  public:
-    Unpacker() : context_(ZSTD_createDCtx()) {
-        if (context_ == nullptr) throw std::bad_alloc();
+    struct Destroy {
+        void operator()(Context* context) const { destroy(context); }
+    };
+    struct Idle {
+        std::mutex mutex;
+        std::vector<std::unique_ptr<Context, Destroy>> contexts;
+    };
+    static Idle& idle() {
+        static Idle all;
+        return all;
     }
-    Unpacker(const Unpacker&) = delete;
-    Unpacker& operator=(const Unpacker&) = delete;
-    ~Unpacker() { ZSTD_freeDCtx(context_); }
-    [[nodiscard]] ZSTD_DCtx* get() const { return context_; }
 
-  private:
-    ZSTD_DCtx* context_;
+    std::unique_ptr<Context, Destroy> context_;
 };
+using Packer = Lent<ZSTD_CCtx, ZSTD_createCCtx, ZSTD_freeCCtx>;
+using Unpacker = Lent<ZSTD_DCtx, ZSTD_createDCtx, ZSTD_freeDCtx>;
 
 // What zstd found wrong; nothing when all is well. Lack of memory is no fault of the bytes.
 std::optional<std::string> fault_of(std::size_t zstd_result) {
@@ -228,7 +249,7 @@ Result<std::vector<std::byte>> encode_payload(const PagePayload& payload) {
     std::memcpy(nodes.data() + node_numbers / 2, payload.lod_radius_m.data(), sizeof(payload.lod_radius_m));
     write_planes(nodes.data(), node_numbers, to);
 
-    thread_local const Packer context;
+    const Packer context;
     std::vector<std::byte> packed(largest_payload_bytes);
     packed[0] = static_cast<std::byte>(kind);
     const std::size_t bytes = ZSTD_compressCCtx(context.get(), packed.data() + 1, packed.size() - 1,
@@ -245,7 +266,7 @@ std::optional<std::string> decode_payload(std::span<const std::byte> bytes, Page
     const auto kind = static_cast<unsigned>(bytes[0]);
     if (!known(kind)) return "is of kind " + std::to_string(kind) + ", which this program does not know";
     std::vector<std::byte> unpacked(unpacked_bytes(kind));
-    thread_local const Unpacker context;
+    const Unpacker context;
     const std::size_t found = ZSTD_decompressDCtx(context.get(), unpacked.data(), unpacked.size(),
                                                   bytes.data() + 1, bytes.size() - 1);
     if (const auto what = fault_of(found)) return "cannot be unpacked: " + *what;

@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 using Integers = std::vector<std::uint32_t>;
-using Rationals = std::vector<ExifRational>;
+using Rationals = ExifRationals;
 
 Error unfit(const std::string& what) {
     return {ErrorKind::failed, "geotags", what};
@@ -116,7 +116,7 @@ ExifField short_integer(std::uint16_t tag, std::uint32_t value) {
     return {tag, ExifType::short_integer, Integers{value}};
 }
 
-// Not an initializer list: where copying out of one throws (there is no memory), GCC 12 frees it twice.
+// Moves them, where an initializer list would copy.
 template <class... Fields>
 std::vector<ExifField> fields_of(Fields... fields) {
     std::vector<ExifField> all;
@@ -243,8 +243,29 @@ Result<ExifFields> exif_fields(const Geotags& tags) {
     return fields;
 }
 
+namespace {
+
+// libexif leaves out what it has no memory for, and says nothing.
+thread_local bool lacked_memory = false;
+
+template <class Memory>
+void* noted(Memory* memory) {
+    if (memory == nullptr) lacked_memory = true;
+    return memory;
+}
+void* take_memory(ExifLong size) {
+    return noted(std::calloc(1, size));
+}
+void* resize_memory(void* old, ExifLong size) {
+    return noted(std::realloc(old, size));
+}
+
+}  // namespace
+
 Result<Bytes> exif_block(const ExifFields& fields) {
-    const std::unique_ptr<ExifMem, decltype(&exif_mem_unref)> memory(exif_mem_new_default(), exif_mem_unref);
+    lacked_memory = false;
+    const std::unique_ptr<ExifMem, decltype(&exif_mem_unref)> memory(
+        exif_mem_new(take_memory, resize_memory, std::free), exif_mem_unref);
     const std::unique_ptr<ExifData, decltype(&exif_data_unref)> data(
         memory ? exif_data_new_mem(memory.get()) : nullptr, exif_data_unref);
     if (!data) return unfit("no memory for EXIF");
@@ -257,6 +278,7 @@ Result<Bytes> exif_block(const ExifFields& fields) {
         exif_data_save_data(data.get(), &block, &size);
     const std::unique_ptr<unsigned char, decltype(&std::free)> owned(block, std::free);
     constexpr unsigned header = 6;  // "Exif\0\0"
+    if (lacked_memory) return unfit("no memory for EXIF");
     if (!block || size <= header) return unfit("EXIF could not be written");
     return Bytes(block + header, block + size);
 }

@@ -26,13 +26,17 @@ enum class ExifType : std::uint16_t {
     undefined = 7
 };
 
+// A type of its own: a std::variant of standard strings and vectors alone takes itself for never empty, and
+// GCC 12 frees what is not there when a copy of it runs out of memory.
+struct ExifRationals : std::vector<ExifRational> {
+    using vector::vector;
+};
+
 struct ExifField {
     std::uint16_t tag{};
     ExifType type{};
     // byte and undefined: bytes; short_integer and long_integer: integers.
-    std::variant<std::string, std::vector<std::uint8_t>, std::vector<std::uint32_t>,
-                 std::vector<ExifRational>>
-        value;
+    std::variant<std::string, std::vector<std::uint8_t>, std::vector<std::uint32_t>, ExifRationals> value;
 };
 
 struct ExifFields {

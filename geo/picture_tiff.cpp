@@ -124,7 +124,7 @@ bool TiffPicture::set(const ExifField& field) {
     if (const auto* integers = std::get_if<std::vector<std::uint32_t>>(&field.value))
         return TIFFSetField(tiff_, tag, integers->front()) == 1;
     std::vector<double> values;
-    for (const ExifRational& value : std::get<std::vector<ExifRational>>(field.value))
+    for (const ExifRational& value : std::get<ExifRationals>(field.value))
         values.push_back(static_cast<double>(value.numerator) / value.denominator);
     return (values.size() == 1 ? TIFFSetField(tiff_, tag, values.front())
                                : TIFFSetField(tiff_, tag, values.data())) == 1;

@@ -215,7 +215,7 @@ const ExifField* find(const std::vector<ExifField>& fields, std::uint16_t tag) {
 
 std::vector<ExifRational> rationals(const std::vector<ExifField>& fields, std::uint16_t tag) {
     const ExifField* const field = find(fields, tag);
-    return field ? std::get<std::vector<ExifRational>>(field->value) : std::vector<ExifRational>{};
+    return field ? std::get<ExifRationals>(field->value) : ExifRationals{};
 }
 
 // Without exiftool, by hand: 7.99999999999999 degrees are 7 d 59' 59.99999999996", which carries to 8 0' 0".
@@ -317,7 +317,7 @@ TEST(Geotags, RefuseWhatCannotBe) {
     refused("attribution holds at byte 2 something that is not UTF-8",
             [](Geotags& tags) { tags.attribution = "ab\xFF"; });
     refused("not UTF-8", [](Geotags& tags) { tags.attribution = "\xC0\x80"; });  // too long a form of 0
-    refused("not UTF-8", [](Geotags& tags) { tags.geoid = "\xED\xA0\x80"; });  // half a surrogate pair
+    refused("not UTF-8", [](Geotags& tags) { tags.geoid = "\xED\xA0\x80"; });    // half a surrogate pair
     refused("not UTF-8", [](Geotags& tags) { tags.software = "\xE2\x82"; });
     EXPECT_TRUE(fs::is_empty(folder));
 }
