@@ -40,7 +40,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::string library_of(const std::string& where) {
     std::istringstream frames(where);
     for (std::string frame; frames >> frame;) {
-        const std::string name = frame.substr(0, frame.find('+'));
+        const std::string name = frame.substr(0, frame.rfind('+'));
         if (name.rfind("libc.", 0) != 0 && name.rfind("libstdc++", 0) != 0) return name;
     }
     return "";

@@ -56,12 +56,13 @@ TEST_P(FailedSystemCalls, AllOfAKindFromOneOn) {
 }
 
 std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
-    const std::vector<std::string> names{"Info", "InfoOfBaked", "Bake", "BakeAgain"};
+    const std::vector<std::string> names{"Info", "InfoOfBaked", "Bake", "BakeAgain", "Shot", "ShotOfBaked"};
     return names[info.index];
 }
 INSTANTIATE_TEST_SUITE_P(Commands, FailedSystemCalls,
                          testing::Values(oro::test::info_of_tiles, oro::test::info_of_baked,
-                                         oro::test::bake_new, oro::test::bake_again),
+                                         oro::test::bake_new, oro::test::bake_again, oro::test::shot_of_tiles,
+                                         oro::test::shot_of_baked),
                          name_of);
 
 }  // namespace
