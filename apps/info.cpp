@@ -11,7 +11,9 @@
 namespace oro {
 namespace {
 
-void print_source(const SourceReport& s) {
+enum class Posts { read, not_read };
+
+void print_source(const SourceReport& s, Posts posts) {
     std::printf("%s\n", one_line(s.path).c_str());
     std::printf("  format      %s, posts are %s\n", one_line(s.format).c_str(),
                 one_line(s.posts_are).c_str());
@@ -22,6 +24,11 @@ void print_source(const SourceReport& s) {
                 s.lon_spacing_deg, s.lat_spacing_deg, s.spacing_m);
     std::printf("  box         west %.6f south %.6f east %.6f north %.6f\n", s.box.west_deg, s.box.south_deg,
                 s.box.east_deg, s.box.north_deg);
+    const char* const attribution = s.attribution.empty() ? "not stated" : s.attribution.c_str();
+    if (posts == Posts::not_read) {
+        std::printf("  H           not read\n  attribution %s\n", one_line(attribution).c_str());
+        return;
+    }
     std::printf("  H           %.6g .. %.6g m, %llu voids", s.lowest_m, s.highest_m,
                 static_cast<unsigned long long>(s.voids));
     if (s.implausible > 0)
@@ -32,7 +39,7 @@ void print_source(const SourceReport& s) {
         "m\n",
         static_cast<unsigned long long>(s.seams.shared_posts),
         static_cast<unsigned long long>(s.seams.disagreeing_posts), s.seams.largest_difference_m);
-    std::printf("  attribution %s\n", s.attribution.empty() ? "not stated" : one_line(s.attribution).c_str());
+    std::printf("  attribution %s\n", one_line(attribution).c_str());
 }
 
 void print_region(const Region& region) {
@@ -73,15 +80,30 @@ void print_file(const RegionFile& file) {
                 static_cast<double>(file.bytes()) / posts);
 }
 
+// What there is to say of files that make no region together: each by itself. The error stays one.
+Error without_region(const InfoOptions& options, const RegionRequest& request, Error fault) {
+    const auto sources = look_at_sources(request);
+    if (!sources.ok() || sources->empty()) return fault;
+    if (options.json) {
+        const nlohmann::ordered_json json = {
+            {"sources", sources_json(*sources)}, {"region", nullptr}, {"error", fault.line()}};
+        std::printf("%s\n", json_text(json, true).c_str());
+        return fault;
+    }
+    for (const SourceReport& source : *sources) print_source(source, Posts::not_read);
+    return fault;
+}
+
 }  // namespace
 
 Result<void> run_info(const InfoOptions& options) {
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const Region region, open_region(request, [&](double share, const std::string& what) {
-                bar.show(share, "reading " + what);
-            }));
+    auto opened = open_region(
+        request, [&](double share, const std::string& what) { bar.show(share, "reading " + what); });
     bar.clear();
+    if (!opened) return without_region(options, request, opened.error());
+    const Region region = std::move(*opened);
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
     if (options.check && region.file) ORO_CHECK(region.file->verify());
     if (options.json) {
@@ -93,7 +115,7 @@ Result<void> run_info(const InfoOptions& options) {
         return {};
     }
     if (region.file) print_file(*region.file);
-    for (const SourceReport& source : region.sources) print_source(source);
+    for (const SourceReport& source : region.sources) print_source(source, Posts::read);
     print_region(region);
     if (options.check)
         std::printf("check: %s\n", region.file ? "every page was read, and is as it was written"

@@ -298,6 +298,20 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
 
 }  // namespace
 
+Result<std::vector<SourceReport>> look_at_sources(const RegionRequest& request) {
+    try {
+        start_gdal();
+        ORO_TRY(Found found, look_at(request, {}));
+        std::vector<SourceReport> reports;
+        for (Source& source : found.sources) reports.push_back(std::move(source.report));
+        return reports;
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorKind::failed, "looking at sources", "not enough memory"};
+    } catch (const std::exception& fault) {
+        return Error{ErrorKind::failed, "looking at sources", fault.what()};
+    }
+}
+
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
     try {
         const bool is_baked = baked_path(request.paths).has_value();

@@ -136,7 +136,37 @@ std::pair<std::int64_t, std::int64_t> posts_between(const Spacing& spacing, doub
     return {static_cast<std::int64_t>(first), static_cast<std::int64_t>(last)};
 }
 
-Result<void> check_size(double rows, double columns, const BoundingBox& box) {
+double middle_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+// Which sources make a region large: the one with the closest posts, and the one that lies farthest from
+// where most lie.
+std::string large_by(std::span<const Source> sources) {
+    if (sources.size() < 2) return "";
+    std::vector<double> lats_deg, lons_deg;
+    for (const Source& source : sources) {
+        lats_deg.push_back(source.south_deg);
+        lons_deg.push_back(source.lon.west_deg);
+    }
+    const double lat_deg = middle_of(lats_deg), lon_deg = middle_of(lons_deg);
+    const auto away_deg = [&](const Source& source) {
+        const double turned = std::abs(std::remainder(source.lon.west_deg - lon_deg, 360.0));
+        return std::max(std::abs(source.south_deg - lat_deg), turned);
+    };
+    const Source& finest = *std::ranges::min_element(sources, {}, &Source::lat_spacing_deg);
+    const Source& farthest = *std::ranges::max_element(sources, {}, away_deg);
+    char spacing[40];
+    std::snprintf(spacing, sizeof spacing, "%.3g m", finest.report.spacing_m);
+    return ". Its closest posts, " + std::string(spacing) + " apart, are those of " + finest.report.path +
+           "; farthest from the others lies " + farthest.report.path +
+           ": open such files by themselves, or leave them out";
+}
+
+Result<void> check_size(double rows, double columns, const BoundingBox& box,
+                        std::span<const Source> sources) {
     // Heights, what is known of each post, and the pages built from them.
     constexpr double bytes_a_post = 12.0;
     const double memory =
@@ -149,10 +179,10 @@ Result<void> check_size(double rows, double columns, const BoundingBox& box) {
     std::snprintf(what, sizeof what,
                   "the region would have %.0f x %.0f = %.3g posts, which need %.3g GB; this machine has %.3g "
                   "GB. Narrow it with "
-                  "--bbox to about %.3g x %.3g degrees, or leave out its finest source",
+                  "--bbox to about %.3g x %.3g degrees",
                   rows, columns, posts, posts * bytes_a_post / 1e9, memory / 1e9,
                   (box.east_deg - box.west_deg) * side * 0.99, (box.north_deg - box.south_deg) * side * 0.99);
-    return Error{ErrorKind::failed, "region too large", what};
+    return Error{ErrorKind::failed, "region too large", what + large_by(sources)};
 }
 
 }  // namespace
@@ -277,7 +307,8 @@ Result<PostGrid> region_grid(std::span<const Source> sources, const RegionExtent
         west += closes ? turn : 1;
         east += closes ? turn : 0;
     }
-    ORO_CHECK(check_size(static_cast<double>(north - south + 1), static_cast<double>(east - west + 1), box));
+    ORO_CHECK(check_size(static_cast<double>(north - south + 1), static_cast<double>(east - west + 1), box,
+                         sources));
     PostGrid grid;
     grid.lat = {lat.per_deg, lat.phase_deg, north, -1, static_cast<int>(north - south + 1)};
     grid.lon = {lon.per_deg, lon.phase_deg, west, +1, static_cast<int>(east - west + 1)};

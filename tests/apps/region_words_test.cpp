@@ -117,4 +117,22 @@ TEST(RegionWords, VoidsAndMissingTilesAreCountedApart) {
     EXPECT_EQ(whole.err.find("--fill-voids"), std::string::npos) << whole.err;
 }
 
+// A tile, and one at the other end of the Earth: no grid holds both. Each is told of all the same.
+TEST(RegionWords, FilesThatMakeNoRegionAreToldOneByOne) {
+    const fs::path folder = oro::test::scratch_folder() / "tiles";
+    fs::create_directory(folder);
+    for (const char* name : {"N46E008.hgt", "N46E009.hgt", "S80W170.hgt"})
+        oro::test::write_bytes(folder / name, tile());
+    // 152,400 x 216,000 posts: 395 GB.
+    const Outcome told = run_orograph({"info", folder});
+    EXPECT_EQ(told.exit_code, 1);
+    for (const char* name : {"N46E008.hgt", "N46E009.hgt", "S80W170.hgt"})
+        EXPECT_NE(told.out.find(name), std::string::npos) << told.out;
+    EXPECT_NE(told.out.find("H           not read"), std::string::npos) << told.out;
+    EXPECT_NE(told.err.find("region too large"), std::string::npos) << told.err;
+    EXPECT_NE(told.err.find("farthest from the others lies " + (folder / "S80W170.hgt").string()),
+              std::string::npos)
+        << told.err;
+}
+
 }  // namespace
