@@ -82,7 +82,7 @@ void print_file(const RegionFile& file) {
 
 // What there is to say of files that make no region together: each by itself. The error stays one.
 Error without_region(const InfoOptions& options, const RegionRequest& request, Error fault) {
-    const auto sources = look_at_sources(request);
+    const auto sources = sources_too_large(request);
     if (!sources.ok() || sources->empty()) return fault;
     if (options.json) {
         const nlohmann::ordered_json json = {

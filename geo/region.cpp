@@ -298,11 +298,13 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
 
 }  // namespace
 
-Result<std::vector<SourceReport>> look_at_sources(const RegionRequest& request) {
+Result<std::vector<SourceReport>> sources_too_large(const RegionRequest& request) {
     try {
         start_gdal();
         ORO_TRY(Found found, look_at(request, {}));
         std::vector<SourceReport> reports;
+        const auto extent = region_extent(found.sources, request.box);
+        if (!extent || region_grid(found.sources, *extent).ok()) return reports;
         for (Source& source : found.sources) reports.push_back(std::move(source.report));
         return reports;
     } catch (const std::bad_alloc&) {

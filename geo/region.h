@@ -96,10 +96,10 @@ struct Region {
 // Told how far reading is, 0..1, from the calling thread.
 using Progress = std::function<void(double share, const std::string& what)>;
 
-// What the sources of a request say of themselves, from their names and headers alone: no post is read, and
-// what is told of heights and seams is empty. Errors: as open_region's for each file; none for what they
-// would make together.
-Result<std::vector<SourceReport>> look_at_sources(const RegionRequest& request);
+// Of a request whose sources are well, but too many posts together: what each says of itself, by its name and
+// header alone (no post is read, and what is told of heights and seams is empty). Empty for any other
+// request. Errors: as open_region's for each file.
+Result<std::vector<SourceReport>> sources_too_large(const RegionRequest& request);
 
 // Reads a region, or opens a baked one. Errors: a path that is not there or unreadable, a source that is
 // damaged (file, place, value, reason), no data in the region (ErrorKind::no_data), a datum that cannot be
