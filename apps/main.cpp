@@ -13,10 +13,10 @@
 #include <new>
 #include <system_error>
 
-#include "apps/commands.h"
-#include "apps/interruption.h"
-#include "geo/library_faults.h"
-#include "geo/whole_file.h"
+#include "apps/commands/commands.h"
+#include "apps/output/interruption.h"
+#include "geo/files/whole_file.h"
+#include "geo/sources/library_faults.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/frame_renderer.h"
+#include "render/frame/frame_renderer.h"
 
 struct GLFWwindow;
 

@@ -1,5 +1,6 @@
-// What the CPU and the GPU both know: sizes, and the structs that lie in GPU memory. The only place where either is
-// defined; compiled as C++ and as GLSL (scalar block layout, so the two agree; tests/render/shared_layout_test.cpp proves it).
+// What the CPU and the GPU both know: sizes, and the structs that lie in GPU memory. The only place where
+// either is defined; compiled as C++ and as GLSL (scalar block layout, so the two agree;
+// tests/render/shared_layout_test.cpp proves it).
 #ifndef OROGRAPH_SHADERS_SHARED_H
 #define OROGRAPH_SHADERS_SHARED_H
 
@@ -34,58 +35,63 @@ ORO_CONST uint meshlet_triangles = 128u;
 // Heights are kept with one more post on each side, so that slopes are continuous across pages.
 ORO_CONST uint height_stride = 131u;
 ORO_CONST uint page_heights = 17161u;  // height_stride squared
-// Heights are kept in whole steps of 2^-11 m above the ellipsoid (core/drawn_heights.h), so that every page and level holds the
-// same number for a post.
+// Heights are kept in whole steps of 2^-11 m above the ellipsoid (core/terrain/drawn_heights.h), so that
+// every page and level holds the same number for a post.
 ORO_CONST float height_step_m = 1.0f / 2048.0f;
 ORO_CONST int void_height = -2147483647 - 1;
 ORO_CONST int void_code = -32768;  // of heights in 16 bits
 
-// Exact placement of posts relative to the eye, in the eye's meridian frame: x outward in the equatorial plane at the eye's
-// longitude, y east, z north along the axis. Each frame has tables for its pages' rows and columns, computed in double and
-// rounded once, that depend on the post's angle and the eye alone: a post gets the same bits from every page and level.
-// With N_e the prime-vertical radius, ha the frame's height of reference (FrameConstants.reference_steps), rho_eye and z_eye
-// the eye's cylinder coordinates, and dlon from the eye's longitude, as they are on the ellipsoid. On the sphere N_e is its radius
-// and e2 is 0. On the plane that touches the ellipsoid at the eye (its normal N_e and M_e, n = M_e dlat): R = cos(eye) (ha - h_eye) -
-// sin(eye) n, C = cos(eye), S = sin(eye), P = N_e cos(eye), Z = sin(eye) (ha - h_eye) + cos(eye) n, Q = 0, V = 0, W = dlon in radians.
+// Exact placement of posts relative to the eye, in the eye's meridian frame: x outward in the equatorial
+// plane at the eye's longitude, y east, z north along the axis. Each frame has tables for its pages' rows and
+// columns, computed in double and rounded once, that depend on the post's angle and the eye alone: a post
+// gets the same bits from every page and level. With N_e the prime-vertical radius, ha the frame's height of
+// reference (FrameConstants.reference_steps), rho_eye and z_eye the eye's cylinder coordinates, and dlon from
+// the eye's longitude, as they are on the ellipsoid. On the sphere N_e is its radius and e2 is 0. On the
+// plane that touches the ellipsoid at the eye (its normal N_e and M_e, n = M_e dlat): R = cos(eye) (ha -
+// h_eye) - sin(eye) n, C = cos(eye), S = sin(eye), P = N_e cos(eye), Z = sin(eye) (ha - h_eye) + cos(eye) n,
+// Q = 0, V = 0, W = dlon in radians.
 struct RowTerms {
-    float R;  // (N_e + ha) cos(lat) - rho_eye
-    float C;  // cos(lat)
-    float S;  // sin(lat)
-    float P;  // (N_e + ha) cos(lat)
-    float Z;  // (N_e (1 - e2) + ha) sin(lat) - z_eye
-    float Q;  // what a metre of height adds to P: cos(lat)
+    float R;       // (N_e + ha) cos(lat) - rho_eye
+    float C;       // cos(lat)
+    float S;       // sin(lat)
+    float P;       // (N_e + ha) cos(lat)
+    float Z;       // (N_e (1 - e2) + ha) sin(lat) - z_eye
+    float Q;       // what a metre of height adds to P: cos(lat)
     float cosine;  // of the latitude, on every Earth
 };
 struct ColumnTerms {
     float V;  // 2 sin^2(dlon / 2)
     float W;  // sin(dlon)
 };
-// What a meshlet's posts lie in: a sphere in the page frame, and a cone around a direction in scaled space (unit sphere
-// = occluding ellipsoid): when the eye's direction is farther from `horizon_direction` than the eye's own horizon angle plus
-// horizon_angle_rad, no post of the meshlet can be seen. The direction is kept as its offset from the page's.
-// As a node of the pyramid (core/pyramid.h): how far its triangles are from the full resolution, and a sphere around `centre` that
-// holds all they stand for; both at least those of the nodes below it and of those around these.
+// What a meshlet's posts lie in: a sphere in the page frame, and a cone around a direction in scaled space
+// (unit sphere = occluding ellipsoid): when the eye's direction is farther from `horizon_direction` than the
+// eye's own horizon angle plus horizon_angle_rad, no post of the meshlet can be seen. The direction is kept
+// as its offset from the page's. As a node of the pyramid (core/lod/pyramid.h): how far its triangles are
+// from the full resolution, and a sphere around `centre` that holds all they stand for; both at least those
+// of the nodes below it and of those around these.
 struct MeshletBounds {
     vec3 centre;
     float radius;  // negative: the meshlet has no triangle
     vec3 horizon_offset;
     float horizon_angle_rad;
-    float error_m;     // unfit_error_m (levels.glsl): cannot stand for anything
+    float error_m;  // unfit_error_m (levels.glsl): cannot stand for anything
     float lod_radius;
 };
 // One page as the GPU holds it.
 struct PageBlock {
     MeshletBounds meshlets[256];
-    // Metres from one of the region's posts (of level 0) to the next: along the meridian; along the parallel, to be multiplied by
-    // the cosine of the latitude. At the page's middle.
+    // Metres from one of the region's posts (of level 0) to the next: along the meridian; along the parallel,
+    // to be multiplied by the cosine of the latitude. At the page's middle.
     float row_spacing_m;
     float column_spacing_m;
-    // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With FrameConstants.height_bits 16 two
-    // codes a word, the first in the low bits, and so half as many words (core/height_coding.h).
+    // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
+    // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
+    // (core/terrain/height_quantization.h).
     int heights[17161];
 };
 
-// A page of this frame: one that is drawn, or one above such a page. Its number in the frame's list is in the triangle ids.
+// A page of this frame: one that is drawn, or one above such a page. Its number in the frame's list is in the
+// triangle ids.
 struct FramePage {
     mat3 view_from_page;     // rotation
     vec3 origin_view;        // the page's origin in view coordinates, metres
@@ -94,56 +100,58 @@ struct FramePage {
     uvec2 block;             // device address of its PageBlock
     uint cull;               // bits: 1 the frustum, 2 the horizon may hide some meshlets of it
     uint level;
-    uint first_row;          // number in the region of the page's first post
+    uint first_row;  // number in the region of the page's first post
     uint first_column;
-    uint row_terms;          // place of its 129 rows in the frame's table
+    uint row_terms;  // place of its 129 rows in the frame's table
     uint column_terms;
-    uint quarter;            // of its parent page that it lies in: 2 south + east
-    uint parent;             // number of that page in this frame; no_page when there is none
-    uint beside[4];          // pages of the parent's level that hold the parents of the nodes beyond the north, east, south and
-                             // west rim
-    uint children[4];        // pages of the next finer level: north-west, north-east, south-west, south-east
-    uint last_column;        // last node of a row, 15 or less where a region goes round the Earth
-    uint west_column;        // parent of the node beyond the west rim: its column in that page
-    uint stand_in;           // bits of the quarters whose nodes are drawn whatever their error: nothing finer is there
+    uint quarter;    // of its parent page that it lies in: 2 south + east
+    uint parent;     // number of that page in this frame; no_page when there is none
+    uint beside[4];  // pages of the parent's level that hold the parents of the nodes beyond the north, east,
+                     // south and west rim
+    uint children[4];  // pages of the next finer level: north-west, north-east, south-west, south-east
+    uint last_column;  // last node of a row, 15 or less where a region goes round the Earth
+    uint west_column;  // parent of the node beyond the west rim: its column in that page
+    uint stand_in;  // bits of the quarters whose nodes are drawn whatever their error: nothing finer is there
 };
-// Slopes are shaded from the coarsest page whose posts are at most so many pixels apart, whatever level the triangles are of.
+// Slopes are shaded from the coarsest page whose posts are at most so many pixels apart, whatever level the
+// triangles are of.
 ORO_CONST float shading_spacing_px = 1.5f;
 ORO_CONST uint no_page = 0xffffffffu;
-ORO_CONST uint pages_max = 131071u;    // of a frame: what triangle ids can number
-ORO_CONST uint accepted_words = 8u;    // a page: a bit for each node
-ORO_CONST uint edges_words = 32u;      // a page: four bits for each node
+ORO_CONST uint pages_max = 131071u;  // of a frame: what triangle ids can number
+ORO_CONST uint accepted_words = 8u;  // a page: a bit for each node
+ORO_CONST uint edges_words = 32u;    // a page: four bits for each node
 ORO_CONST uint cull_by_frustum = 1u;
 ORO_CONST uint cull_by_horizon = 2u;
 
 ORO_CONST uint groups_per_row = 32768u;  // of an indirect dispatch; below every device's limit
 
 struct FrameCounts {
-    uint pages_live;         // with a node of the right level
-    uint nodes_chosen;       // of the right level; those that are hidden included
+    uint pages_live;    // with a node of the right level
+    uint nodes_chosen;  // of the right level; those that are hidden included
     uint meshlets_beyond_frustum;
     uint meshlets_beyond_horizon;
     uint meshlets_drawn;
     uint triangles_drawn;
-    uint mesh_groups;        // mesh path: workgroups of mesh shaders
+    uint mesh_groups;            // mesh path: workgroups of mesh shaders
     uint triangles_not_clipped;  // compute path: no room in the list; the frame has holes
 };
 
 // The pages that have something to draw, in the frame's order, and how many workgroups go through them.
 struct LivePages {
     uint count;
-    uint task_groups[3];     // of an indirect draw: groups of a page, then pages folded into rows
-    uint cull_groups[3];     // of an indirect dispatch: pages folded into rows
+    uint task_groups[3];  // of an indirect draw: groups of a page, then pages folded into rows
+    uint cull_groups[3];  // of an indirect dispatch: pages folded into rows
 };
 
-// What the compute rasteriser passes from one of its steps to the next. Group counts are those of an indirect dispatch.
+// What the compute rasteriser passes from one of its steps to the next. Group counts are those of an indirect
+// dispatch.
 struct RasterLists {
-    uint meshlets;           // meshlets to draw
+    uint meshlets;  // meshlets to draw
     uint meshlet_groups[3];
-    uint clips;              // triangles that cross the near plane or leave the range of integer coordinates
+    uint clips;  // triangles that cross the near plane or leave the range of integer coordinates
     uint clip_groups[3];
-    uint large;              // triangles that many workgroups share
-    uint tasks;              // squares of pixels of those
+    uint large;  // triangles that many workgroups share
+    uint tasks;  // squares of pixels of those
     uint task_groups[3];
 };
 // A triangle on the pixel grid, 1/256 px, with reversed depths; positive area.
@@ -172,79 +180,81 @@ ORO_CONST uint tint_stops_max = 24u;
 struct FrameStyle {
     TintStop tints[24];
     uint tint_count;
-    vec3 sun_enu;            // unit vector towards the sun in the local frame of every place (a map's light)
-    float ambient;           // share of the light that has no direction
-    float relief;            // slopes are shaded as if they were this much steeper (1: as they are)
+    vec3 sun_enu;   // unit vector towards the sun in the local frame of every place (a map's light)
+    float ambient;  // share of the light that has no direction
+    float relief;   // slopes are shaded as if they were this much steeper (1: as they are)
     vec3 haze_colour;
-    float haze_distance_m;   // distance at which haze has taken 63 % of the colour
+    float haze_distance_m;  // distance at which haze has taken 63 % of the colour
     vec3 zenith_colour;
-    vec3 no_data_colour;     // the bare ellipsoid
+    vec3 no_data_colour;  // the bare ellipsoid
     float sky_scale_height_m;
 };
 
 // The geoid's undulation N at nodes of its own, bilinear between them; the nearest beyond them.
 struct UndulationTable {
-    uvec2 N_m;               // device address of float[rows * columns]; 0 where N is 0 everywhere
+    uvec2 N_m;  // device address of float[rows * columns]; 0 where N is 0 everywhere
     uint rows;
     uint columns;
-    vec2 first;              // of the region's first post: (row, column) among the nodes
-    vec2 per_post;           // nodes from one of the region's posts to the next
+    vec2 first;     // of the region's first post: (row, column) among the nodes
+    vec2 per_post;  // nodes from one of the region's posts to the next
 };
 
-// As core/world_model.h, Precision.
+// As core/earth/world_model.h, Precision.
 ORO_CONST uint placing_relative = 0u;
 ORO_CONST uint placing_rounded_posts = 1u;
 ORO_CONST uint placing_naive = 2u;
 
 struct FrameConstants {
-    mat3 view_from_eye;      // rotation, from the eye's meridian frame
-    int reference_steps;     // height that the row terms are for, a whole number of metres
-    vec2 projection_scale;   // see core/camera.h, Projection
+    mat3 view_from_eye;     // rotation, from the eye's meridian frame
+    int reference_steps;    // height that the row terms are for, a whole number of metres
+    vec2 projection_scale;  // see core/earth/camera.h, Projection
     vec2 projection_shift;
     float near_m;
-    float horizon_angle_rad; // of the eye: acos(1 / distance in scaled space); pi when the eye is below the occluder
-    float horizon_stretch;   // for the angles of what is seen: 1, more where light bends
-    float refraction_per_m;  // curvature of sight lines; 0: they are straight
-    uint placing;            // placing_... : how posts are placed
-    mat3 view_from_ecef;     // for the other two than placing_relative: rotation,
-    vec3 view_translation;   // ... minus the eye's ECEF turned by it,
-    vec3 eye_high;           // ... the eye's ECEF as float32
-    vec3 eye_low;            // ... and the rest,
-    vec2 eye_meridian;       // ... cosine and sine of its longitude
-    uint height_bits;        // 32 or 16, see PageBlock
-    uint height_shift;       // of 16: steps = code << shift + offset
+    float horizon_angle_rad;  // of the eye: acos(1 / distance in scaled space); pi when the eye is below the
+                              // occluder
+    float horizon_stretch;    // for the angles of what is seen: 1, more where light bends
+    float refraction_per_m;   // curvature of sight lines; 0: they are straight
+    uint placing;             // placing_... : how posts are placed
+    mat3 view_from_ecef;      // for the other two than placing_relative: rotation,
+    vec3 view_translation;    // ... minus the eye's ECEF turned by it,
+    vec3 eye_high;            // ... the eye's ECEF as float32
+    vec3 eye_low;             // ... and the rest,
+    vec2 eye_meridian;        // ... cosine and sine of its longitude
+    uint height_bits;         // 32 or 16, see PageBlock
+    uint height_shift;        // of 16: steps = code << shift + offset
     int height_offset;
-    vec3 up_view;            // the ellipsoid's normal at the eye, in view coordinates
+    vec3 up_view;  // the ellipsoid's normal at the eye, in view coordinates
     float eye_h_m;
-    float earth_radius_m;    // Gaussian radius of curvature at the eye
+    float earth_radius_m;  // Gaussian radius of curvature at the eye
     uint width_px;
     uint height_px;
-    float pixels_per_tangent;  // for the choice of levels, see core/levels.h
+    float pixels_per_tangent;  // for the choice of levels, see core/lod/levels.h
     float corner_tangent;
     float tau_px;
-    float exaggeration;      // drawn h = H * exaggeration + N
-    uint last_row;           // of the region's posts
+    float exaggeration;  // drawn h = H * exaggeration + N
+    uint last_row;       // of the region's posts
     uint last_column;
     uint page_count;
-    uint sample_index;       // samples of a pixel are drawn one after the other
+    uint sample_index;  // samples of a pixel are drawn one after the other
     uint sample_count;
-    uvec2 pages;             // device address of FramePage[page_count]
-    uvec2 row_terms;         // RowTerms
-    uvec2 column_terms;      // ColumnTerms
-    uvec2 accepted;          // accepted_words a page: nodes that may stand for what is below them
-    uvec2 edges;             // edges_words a page: edges (levels.glsl) of the nodes that are drawn
-    uvec2 live;              // uint[2 page_count]: whether a page has something to draw, then the numbers of those that have
-    uvec2 live_pages;        // LivePages
-    uvec2 counts;            // device address of FrameCounts
-    uvec2 depths;            // float for each pixel, row by row: reversed depth of what is seen; 0 when not wanted
-    uvec2 recorded;          // device address of recorded positions, or 0 (tests only)
-    uint record_view;        // 1: positions in view coordinates are recorded, not those in the eye's meridian frame
-    uvec2 visibility;        // compute rasteriser: device address of depth << 32 | id for each pixel, row by row
-    uvec2 lists;             // RasterLists
-    uvec2 meshlet_list;      // frame page * 256 + meshlet, edges << 28
-    uvec2 clip_list;         // triangle ids
-    uvec2 large_list;        // LargeTriangle[large_max]
-    uvec2 task_list;         // LargeTask[tasks_max]
+    uvec2 pages;         // device address of FramePage[page_count]
+    uvec2 row_terms;     // RowTerms
+    uvec2 column_terms;  // ColumnTerms
+    uvec2 accepted;      // accepted_words a page: nodes that may stand for what is below them
+    uvec2 edges;         // edges_words a page: edges (levels.glsl) of the nodes that are drawn
+    uvec2 live;  // uint[2 page_count]: whether a page has something to draw, then the numbers of those that
+                 // have
+    uvec2 live_pages;  // LivePages
+    uvec2 counts;      // device address of FrameCounts
+    uvec2 depths;      // float for each pixel, row by row: reversed depth of what is seen; 0 when not wanted
+    uvec2 recorded;    // device address of recorded positions, or 0 (tests only)
+    uint record_view;  // 1: positions in view coordinates are recorded, not those in the eye's meridian frame
+    uvec2 visibility;  // compute rasteriser: device address of depth << 32 | id for each pixel, row by row
+    uvec2 lists;       // RasterLists
+    uvec2 meshlet_list;  // frame page * 256 + meshlet, edges << 28
+    uvec2 clip_list;     // triangle ids
+    uvec2 large_list;    // LargeTriangle[large_max]
+    uvec2 task_list;     // LargeTask[tasks_max]
     UndulationTable undulation;
     FrameStyle style;
 };

@@ -8,10 +8,10 @@
 #include <random>
 #include <set>
 
-#include "apps/bench_blocks.h"
-#include "apps/bench_rtin.h"
-#include "apps/bench_tin.h"
-#include "tests/core/pyramid_region.h"
+#include "apps/bench/bench_blocks.h"
+#include "apps/bench/bench_rtin.h"
+#include "apps/bench/bench_tin.h"
+#include "tests/core/lod/pyramid_region.h"
 
 namespace oro {
 namespace {

@@ -1,5 +1,5 @@
 // What the window shows while levels are measured, and how it gets the measured ones.
-#include "apps/finer_levels.h"
+#include "apps/drawing/finer_levels.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <memory>
 
-#include "apps/region_scene.h"
+#include "apps/drawing/region_scene.h"
 
 namespace oro {
 namespace {

@@ -1,12 +1,12 @@
 // The viewer's eye: where it goes, and that it stays above the ground.
-#include "apps/flight.h"
+#include "apps/window/flight.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "core/ground.h"
+#include "core/terrain/ground.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

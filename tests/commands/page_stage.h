@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string>
 
-#include "apps/trade_page.h"
+#include "apps/trade/trade_page.h"
 #include "tests/support/test_data.h"
 
 namespace oro::test {

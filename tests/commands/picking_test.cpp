@@ -1,9 +1,9 @@
 // What is seen at a point of a picture, on ground whose heights are written down here.
-#include "apps/picking.h"
+#include "apps/window/picking.h"
 
 #include <gtest/gtest.h>
 
-#include "core/oracle.h"
+#include "core/truth/oracle.h"
 #include "tests/support/made_terrain.h"
 
 namespace oro {

@@ -1,6 +1,6 @@
 // What --pipeline auto remembers: written, read back, and worth nothing for another device, driver or
 // program.
-#include "apps/pipeline_choice.h"
+#include "apps/drawing/pipeline_choice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a trade writes: sums, the settings that nothing beats, the table of values and the terminal's text.
-#include "apps/trade_report.h"
+#include "apps/trade/trade_report.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/trade_parts.h"
+#include "apps/trade/trade_parts.h"
 #include "tests/commands/trade_page.h"
 
 namespace oro {

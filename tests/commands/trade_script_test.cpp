@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/figures.h"
-#include "apps/trade_page.h"
-#include "apps/trade_parts.h"
-#include "apps/trade_report.h"
+#include "apps/report/figures.h"
+#include "apps/trade/trade_page.h"
+#include "apps/trade/trade_parts.h"
+#include "apps/trade/trade_report.h"
 #include "tests/commands/page_stage.h"
 #include "tests/commands/trade_page.h"
 

@@ -1,7 +1,7 @@
 // Views as files: what is written is what is read back, field by field.
 #include <gtest/gtest.h>
 
-#include "apps/view.h"
+#include "apps/view/view.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <sstream>
 
-#include "geo/whole_file.h"
+#include "geo/files/whole_file.h"
 #include "tests/extremes/gpu_scan.h"
 
 namespace oro::test {

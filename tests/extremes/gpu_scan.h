@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
-#include "core/frame_plan.h"
-#include "core/region_pages.h"
+#include "core/frame/frame_plan.h"
+#include "core/frame/region_pages.h"
 
 namespace oro::test {
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 #include "tests/extremes/accuracy_table.h"
 #include "tests/extremes/stage.h"
 

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "core/oracle.h"
-#include "render/depth_picture.h"
+#include "core/truth/oracle.h"
+#include "render/frame/depth_picture.h"
 #include "tests/extremes/accuracy_table.h"
 #include "tests/extremes/stage.h"
 #include "tests/support/rough_terrain.h"

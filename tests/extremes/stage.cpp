@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/oracle.h"
-#include "core/parallel.h"
+#include "core/base/parallel.h"
+#include "core/truth/oracle.h"
 #include "tests/extremes/accuracy_table.h"
 #include "tests/extremes/gpu_scan.h"
 

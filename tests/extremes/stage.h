@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/picture_error.h"
-#include "core/true_surface.h"
-#include "render/frame_renderer.h"
-#include "render/scene.h"
+#include "core/truth/picture_error.h"
+#include "core/truth/true_surface.h"
+#include "render/frame/frame_renderer.h"
+#include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
 
 namespace oro::test {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/oracle.h"
-#include "tests/core/world_field.h"
+#include "core/truth/oracle.h"
+#include "tests/core/truth/world_field.h"
 #include "tests/extremes/accuracy_table.h"
 #include "tests/extremes/stage.h"
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "geo/hgt_source.h"
-#include "geo/region.h"
+#include "geo/region/region.h"
+#include "geo/sources/hgt_source.h"
 
 namespace {
 

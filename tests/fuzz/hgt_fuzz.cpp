@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "geo/region.h"
+#include "geo/region/region.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;

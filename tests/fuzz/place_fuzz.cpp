@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "geo/place.h"
+#include "geo/places/place.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto place = oro::parse_place(std::string(reinterpret_cast<const char*>(data), size));

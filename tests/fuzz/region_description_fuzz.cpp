@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "geo/region_description.h"
+#include "geo/region/region_description.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto region =

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "core/checksum.h"
-#include "core/little_endian.h"
-#include "core/region_file.h"
-#include "core/region_format.h"
+#include "core/baked/region_file.h"
+#include "core/baked/region_format.h"
+#include "core/base/checksum.h"
+#include "core/base/little_endian.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "geo/geotags_xmp.h"
-#include "geo/picture_view.h"
+#include "geo/pictures/geotags_xmp.h"
+#include "geo/pictures/picture_view.h"
 
 namespace {
 

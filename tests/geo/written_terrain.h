@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "geo/raster_library.h"
-#include "geo/region.h"
+#include "geo/region/region.h"
+#include "geo/sources/raster_library.h"
 
 namespace oro::test {
 

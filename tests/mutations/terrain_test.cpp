@@ -6,9 +6,9 @@
 
 #include <cstdlib>
 
-#include "core/checksum.h"
-#include "core/file_pages.h"
-#include "geo/region.h"
+#include "core/baked/file_pages.h"
+#include "core/base/checksum.h"
+#include "geo/region/region.h"
 #include "tests/mutations/mutation.h"
 #include "tests/support/test_data.h"
 

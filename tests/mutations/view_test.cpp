@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "apps/view.h"
+#include "apps/view/view.h"
 #include "tests/mutations/mutation.h"
 #include "tests/support/test_data.h"
 

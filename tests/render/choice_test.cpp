@@ -7,8 +7,8 @@
 #include <map>
 #include <random>
 
-#include "core/levels.h"
-#include "tests/core/pyramid_region.h"
+#include "core/lod/levels.h"
+#include "tests/core/lod/pyramid_region.h"
 #include "tests/support/drawn_scene.h"
 
 namespace oro {

@@ -1,10 +1,10 @@
 // Depths beside colours: the same in tiles as in one piece, and where the samples say.
-#include "render/depth_picture.h"
+#include "render/frame/depth_picture.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/ground.h"
+#include "core/terrain/ground.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/rough_terrain.h"
 

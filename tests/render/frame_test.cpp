@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "core/ground.h"
-#include "core/oracle.h"
-#include "render/picture_renderer.h"
+#include "core/terrain/ground.h"
+#include "core/truth/oracle.h"
+#include "render/frame/picture_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/rough_terrain.h"
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "core/height_coding.h"
+#include "core/terrain/height_quantization.h"
 #include "tests/support/drawn_scene.h"
 #include "tests/support/rough_terrain.h"
 
@@ -59,7 +59,7 @@ class HeightsOnGpu : public test::GpuTest {
 };
 
 TEST_F(HeightsOnGpu, TakeHalfTheBytes) {
-    const HeightCoding sixteen = sixteen_bits(0, 100);
+    const HeightQuantization sixteen = sixteen_bits(0, 100);
     const std::size_t others = sizeof(gpu::PageBlock) - 4U * gpu::page_heights;
     EXPECT_EQ(page_bytes({}), others + 4U * 17161U);
     EXPECT_EQ(page_bytes(sixteen), others + 2U * 17162U);

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <random>
 
-#include "core/ground.h"
-#include "render/frame_renderer.h"
-#include "render/scene.h"
+#include "core/terrain/ground.h"
+#include "render/frame/frame_renderer.h"
+#include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/rough_terrain.h"
 

@@ -1,5 +1,5 @@
 // Slots for pages: never more than the budget, and the longest unused goes first.
-#include "render/page_store.h"
+#include "render/scene/page_store.h"
 
 #include "tests/support/gpu_fixture.h"
 

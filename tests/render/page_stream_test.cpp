@@ -1,5 +1,5 @@
 // Pages that come in the background: order, limits, errors, and threads that end.
-#include "render/page_stream.h"
+#include "render/scene/page_stream.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 #include <random>
 
-#include "render/picture_renderer.h"
+#include "render/frame/picture_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/made_terrain.h"
 

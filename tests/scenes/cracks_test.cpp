@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "core/ground.h"
-#include "geo/region.h"
+#include "core/terrain/ground.h"
+#include "geo/region/region.h"
 #include "tests/support/drawn_scene.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"

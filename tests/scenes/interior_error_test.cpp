@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/parallel.h"
-#include "core/picture_error.h"
-#include "core/view_set.h"
-#include "geo/region.h"
-#include "render/depth_picture.h"
+#include "core/base/parallel.h"
+#include "core/truth/picture_error.h"
+#include "core/truth/view_set.h"
+#include "geo/region/region.h"
+#include "render/frame/depth_picture.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"

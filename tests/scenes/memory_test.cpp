@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/bake.h"
-#include "core/file_pages.h"
-#include "core/ground.h"
-#include "geo/region.h"
+#include "core/baked/bake.h"
+#include "core/baked/file_pages.h"
+#include "core/terrain/ground.h"
+#include "geo/region/region.h"
 #include "tests/support/drawn_scene.h"
 #include "tests/support/test_data.h"
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/frame_renderer.h"
-#include "render/scene.h"
+#include "render/frame/frame_renderer.h"
+#include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
 
 namespace oro::test {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/gpu.h"
+#include "render/device/gpu.h"
 
 namespace oro::test {
 

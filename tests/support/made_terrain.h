@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/post_grid.h"
+#include "core/terrain/post_grid.h"
 
 namespace oro::test {
 

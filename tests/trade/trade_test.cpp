@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <map>
 
-#include "apps/region_scene.h"
-#include "apps/trade_measurement.h"
-#include "core/parallel.h"
-#include "core/view_set.h"
+#include "apps/drawing/region_scene.h"
+#include "apps/trade/trade_measurement.h"
+#include "core/base/parallel.h"
+#include "core/truth/view_set.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"

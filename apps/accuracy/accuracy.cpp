@@ -1,0 +1,154 @@
+#include "apps/accuracy/accuracy.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "core/base/parallel.h"
+
+namespace oro {
+namespace {
+
+// What sources are known to promise: half the interval that holds 90 % of height errors.
+std::optional<double> stated_le90_m(const Region& region) {
+    // Source: T. Farr et al., The Shuttle Radar Topography Mission, Reviews of Geophysics 45, 2007, section
+    // 5: absolute height error at most 16 m (90 %).
+    constexpr double srtm_le90_m = 16.0;
+    for (const SourceReport& source : region.sources) {
+        if (source.format.find("SRTM") != std::string::npos ||
+            source.format.find(".hgt") != std::string::npos)
+            return srtm_le90_m;
+    }
+    return std::nullopt;
+}
+
+// With its options written out.
+AccuracyBundle bundle_of(Bundle kind, const char* name, double tau_px, HeightStorage heights,
+                         double refraction_k) {
+    char text[100];
+    std::snprintf(text, sizeof text, "--tau %g --heights %s --refraction %g", tau_px,
+                  heights == HeightStorage::i16 ? "i16" : "f32", refraction_k);
+    return {kind, name, tau_px, heights, refraction_k, text};
+}
+
+}  // namespace
+
+const std::vector<AccuracyBundle>& accuracy_bundles() {
+    static const std::vector<AccuracyBundle> bundles{
+        bundle_of(Bundle::draft, "draft", 4.0, HeightStorage::i16, 0.0),
+        bundle_of(Bundle::balanced, "balanced", 0.5, HeightStorage::f32, usual_refraction_k),
+        bundle_of(Bundle::survey, "survey", 0.0, HeightStorage::f32, usual_refraction_k)};
+    return bundles;
+}
+
+Result<AccuracyBundle> accuracy_bundle(const std::string& name) {
+    for (const AccuracyBundle& bundle : accuracy_bundles()) {
+        if (name == bundle.name) return bundle;
+    }
+    return Error{ErrorKind::usage, "--accuracy", "'" + name + "' is none of draft, balanced and survey"};
+}
+
+void apply_bundle(const AccuracyBundle& bundle, View& view) {
+    view.tau_px = bundle.tau_px;
+    view.heights = bundle.heights;
+    view.model.refraction_k = bundle.refraction_k;
+    view.accuracy = bundle.name;
+}
+
+bool is_drawn_as(const AccuracyBundle& bundle, const View& view) {
+    return view.tau_px == bundle.tau_px && view.heights == bundle.heights &&
+           view.model.refraction_k == bundle.refraction_k;
+}
+
+void forget_other_bundle(View& view) {
+    const Result<AccuracyBundle> named = accuracy_bundle(view.accuracy);
+    if (!named.ok() || !is_drawn_as(*named, view)) view.accuracy.clear();
+}
+
+Result<double> parse_tolerance(const std::string& text) {
+    double px = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), px);
+    std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
+    if (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
+    if (error != std::errc() || !(rest.empty() || rest == "px") || !(px >= 0.001 && px <= 1000.0))
+        return Error{ErrorKind::usage, "--tolerance",
+                     "'" + text + "' is no number of pixels from 0.001 to 1000, e.g. 1px"};
+    return px;
+}
+
+Result<TrueWorld> true_world(const View& view, const Region& region, const RegionPages& pages) {
+    TrueWorld world;
+    if (view.model.refraction_k != 0.0) world.refraction_k = view.model.refraction_k;
+    world.source_le90_m = stated_le90_m(region);
+    ORO_TRY(world.sixteen, height_quantization(pages, HeightStorage::i16));
+    return world;
+}
+
+DrawingModel drawing_model(const View& view, const TrueWorld& world) {
+    return {view.model, view.has_geoid,
+            view.heights == HeightStorage::i16 ? world.sixteen : HeightQuantization{}, view.tau_px};
+}
+
+Result<Budget> plan_view(const View& view, const Region& region, const TrueSurface& truth,
+                         const RegionPages& pages, double tolerance_px) {
+    ORO_TRY(const TrueWorld world, true_world(view, region, pages));
+    const DrawingModel drawing = drawing_model(view, world);
+    const EffectPrediction prediction(truth, pages, true_camera(view, region), world, thread_count());
+    Budget budget;
+    budget.tolerance_px = tolerance_px;
+    budget.empty = prediction.empty();
+    if (!budget.empty) {
+        budget.nearest_m = prediction.nearest_m();
+        budget.median_distance_m = prediction.median_distance_m();
+    }
+    double largest_px = 0.0;
+    for (const EffectFacts& effect : effect_table()) {
+        // At full resolution, what the default would leave out.
+        const double tau_px = view.tau_px > 0.0 ? view.tau_px : 1.0;
+        ORO_TRY(const std::optional<EffectSize> size, prediction.size(effect.kind, tau_px));
+        const bool in_picture = effect.in_picture(drawing, world);
+        const bool modelled = effect.group == EffectGroup::model && is_modelled(effect.kind, drawing, world);
+        budget.lines.push_back(
+            {effect.kind, size, in_picture, modelled, !size || size->worst_px <= tolerance_px});
+        if (!in_picture || !size || size->worst_px <= largest_px) continue;
+        largest_px = size->worst_px;
+        budget.dominant = effect.kind;
+    }
+    ORO_TRY(budget.total, prediction.total(drawing));
+    return budget;
+}
+
+Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueSurface& truth,
+                                       const RegionPages& pages, double tolerance_px,
+                                       const FixedAccuracy& fixed) {
+    const auto with_fixed = [&](const AccuracyBundle& bundle) {
+        return bundle_of(bundle.kind, bundle.name, fixed.tau_px.value_or(bundle.tau_px),
+                         fixed.heights.value_or(bundle.heights),
+                         fixed.refraction_k.value_or(bundle.refraction_k));
+    };
+    View with = view;
+    apply_bundle(with_fixed(accuracy_bundles().back()), with);
+    ORO_TRY(const TrueWorld world, true_world(with, region, pages));
+    const EffectPrediction prediction(truth, pages, true_camera(view, region), world, thread_count());
+    AccuracyChoice choice;
+    choice.tolerance_px = tolerance_px;
+    for (const AccuracyBundle& each : accuracy_bundles()) {
+        const AccuracyBundle bundle = with_fixed(each);
+        apply_bundle(bundle, with);
+        ORO_TRY(const EffectSize total, prediction.total(drawing_model(with, world)));
+        choice.bundle = bundle;
+        choice.predicted_px = total.worst_px;
+        choice.holds = total.worst_px <= tolerance_px;
+        if (choice.holds) break;
+    }
+    for (const EffectFacts& effect : effect_table()) {
+        if (effect.group != EffectGroup::model || !effect.in_picture(drawing_model(with, world), world))
+            continue;
+        ORO_TRY(const std::optional<EffectSize> size, prediction.size(effect.kind, with.tau_px));
+        if (size && size->worst_px > tolerance_px) choice.left_out.push_back(effect.kind);
+    }
+    return choice;
+}
+
+}  // namespace oro

@@ -1,0 +1,146 @@
+// The picture of errors: colours by size, and what the colours mean.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "apps/accuracy/verification.h"
+#include "apps/report/canvas.h"
+#include "geo/pictures/png_bytes.h"
+
+namespace oro {
+namespace {
+
+constexpr Rgb paper{255, 255, 255}, ink{20, 20, 20}, sky{190, 190, 190};
+constexpr Rgb unmeasured{255, 0, 255}, unmeasured_gap{90, 0, 90}, skyline_mark{255, 90, 0};
+constexpr float marked_from_px = 0.5F;
+constexpr int least_width_px = 320;
+
+// Dark to light throughout, and told apart by all kinds of colour vision. Source: viridis, S. van der Walt,
+// N. Smith, 2015 (CC0), at every eighth.
+constexpr std::array<Rgb, 9> ramp{Rgb{68, 1, 84},    Rgb{71, 45, 123},  Rgb{59, 82, 139},
+                                  Rgb{44, 114, 142}, Rgb{33, 145, 140}, Rgb{40, 174, 128},
+                                  Rgb{94, 201, 98},  Rgb{173, 220, 48}, Rgb{253, 231, 37}};
+
+Rgb ramp_at(double share) {
+    const double place = std::clamp(share, 0.0, 1.0) * (ramp.size() - 1);
+    const std::size_t from = std::min(static_cast<std::size_t>(place), ramp.size() - 2);
+    Rgb colour{};
+    for (std::size_t i = 0; i < colour.size(); ++i)
+        colour[i] = static_cast<std::uint8_t>(
+            std::lround(std::lerp(ramp[from][i], ramp[from + 1][i], place - static_cast<double>(from))));
+    return colour;
+}
+
+// 0 at the scale's beginning, 1 at its end; errors of 0 lie before it.
+double scale_share(double error_px) {
+    if (error_px <= 0.0) return 0.0;
+    return std::log10(error_px / error_scale_from_px) / std::log10(error_scale_to_px / error_scale_from_px);
+}
+
+void draw_errors(Canvas& canvas, const Verification& verification) {
+    const DepthPicture& picture = verification.picture;
+    std::size_t pixel = 0;
+    for (int y = 0; y < picture.height_px; ++y) {
+        for (int x = 0; x < picture.width_px; ++x, ++pixel) {
+            const float error_px = verification.interior.px[pixel];
+            if (!(picture.depths[pixel] > 0.0F))
+                canvas.set(x, y, sky);
+            else if (error_px == not_measured)
+                canvas.set(x, y, (x + y) % 4 < 2 ? unmeasured : unmeasured_gap);
+            else
+                canvas.set(x, y, ramp_at(scale_share(static_cast<double>(error_px))));
+        }
+    }
+}
+
+// Above the true skyline; below it where there is no room.
+void mark_skyline(Canvas& canvas, const Verification& verification, int scale) {
+    const int mark_px = 8 * scale;
+    for (int x = 0; x < verification.picture.width_px; ++x) {
+        const float error_px = verification.skyline.px[static_cast<std::size_t>(x)];
+        if (error_px == not_measured || error_px <= marked_from_px) continue;
+        const int y = static_cast<int>(verification.true_skyline.y_px[static_cast<std::size_t>(x)]);
+        const int top = y >= mark_px ? y - mark_px : y;
+        canvas.fill(x, top, 1, std::min(mark_px, verification.picture.height_px - top), skyline_mark);
+    }
+}
+
+std::string figures_line(const char* what, const ErrorSummary& of) {
+    char line[80];
+    std::snprintf(line, sizeof line, "%-11s %9.3g %9.3g %9.3g %9.3g", what, of.largest, of.p9999, of.p99,
+                  of.mean);
+    return line;
+}
+
+constexpr int line_dots = 10, margin_dots = 6, bar_dots = 10;
+constexpr int legend_dots = 2 * margin_dots + bar_dots + 6 + 7 * line_dots;
+
+// The scale with its ticks and tau.
+void draw_scale(Canvas& canvas, int top, double tau_px, int scale) {
+    const int left = margin_dots * scale, width = (least_width_px - 60) * scale;
+    for (int x = 0; x < width; ++x)
+        canvas.fill(left + x, top, 1, bar_dots * scale, ramp_at(static_cast<double>(x) / (width - 1)));
+    const auto place = [&](double error_px) {
+        return left + static_cast<int>(std::lround(scale_share(error_px) * (width - 1)));
+    };
+    for (const auto& [error_px, label] :
+         {std::pair{0.001, "0.001"}, {0.01, "0.01"}, {0.1, "0.1"}, {1.0, "1"}, {10.0, "10+ px"}}) {
+        const int x = place(error_px);
+        canvas.fill(x, top + bar_dots * scale, scale, 2 * scale, ink);
+        const int text_left = std::max(left, x - Canvas::text_width_px(label, scale) / 2);
+        canvas.write(text_left, top + (bar_dots + 4) * scale, label, ink, scale);
+    }
+    if (tau_px >= error_scale_from_px && tau_px <= error_scale_to_px)
+        canvas.fill(place(tau_px), top - 3 * scale, scale, (bar_dots + 3) * scale, skyline_mark);
+}
+
+void draw_legend(Canvas& canvas, const Verification& verification, double tau_px, int top, int scale) {
+    const int left = margin_dots * scale;
+    int y = top + margin_dots * scale;
+    draw_scale(canvas, y, tau_px, scale);
+    y += (bar_dots + 8 + line_dots) * scale;
+    char text[80];
+    std::snprintf(text, sizeof text, "error of ground, tau %g px (line)", tau_px);
+    const InteriorError& interior = verification.interior;
+    const SkylineError& skyline = verification.skyline;
+    char heads[80];
+    std::snprintf(heads, sizeof heads, "%-11s %9s %9s %9s %9s", "", "max", "99.99%", "99%", "mean");
+    const std::array<std::string, 6> lines{std::string(text),
+                                           heads,
+                                           figures_line("ground px", interior.summary_px),
+                                           figures_line("ground m", interior.summary_m),
+                                           figures_line("skyline px", skyline.summary_px),
+                                           "grey sky, orange skyline off >0.5, magenta no data"};
+    for (const std::string& line : lines) {
+        canvas.write(left, y, line, ink, scale);
+        y += line_dots * scale;
+    }
+}
+
+Canvas error_canvas(const Verification& verification, double tau_px) {
+    const DepthPicture& picture = verification.picture;
+    const int scale = std::clamp(picture.width_px / (3 * least_width_px / 2), 1, 8);
+    Canvas canvas(std::max(picture.width_px, least_width_px * scale), picture.height_px + legend_dots * scale,
+                  paper);
+    draw_errors(canvas, verification);
+    mark_skyline(canvas, verification, scale);
+    draw_legend(canvas, verification, tau_px, picture.height_px, scale);
+    return canvas;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> error_picture_png(const Verification& verification, double tau_px) {
+    const Canvas canvas = error_canvas(verification, tau_px);
+    return png_bytes(canvas.rgb(), canvas.width_px(), canvas.height_px());
+}
+
+Result<void> write_error_picture(const std::string& path, const Verification& verification, double tau_px,
+                                 bool overwrite) {
+    const Canvas canvas = error_canvas(verification, tau_px);
+    return write_png(path, canvas.rgb(), canvas.width_px(), canvas.height_px(), overwrite);
+}
+
+}  // namespace oro

@@ -1,0 +1,39 @@
+// What a view's picture is measured against.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "apps/view/view.h"
+#include "core/truth/oracle.h"
+#include "core/truth/true_surface.h"
+#include "geo/region/region.h"
+
+namespace oro {
+
+// A view's camera with the eye where it really is: a view without a geoid has its eye as high above the geoid
+// as it says, and so N higher above the ellipsoid.
+Camera true_camera(const View& view, const Region& region);
+// From there, through the view's own air.
+Sight true_sight(const View& view, const Region& region);
+
+// The full-resolution surface that a view really looks at: on WGS84, lifted by the geoid, exaggerated as the
+// view is. Holds on to the region.
+class TrueScene {
+  public:
+    // Every post of a baked region is read into memory. Errors: damage in it.
+    static Result<std::unique_ptr<TrueScene>> of(const View& view, const Region& region);
+    TrueScene(const TrueScene&) = delete;
+    TrueScene& operator=(const TrueScene&) = delete;
+
+    [[nodiscard]] const TrueSurface& surface() const { return *surface_; }
+    [[nodiscard]] const Sight& sight() const { return sight_; }
+
+  private:
+    TrueScene() = default;
+    std::optional<HeightField> field_;  // where it is not the region's own
+    std::optional<TrueSurface> surface_;
+    Sight sight_;
+};
+
+}  // namespace oro

@@ -1,0 +1,40 @@
+// A view drawn and measured against the truth: what shot --verify and compare tell.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/accuracy/truth.h"
+#include "apps/view/view.h"
+#include "core/truth/picture_error.h"
+#include "render/frame/depth_picture.h"
+
+namespace oro {
+
+struct Verification {
+    DepthPicture picture;
+    InteriorError interior;
+    Skyline true_skyline;
+    SkylineError skyline;
+};
+
+// Draws a view as its picture is drawn, one sample a pixel and with depths, and measures it. Errors: those of
+// the device; a region that cannot be read; a scene that does not fit into --gpu-memory.
+Result<Verification> verify_view(const View& view, const TrueScene& truth, const Gpu& gpu, Scene& scene,
+                                 RasterPath path, const gpu::FrameStyle& style);
+
+// For people: a table of some lines, each with its line end.
+std::string verification_text(const Verification& verification, double tau_px);
+nlohmann::ordered_json verification_json(const Verification& verification);
+
+// What is in an error picture, where it is not a colour of the scale.
+inline constexpr double error_scale_from_px = 0.001, error_scale_to_px = 10.0;
+// The picture of the ground's errors: its colours are those of a logarithmic scale; sky is grey, ground that
+// could not be measured is hatched magenta, columns whose skyline is off by more than 0.5 px have an orange
+// mark. A legend with the figures stands below. At least 320 px wide.
+Result<std::vector<std::uint8_t>> error_picture_png(const Verification& verification, double tau_px);
+// The same as a file.
+Result<void> write_error_picture(const std::string& path, const Verification& verification, double tau_px,
+                                 bool overwrite);
+
+}  // namespace oro

@@ -1,0 +1,26 @@
+// The program's commands. Each returns an Error or has done what it says; main turns that into an exit code.
+#pragma once
+
+#include "apps/commands/options.h"
+#include "core/base/result.h"
+
+namespace oro {
+
+// Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
+Result<void> run_shot(const ShotOptions& options);
+// Measures how far the picture of a view is from the truth; draws it again, replaces no picture.
+Result<void> run_compare(const CompareOptions& options);
+// Predicts how large each effect is in a view, before anything is drawn.
+Result<void> run_plan(const PlanOptions& options);
+// Draws views with all settings, measures time and error, and writes a report.
+Result<void> run_trade(const TradeOptions& options);
+// Opens a window to fly over a region.
+Result<void> run_view(const WindowOptions& options);
+// Writes a region with all its levels into a file, or goes on with one that was broken off.
+Result<void> run_bake(const BakingOptions& options);
+// Tells what the sources of a region are and what is missing.
+Result<void> run_info(const InfoOptions& options);
+// Tells what the machine has and what each lack means.
+Result<void> run_doctor(const DoctorOptions& options);
+
+}  // namespace oro

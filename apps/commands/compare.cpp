@@ -1,0 +1,78 @@
+// orograph compare: how far the picture of a view is from the truth: drawn again with depths, measured, and
+// not written.
+#include <cstdio>
+#include <memory>
+
+#include "apps/accuracy/verification.h"
+#include "apps/commands/commands.h"
+#include "apps/drawing/pipeline_choice.h"
+#include "apps/drawing/region_scene.h"
+#include "apps/output/overwrite_guard.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "apps/view/style.h"
+#include "geo/files/whole_file.h"
+#include "geo/pictures/picture.h"
+
+namespace oro {
+namespace {
+
+nlohmann::ordered_json compare_json(const CompareOptions& options, const View& view, RasterPath path,
+                                    const Gpu& gpu, const Verification& verification) {
+    nlohmann::ordered_json json;
+    json["view"] = options.view_file;
+    json["error_picture"] = nullptr;
+    if (!options.out.empty()) json["error_picture"] = options.out;
+    json["size_px"] = {view.camera.width_px, view.camera.height_px};
+    json["tau_px"] = view.tau_px;
+    json["pipeline"] = name_of(path);
+    json["device"] = {{"name", gpu.report().name}, {"driver", gpu.report().driver}};
+    json["error"] = verification_json(verification);
+    return json;
+}
+
+// Before anything takes time: that the error picture can be written where it shall be.
+Result<void> check_error_picture(const CompareOptions& options) {
+    if (options.out.empty()) return {};
+    ORO_TRY(const PictureFormat format, picture_format(options.out));
+    if (format != PictureFormat::png)
+        return Error{ErrorKind::usage, "--out " + options.out, "an error picture is a .png"};
+    if (const auto trial = WholeFile::create(options.out, options.overwrite); !trial.ok())
+        return trial.error();
+    return {};
+}
+
+}  // namespace
+
+Result<void> run_compare(const CompareOptions& options) {
+    ORO_CHECK(check_error_picture(options));
+    ProgressBar bar(options.quiet);
+    View view;
+    Region region;
+    ORO_CHECK(open_view(
+        options.view_file, {}, options.region,
+        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    if (!options.out.empty()) {
+        ORO_CHECK(spare_inputs({options.out}, view, region));
+        ORO_CHECK(spare_view({options.out}, options.view_file));
+    }
+    ORO_TRY(const Style style, load_style(view.style, view.sun));
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    ORO_TRY(Scene scene, create_scene(
+                             *gpu, region, view.exaggeration, options.memory,
+                             [&](double share) { bar.show(share, "measuring levels"); }, view.heights));
+    ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
+    bar.show(0.0, "comparing");
+    ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));
+    if (!options.out.empty())
+        ORO_CHECK(write_error_picture(options.out, verification, view.tau_px, options.overwrite));
+    bar.clear();
+    if (!options.out.empty()) say(options.quiet, "wrote " + options.out);
+    if (!options.quiet) std::fputs(verification_text(verification, view.tau_px).c_str(), stderr);
+    if (options.json)
+        std::printf("%s\n", json_text(compare_json(options, view, path, *gpu, verification), true).c_str());
+    return {};
+}
+
+}  // namespace oro

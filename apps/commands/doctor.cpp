@@ -1,0 +1,183 @@
+// orograph doctor: what this machine has, and what each lack means.
+#include <cstdio>
+
+#include "apps/commands/commands.h"
+#include "apps/drawing/pipeline_choice.h"
+#include "apps/output/data_folder.h"
+#include "apps/report/json_text.h"
+#include "geo/sources/library_report.h"
+#include "render/device/gpu.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+bool has_data_folder() {
+    std::error_code unreadable;
+    return std::filesystem::is_directory(data_folder(), unreadable);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+    return all;
+}
+
+// A device, and what --pipeline auto chooses on it: nothing where it cannot draw or does not let itself be
+// measured.
+struct Finding {
+    DeviceReport device;
+    std::optional<PipelineChoice> choice;
+    std::string no_choice;  // why there is none
+
+    [[nodiscard]] std::string choice_text() const { return choice ? text_of(*choice) : no_choice; }
+};
+
+// Number `number` of the survey, which may have to be measured first.
+Finding finding_of(const DeviceReport& device, std::size_t number, GpuOptions options) {
+    if (!device.lacks.empty()) return {device, {}, "the device cannot draw"};
+    if (const auto known = known_choice(device)) return {device, known, ""};
+    std::string problem = "the device cannot be told from another";
+    // Its name may be a part of another's, and its number, too.
+    for (const std::string& name : {device.name, std::to_string(number)}) {
+        options.device_name = name;
+        const auto gpu = Gpu::create(options);
+        if (!gpu.ok()) {
+            problem = gpu.error().line();
+            continue;
+        }
+        if ((*gpu)->report().name != device.name || (*gpu)->report().driver != device.driver) continue;
+        const auto choice = choose_pipeline(**gpu);
+        if (choice.ok()) return {device, *choice, ""};
+        return {device, {}, choice.error().line()};
+    }
+    return {device, {}, problem};
+}
+
+ordered_json choice_json(const Finding& finding) {
+    ordered_json json{{"pipeline", nullptr},   {"why", finding.choice_text()}, {"mesh_ms", nullptr},
+                      {"compute_ms", nullptr}, {"measured", nullptr},          {"measured_now", false}};
+    if (!finding.choice) return json;
+    json["pipeline"] = name_of(finding.choice->path);
+    json["measured_now"] = finding.choice->measured_now;
+    if (const auto& times = finding.choice->times) {
+        json["mesh_ms"] = 1e3 * times->mesh_s;
+        json["compute_ms"] = 1e3 * times->compute_s;
+        json["measured"] = time_text(times->measured_utc_s);
+    }
+    return json;
+}
+
+ordered_json device_json(const Finding& finding) {
+    const DeviceReport& d = finding.device;
+    return {{"name", d.name},
+            {"type", d.type},
+            {"driver", d.driver},
+            {"api", d.api},
+            {"can_draw", d.lacks.empty()},
+            {"lacks", d.lacks},
+            {"mesh_shader",
+             {{"present", d.mesh_shader},
+              {"preferred_task_invocations", d.mesh.preferred_task_invocations},
+              {"preferred_mesh_invocations", d.mesh.preferred_mesh_invocations},
+              {"max_task_invocations", d.mesh.max_task_invocations},
+              {"max_mesh_invocations", d.mesh.max_mesh_invocations},
+              {"max_output_vertices", d.mesh.max_output_vertices},
+              {"max_output_primitives", d.mesh.max_output_primitives},
+              {"max_task_groups_total", d.mesh.max_task_groups_total}}},
+            {"pipelines", {{"mesh", d.mesh_shader}, {"compute", d.compute_raster}}},
+            {"auto", choice_json(finding)},
+            {"subgroup_size", d.subgroup_size},
+            {"max_picture_side_px", d.max_picture_side_px},
+            {"memory_bytes", d.memory_bytes}};
+}
+
+ordered_json doctor_json(const std::vector<Finding>& devices, const std::string& no_device,
+                         const LibraryReport& libraries) {
+    ordered_json json;
+    json["version"] = OROGRAPH_VERSION;
+    json["devices"] = ordered_json::array();
+    for (const Finding& device : devices) json["devices"].push_back(device_json(device));
+    json["device_problem"] = no_device.empty() ? ordered_json() : ordered_json(no_device);
+    json["libraries"] = {
+        {"gdal", libraries.gdal}, {"proj", libraries.proj}, {"geographiclib", libraries.geographiclib}};
+    json["geoids"] = ordered_json::array();
+    for (const GeoidGridReport& g : libraries.geoids)
+        json["geoids"].push_back({{"name", g.name},
+                                  {"file", g.file},
+                                  {"found", g.found},
+                                  {"damage", g.damage.empty() ? ordered_json() : ordered_json(g.damage)},
+                                  {"meaning", g.meaning}});
+    json["data_folder"] = {{"path", data_folder().string()}, {"found", has_data_folder()}};
+    return json;
+}
+
+void print_device(std::size_t number, const Finding& finding) {
+    const DeviceReport& d = finding.device;
+    std::printf("GPU %zu        %s (%s), %s, Vulkan %s\n", number, d.name.c_str(), d.type.c_str(),
+                d.driver.c_str(), d.api.c_str());
+    if (!d.lacks.empty()) {
+        std::printf(
+            "             cannot draw: lacks %s; a current driver for it, or the software driver "
+            "(scripts/set-up), is needed\n",
+            joined(d.lacks).c_str());
+        return;
+    }
+    if (d.mesh_shader) {
+        std::printf(
+            "             mesh path: task groups of %u (at most %u), mesh groups of %u (at most %u), %u "
+            "vertices, "
+            "%u triangles\n",
+            d.mesh.preferred_task_invocations, d.mesh.max_task_invocations, d.mesh.preferred_mesh_invocations,
+            d.mesh.max_mesh_invocations, d.mesh.max_output_vertices, d.mesh.max_output_primitives);
+    } else {
+        std::printf(
+            "             mesh path: not here (VK_EXT_mesh_shader is missing); the compute path draws\n");
+    }
+    std::printf("             compute path: %s\n",
+                d.compute_raster ? "here" : "not here (64-bit atomics are missing)");
+    std::printf("             auto: %s\n", finding.choice_text().c_str());
+    std::printf("             subgroups of %u, pictures up to %u px a tile, %llu MiB\n", d.subgroup_size,
+                d.max_picture_side_px, static_cast<unsigned long long>(d.memory_bytes >> 20U));
+    if (d.kind == VK_PHYSICAL_DEVICE_TYPE_CPU)
+        std::printf("             draws on the processor: right, but slow\n");
+}
+
+void print_doctor(const std::vector<Finding>& devices, const std::string& no_device,
+                  const LibraryReport& libraries) {
+    std::printf("orograph     %s\n", OROGRAPH_VERSION);
+    for (std::size_t i = 0; i < devices.size(); ++i) print_device(i, devices[i]);
+    if (!no_device.empty()) std::printf("GPU          none: %s\n", no_device.c_str());
+    std::printf("GDAL         %s\nPROJ         %s\nGeographicLib %s\n", libraries.gdal.c_str(),
+                libraries.proj.c_str(), libraries.geographiclib.c_str());
+    for (const GeoidGridReport& g : libraries.geoids) {
+        const std::string state = !g.found           ? "not found"
+                                  : g.damage.empty() ? "found"
+                                                     : "DAMAGED: " + g.damage;
+        std::printf("geoid        %s: %s %s; %s\n", g.name.c_str(), g.file.c_str(), one_line(state).c_str(),
+                    g.meaning.c_str());
+    }
+    std::printf("data         %s%s\n", data_folder().c_str(),
+                has_data_folder() ? "" : " (not there: styles must be given by path)");
+}
+
+}  // namespace
+
+Result<void> run_doctor(const DoctorOptions& options) {
+    const GpuOptions gpu_options = gpu_options_from_environment();
+    const auto devices = Gpu::survey(gpu_options);
+    const std::string no_device = devices.ok() ? "" : devices.error().line();
+    std::vector<Finding> found;
+    for (std::size_t i = 0; devices.ok() && i < devices->size(); ++i)
+        found.push_back(finding_of((*devices)[i], i, gpu_options));
+    const LibraryReport libraries = report_libraries();
+    if (options.json) {
+        std::printf("%s\n", json_text(doctor_json(found, no_device, libraries), true).c_str());
+    } else {
+        print_doctor(found, no_device, libraries);
+    }
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,128 @@
+// orograph plan: how large each effect is in a view, before anything is drawn.
+#include <cstdio>
+
+#include "apps/accuracy/accuracy.h"
+#include "apps/commands/commands.h"
+#include "apps/commands/plan_text.h"
+#include "apps/drawing/region_scene.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "core/base/parallel.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* key_of(EffectGroup group) {
+    switch (group) {
+        case EffectGroup::model:
+            return "model";
+        case EffectGroup::drawing:
+            return "drawing";
+        case EffectGroup::data:
+            return "data";
+    }
+    return "";
+}
+
+const char* key_of(EffectMeasure measure) {
+    switch (measure) {
+        case EffectMeasure::picture:
+            return "picture";
+        case EffectMeasure::full_detail:
+            return "full_detail";
+        case EffectMeasure::thinned:
+            return "thinned";
+        case EffectMeasure::stated:
+            return "stated";
+    }
+    return "";
+}
+
+ordered_json size_json(const EffectSize& size) {
+    return {{"worst_m", size.worst_m},
+            {"typical_m", size.typical_m},
+            {"worst_px", size.worst_px},
+            {"typical_px", size.typical_px}};
+}
+
+ordered_json effect_json(const BudgetLine& line) {
+    const EffectFacts& facts = facts_of(line.kind);
+    ordered_json effect{{"effect", facts.name}, {"kind", facts.key}, {"group", key_of(facts.group)}};
+    effect["meaning"] = facts.meaning;
+    effect["measured_by"] = key_of(facts.measured_by);
+    effect["size"] = nullptr;
+    if (line.size) effect["size"] = size_json(*line.size);
+    effect["in_picture"] = line.in_picture;
+    effect["limit_of_the_data"] = facts.group == EffectGroup::data;
+    effect["below_tolerance"] = line.within_tolerance;
+    // Of parts of the model alone.
+    effect["modelled"] = nullptr;
+    effect["needed"] = nullptr;
+    if (facts.group == EffectGroup::model) {
+        effect["modelled"] = line.modelled;
+        effect["needed"] = line.needed();
+    }
+    return effect;
+}
+
+ordered_json plan_json(const Budget& budget, const View& view, const AccuracyChoice& choice) {
+    ordered_json json;
+    json["tolerance_px"] = budget.tolerance_px;
+    json["in_view"] = !budget.empty;
+    json["nearest_m"] = budget.nearest_m;
+    json["median_distance_m"] = budget.median_distance_m;
+    json["effects"] = ordered_json::array();
+    for (const BudgetLine& line : budget.lines) json["effects"].push_back(effect_json(line));
+    json["total"] = size_json(budget.total);
+    json["dominates"] = nullptr;
+    json["dominates_kind"] = nullptr;
+    if (budget.dominant) {
+        json["dominates"] = facts_of(*budget.dominant).name;
+        json["dominates_kind"] = facts_of(*budget.dominant).key;
+    }
+    json["cheapest"] = {{"accuracy", choice.bundle.name},
+                        {"options", choice.bundle.options},
+                        {"predicted_px", choice.predicted_px},
+                        {"holds", choice.holds},
+                        {"left_out", ordered_json::array()}};
+    for (const EffectKind kind : choice.left_out) json["cheapest"]["left_out"].push_back(facts_of(kind).key);
+    json["view"] = ordered_json::parse(view_to_json(view, false));
+    return json;
+}
+
+}  // namespace
+
+Result<void> run_plan(const PlanOptions& options) {
+    double tolerance_px = 1.0;
+    if (options.view.tolerance) {
+        ORO_TRY(tolerance_px, parse_tolerance(*options.view.tolerance));
+    }
+    // Here a tolerance judges what is asked for, and chooses nothing.
+    ViewOptions view_options = options.view;
+    view_options.tolerance.reset();
+    ProgressBar bar(options.quiet);
+    View view;
+    Region region;
+    ORO_CHECK(open_view(
+        options.view_file, view_options, options.region,
+        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    ORO_TRY(
+        const std::unique_ptr<RegionPages> pages,
+        region_pages(region, view.exaggeration, [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
+    bar.clear();
+    for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
+    ORO_TRY(const Budget budget, plan_view(view, region, truth->surface(), *pages, tolerance_px));
+    ORO_TRY(const AccuracyChoice choice,
+            choose_accuracy(view, region, truth->surface(), *pages, tolerance_px));
+    if (options.json) {
+        std::printf("%s\n", json_text(plan_json(budget, view, choice), true).c_str());
+        return {};
+    }
+    std::fputs(plan_text(budget, view, choice).c_str(), stdout);
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,155 @@
+#include "apps/commands/plan_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "apps/report/figures.h"
+
+namespace oro {
+namespace {
+
+constexpr std::size_t name_columns = 32, flag_columns = 10, size_columns = 10;
+constexpr int before_point = 6;
+
+std::string left_aligned(const std::string& text, std::size_t columns) {
+    return text.size() < columns ? text + std::string(columns - text.size(), ' ') : text;
+}
+
+std::string pixels(double px) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%g px", px);
+    return text;
+}
+
+// Two lines over a part of the table. `judged`: what the second yes or no means.
+std::string headings(const char* name, const std::string& judged, const std::string& limit,
+                     const char* remark) {
+    const auto line = [](const char* first, const std::string& flag, const std::string& other_flag,
+                         const std::array<const char*, 4>& sizes, const char* last) {
+        std::string text = left_aligned(first, name_columns) + left_aligned(flag, flag_columns) +
+                           left_aligned(other_flag, flag_columns);
+        for (const char* size : sizes) {
+            char cell[20];
+            std::snprintf(cell, sizeof cell, "%*s", before_point, size);
+            text += left_aligned(cell, size_columns);
+        }
+        text += std::string("  ") + last;
+        text.erase(text.find_last_not_of(' ') + 1);
+        return text + "\n";
+    };
+    return line("", "in this", judged, {"worst", "typical", "worst", "typical"}, "") +
+           line(name, "picture", limit, {"m", "m", "px", "px"}, remark);
+}
+
+std::string sizes(const std::optional<EffectSize>& size) {
+    if (!size) return "     not stated by the source";
+    std::string text;
+    for (const double value : {size->worst_m, size->typical_m, size->worst_px, size->typical_px})
+        text += point_aligned(value, before_point);
+    return text;
+}
+
+std::string row(const std::string& name, const char* flag, const char* other_flag,
+                const std::optional<EffectSize>& size, const std::string& remark) {
+    std::string text = left_aligned(name, name_columns) + left_aligned(flag, flag_columns) +
+                       left_aligned(other_flag, flag_columns) + sizes(size);
+    if (!remark.empty()) text += "  " + remark;
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text + "\n";
+}
+
+const char* yes_or_no(bool yes) {
+    return yes ? "yes" : "no";
+}
+
+std::string remark_on(const BudgetLine& line, const Budget& budget, const View& view) {
+    std::string remark = facts_of(line.kind).left_out_by;
+    if (line.kind == EffectKind::detail) {
+        char tau[40];
+        std::snprintf(tau, sizeof tau, " %g", view.tau_px > 0.0 ? view.tau_px : 1.0);
+        remark += tau;
+    }
+    if (budget.dominant != line.kind) return remark;
+    return remark + (remark.empty() ? "" : "  ") + "<- largest here";
+}
+
+std::string rows(const Budget& budget, EffectGroup group, const View& view) {
+    std::string text;
+    for (const BudgetLine& line : budget.lines) {
+        const EffectFacts& facts = facts_of(line.kind);
+        if (facts.group != group) continue;
+        const bool of_model = group == EffectGroup::model;
+        const char* const judged =
+            line.size ? yes_or_no(of_model ? line.needed() : line.within_tolerance) : "-";
+        text += row(of_model ? facts.part : facts.name, yes_or_no(of_model ? line.modelled : line.in_picture),
+                    judged, line.size, remark_on(line, budget, view));
+    }
+    return text;
+}
+
+// What this view is good to, and what would make it better.
+std::string advice(const Budget& budget, const View& view, const AccuracyChoice& choice) {
+    const bool within = budget.total.worst_px <= budget.tolerance_px;
+    const std::string tolerance = pixels(budget.tolerance_px);
+    const std::string option = "`--accuracy " + std::string(choice.bundle.name) + "`";
+    const std::string predicted = about(choice.predicted_px) + " px (" + choice.bundle.options + ")";
+    std::string text = "Good to " + about(budget.total.worst_px) + " px";
+    text += within ? ": within the tolerance of " + tolerance + "." : ".";
+    if (is_drawn_as(choice.bundle, view))
+        text += choice.holds ? "\nThat is what " + option + " draws, the cheapest within " + tolerance + "."
+                             : "\nThat is what " + option + " draws, and nothing else is closer.";
+    else if (within)
+        text += "\nThe cheapest within " + tolerance + " is " + option + ": " + predicted + ".";
+    else
+        text +=
+            "\n" + option + " makes it " + predicted + (choice.holds ? "." : ", more than the tolerance.");
+    for (const EffectKind kind : choice.left_out) {
+        const auto line = std::find_if(budget.lines.begin(), budget.lines.end(),
+                                       [&](const BudgetLine& one) { return one.kind == kind; });
+        if (line == budget.lines.end() || !line->size || *facts_of(kind).left_out_by == '\0') continue;
+        text += "\nLeave `" + std::string(facts_of(kind).left_out_by) + "` out: it alone costs " +
+                about(line->size->worst_px) + " px.";
+    }
+    return text;
+}
+
+std::string limit_of_data(const Budget& budget) {
+    double worst_px = 0.0;
+    bool stated = true;
+    for (const BudgetLine& line : budget.lines) {
+        if (facts_of(line.kind).group != EffectGroup::data) continue;
+        if (line.size) worst_px = std::max(worst_px, line.size->worst_px);
+        stated = stated && line.size.has_value();
+    }
+    return "The data themselves may be off by " + about(worst_px) + " px, which no setting can help" +
+           (stated ? "." : "; and the source does not say how accurate it is.");
+}
+
+}  // namespace
+
+std::string plan_text(const Budget& budget, const View& view, const AccuracyChoice& choice) {
+    if (budget.empty) return "nothing of the region is in view: there is nothing to predict\n";
+    char text[240];
+    std::snprintf(
+        text, sizeof text,
+        "Ground in view: from %s m on, half of it beyond %s m; %d x %d px, %g degrees; tolerance %g "
+        "px.\n",
+        figure(budget.nearest_m).c_str(), figure(budget.median_distance_m).c_str(), view.camera.width_px,
+        view.camera.height_px, view.camera.vertical_fov_deg, budget.tolerance_px);
+    const std::string limit = pixels(budget.tolerance_px);
+    std::string out = text;
+    out += "Worst: no point in view is off by more. Typical: half of the points are off by less.\n\n";
+    out += "Switch off one part of the model to see how much error that causes:\n";
+    out += headings("part of the model", "needed", "for " + limit, "left out by");
+    out += rows(budget, EffectGroup::model, view);
+    out += "\nWhat drawing itself rounds off:\n" + headings("error", "within", limit, "");
+    out += rows(budget, EffectGroup::drawing, view);
+    out += "\nWhat the data do not tell, and no setting can help:\n" + headings("error", "within", limit, "");
+    out += rows(budget, EffectGroup::data, view);
+    out += "\n" + row("this picture, but for its data", "",
+                      yes_or_no(budget.total.worst_px <= budget.tolerance_px), budget.total, "");
+    return out + "\n" + advice(budget, view, choice) + "\n" + limit_of_data(budget) + "\n";
+}
+
+}  // namespace oro

@@ -1,0 +1,362 @@
+// orograph shot: from files to a picture that knows where it was taken from.
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <span>
+
+#include "apps/accuracy/accuracy.h"
+#include "apps/accuracy/verification.h"
+#include "apps/commands/commands.h"
+#include "apps/drawing/region_scene.h"
+#include "apps/output/overwrite_guard.h"
+#include "apps/output/picture_file.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
+#include "apps/view/model_names.h"
+#include "apps/view/style.h"
+#include "apps/view/view.h"
+#include "apps/window/picking.h"
+#include "core/base/open_file.h"
+#include "core/terrain/ground.h"
+#include "geo/files/whole_file.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// How long each step of a shot took.
+struct ShotTimes {
+    double read_s{};
+    double pages_s{};
+    double draw_s{};  // drawing, reading back and writing, which overlap row by row
+    double verify_s{};
+};
+
+struct ShotResult {
+    View view;
+    Region region;
+    std::optional<SeenPlace> middle;  // what the picture sees there
+    PictureReport picture;
+    std::uint64_t pages{};
+    std::uint64_t pages_on_gpu{};
+    std::uint64_t page_bytes{};
+    double height_step_m{};
+    std::uint64_t triangles_at_full_resolution{};
+    std::optional<Verification> verification;
+    std::optional<AccuracyChoice> choice;  // with --tolerance
+    ShotTimes times;
+};
+
+namespace fs = std::filesystem;
+
+// Without --out a view goes back to the picture that it came from.
+Result<PictureFiles> shot_files(const ShotOptions& options) {
+    if (options.out.empty() && options.view_file.empty())
+        return Error{ErrorKind::usage, "--out", "is missing: name the picture to write (.png, .jpg or .tif)"};
+    std::string out = options.out.empty() ? options.view_file : options.out;
+    if (options.out.empty() && fs::path(out).extension() == ".json") {
+        std::error_code ignored;
+        for (const char* ending : {".png", ".jpg", ".jpeg", ".tif", ".tiff"}) {
+            out = fs::path(options.view_file).replace_extension(ending).string();
+            if (fs::exists(out, ignored)) break;
+            out = fs::path(options.view_file).replace_extension(".png").string();
+        }
+    }
+    ORO_CHECK(picture_format(out));
+    return picture_files(out);
+}
+
+// A picture drawn again from its own view: drawn without a name and compared, so that nothing is replaced.
+bool is_check(const ShotOptions& options, const PictureFiles& files) {
+    std::error_code ignored;
+    return options.out.empty() && !options.overwrite && fs::is_regular_file(files.picture, ignored);
+}
+
+ordered_json destination_json(const std::optional<SeenPlace>& place) {
+    if (!place) return nullptr;
+    ordered_json json{{"lat_deg", place->lat_deg},
+                      {"lon_deg", place->lon_deg},
+                      {"h_m", place->h_m},
+                      {"H_m", place->H_m},
+                      {"bearing_deg", place->bearing_deg},
+                      {"distance_m", place->distance_m},
+                      {"seen_distance_m", place->seen_distance_m},
+                      {"cell", {{"row", place->row}, {"column", place->column}}},
+                      {"source", nullptr}};
+    if (!place->source.empty()) json["source"] = place->source;
+    return json;
+}
+
+ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
+                       const Style& style) {
+    const Geotags tags = geotags_of(shot.view, shot.region, shot.middle);
+    const glm::dvec3 ecef = shot.view.camera.eye_ecef().m;
+    const PictureReport& counts = shot.picture;
+    ordered_json json;
+    json["picture"] = files.picture;
+    json["view"] = ordered_json::parse(view_to_json(shot.view, false));
+    if (!shot.view.tells_paths) json["view"]["sources"] = ordered_json::array();
+    json["eye"] = {{"lat_deg", tags.lat_deg},
+                   {"lon_deg", tags.lon_deg},
+                   {"h_m", tags.h_m},
+                   {"H_m", tags.H_m},
+                   {"N_m", tags.N_m},
+                   {"geoid", tags.geoid},
+                   {"ecef_m", {ecef.x, ecef.y, ecef.z}}};
+    json["heading_deg"] = tags.heading_deg;
+    json["pitch_deg"] = tags.pitch_deg;
+    json["roll_deg"] = tags.roll_deg;
+    json["fov_deg"] = tags.vertical_fov_deg;
+    json["size_px"] = {tags.width_px, tags.height_px};
+    json["samples"] = shot.view.samples;
+    json["exaggeration"] = shot.view.exaggeration;
+    json["sun"] = {{"azimuth_deg", style.sun.azimuth_deg}, {"elevation_deg", style.sun.elevation_deg}};
+    json["time"] = time_text(shot.view.time_utc_s);
+    json["destination"] = destination_json(shot.middle);
+    json["attribution"] = tags.attribution;
+    json["sources"] = sources_json(shot.region.sources);
+    json["region"] = region_json(shot.region);
+    json["triangles"] = {{"drawn", counts.triangles_drawn},
+                         {"at_full_resolution", shot.triangles_at_full_resolution}};
+    json["meshlets"] = {{"drawn", counts.meshlets_drawn},
+                        {"culled_by_frustum", counts.meshlets_beyond_frustum},
+                        {"culled_by_horizon", counts.meshlets_beyond_horizon},
+                        {"mesh_workgroups", counts.mesh_groups}};
+    json["pages"] = {{"all", shot.pages},
+                     {"drawn", counts.pages_drawn},
+                     {"culled_by_frustum", shot.picture.pages_beyond_frustum},
+                     {"culled_by_horizon", shot.picture.pages_beyond_horizon},
+                     {"on_gpu", shot.pages_on_gpu},
+                     {"bytes_on_gpu", shot.page_bytes}};
+    json["tau_px"] = shot.view.tau_px;
+    json["models"] = models_json(shot.view);
+    json["accuracy"] = nullptr;
+    if (shot.choice) json["accuracy"]["bundle"] = nullptr;
+    if (!shot.view.accuracy.empty()) json["accuracy"]["bundle"] = shot.view.accuracy;
+    if (const auto& choice = shot.choice)
+        json["accuracy"].update({{"options", choice->bundle.options},
+                                 {"tolerance_px", choice->tolerance_px},
+                                 {"predicted_px", choice->predicted_px},
+                                 {"holds", choice->holds}});
+    json["models"]["height_step_m"] = shot.height_step_m;
+    json["settled"] = counts.settled;
+    json["tiles"] = shot.picture.tiles;
+    json["times_s"] = {{"read", shot.times.read_s},           {"pages", shot.times.pages_s},
+                       {"draw_and_write", shot.times.draw_s}, {"gpu_choose", counts.choose_s},
+                       {"gpu_raster", counts.raster_s},       {"gpu_shade", counts.shade_s}};
+    json["device"] = {{"name", gpu.report().name},
+                      {"type", gpu.report().type},
+                      {"driver", gpu.report().driver},
+                      {"api", gpu.report().api}};
+    json["pipeline"] = name_of(shot.picture.path);
+    if (shot.verification) {
+        json["times_s"]["verify"] = shot.times.verify_s;
+        json["error_picture"] = files.error;
+        json["error"] = verification_json(*shot.verification);
+    }
+    return json;
+}
+
+void say_notes(const ShotOptions& options, const ShotResult& shot) {
+    for (const std::string& note : shot.region.notes) say(options.quiet, "note: " + note);
+    if (const std::string holes = note_of_voids(shot.region); !holes.empty())
+        say(options.quiet, "note: " + holes);
+    const Geodetic& eye = shot.view.camera.eye;
+    const auto ground = ground_h_m(shot.region.field, eye.lat_deg, eye.lon_deg, shot.view.exaggeration);
+    if (ground && eye.h_m < *ground) {
+        char text[80];
+        std::snprintf(text, sizeof text, "note: the eye is %.1f m below the ground", *ground - eye.h_m);
+        say(options.quiet, text);
+    }
+}
+
+std::vector<std::string> written_files(const ShotOptions& options, const PictureFiles& files) {
+    std::vector<std::string> all;
+    if (!is_check(options, files)) all.push_back(files.picture);
+    if (options.verify) all.push_back(files.error);
+    return all;
+}
+
+// Before anything takes time: that all files can be written where they shall be.
+Result<void> check_out(const ShotOptions& options, const PictureFiles& files) {
+    for (const std::string& file : written_files(options, files)) {
+        if (!options.overwrite && access(file.c_str(), F_OK) == 0)
+            return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
+        if (const auto trial = WholeFile::create(file, options.overwrite); !trial.ok()) return trial.error();
+    }
+    return {};
+}
+
+// Measures what was drawn, the same way, and makes the picture of its errors, which has no name yet.
+Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu,
+                              Scene& scene, const Style& style, ShotResult& shot) {
+    const auto start = Clock::now();
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
+    ORO_TRY(shot.verification, verify_view(shot.view, *truth, gpu, scene, shot.picture.path, style.frame));
+    ORO_TRY(const std::vector<std::uint8_t> png, error_picture_png(*shot.verification, shot.view.tau_px));
+    ORO_TRY(WholeFile file, WholeFile::create(files.error, options.overwrite));
+    ORO_CHECK(file.write(png.data(), png.size()));
+    shot.times.verify_s = seconds_since(start);
+    return file;
+}
+
+// Where a picture that is only compared would be, if it ever got a name.
+PictureFiles unnamed(const PictureFiles& files) {
+    std::error_code failed;
+    const fs::path folder = fs::temp_directory_path(failed);
+    PictureFiles other = files;
+    other.picture =
+        ((failed ? fs::path("/tmp") : folder) / ("orograph-check-" + std::to_string(getpid()))).string() +
+        fs::path(files.picture).extension().string();
+    return other;
+}
+
+// True when a drawn picture has the bytes of a file.
+Result<bool> is_same(WholeFile& drawn, const std::string& path) {
+    ORO_TRY(const OpenFile other, OpenFile::open(path, OpenFile::Use::read));
+    ORO_TRY(std::uint64_t left, other.size());
+    std::FILE* const stream = drawn.stream();
+    if (std::fseek(stream, 0, SEEK_END) != 0 || static_cast<std::uint64_t>(ftello(stream)) != left)
+        return false;
+    std::rewind(stream);
+    std::vector<std::byte> ours(1 << 16), theirs(ours.size());
+    for (std::uint64_t at = 0; left > 0;) {
+        const std::size_t count = std::min<std::uint64_t>(left, ours.size());
+        ORO_CHECK(other.read(at, std::span(theirs).first(count)));
+        if (std::fread(ours.data(), 1, count, stream) != count ||
+            !std::equal(ours.begin(), ours.begin() + static_cast<std::ptrdiff_t>(count), theirs.begin()))
+            return false;
+        at += count;
+        left -= count;
+    }
+    return true;
+}
+
+// Gives what was drawn its names, or compares it with the picture that is there.
+Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, WholeFile picture,
+                         std::optional<WholeFile> errors) {
+    if (!is_check(options, files)) return errors ? commit_together({&*errors, &picture}) : picture.commit();
+    if (errors) ORO_CHECK(errors->commit());
+    ORO_TRY(const bool same, is_same(picture, files.picture));
+    if (same) return {};
+    return Error{
+        ErrorKind::failed, files.picture,
+        "is not what its view draws now; left as it is (--overwrite replaces it, --out writes another)"};
+}
+
+// The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
+// it.
+Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages, ShotResult& shot) {
+    ORO_TRY(const double tolerance_px, parse_tolerance(*options.view.tolerance));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
+    FixedAccuracy fixed;
+    if (options.view.tau_px) fixed.tau_px = shot.view.tau_px;
+    if (options.view.heights) fixed.heights = shot.view.heights;
+    if (options.view.refraction_k) fixed.refraction_k = shot.view.model.refraction_k;
+    ORO_TRY(shot.choice,
+            choose_accuracy(shot.view, shot.region, truth->surface(), pages, tolerance_px, fixed));
+    apply_bundle(shot.choice->bundle, shot.view);
+    forget_other_bundle(shot.view);
+    const std::string& chosen = shot.view.accuracy.empty() ? shot.choice->bundle.options : shot.view.accuracy;
+    char text[240];
+    std::snprintf(text, sizeof text, "accuracy: %s, predicted error %.3g px%s", chosen.c_str(),
+                  shot.choice->predicted_px,
+                  shot.choice->holds ? "" : ": more than the tolerance, and nothing here comes nearer");
+    say(options.quiet, text);
+    return {};
+}
+
+// What was drawn and measured.
+void tell(const ShotOptions& options, const PictureFiles& files, bool checks, const ShotResult& shot,
+          const Gpu& gpu, const Style& style) {
+    if (!checks) say(options.quiet, "wrote " + files.picture);
+    if (shot.verification) {
+        say(options.quiet, "wrote " + files.error);
+        if (!options.quiet)
+            std::fputs(verification_text(*shot.verification, shot.view.tau_px).c_str(), stderr);
+    }
+    if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, gpu, style), true).c_str());
+}
+
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
+    ORO_CHECK(check_out(options, files));
+    if (options.view.tolerance) {
+        if (options.view.accuracy)
+            return Error{ErrorKind::usage, "--tolerance", "chooses what --accuracy says: give one of them"};
+        ORO_CHECK(parse_tolerance(*options.view.tolerance));
+    }
+    ProgressBar bar(options.quiet);
+    ShotResult shot;
+    const auto reading = Clock::now();
+    ORO_CHECK(open_view(
+        options.view_file, options.view, options.region,
+        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
+        shot.region));
+    if (options.no_paths) shot.view.tells_paths = false;
+    shot.times.read_s = seconds_since(reading);
+    ORO_CHECK(spare_inputs(written_files(options, files), shot.view, shot.region));
+    ORO_TRY(const Style style, load_style(shot.view.style, shot.view.sun));
+    bar.clear();
+    say_notes(options, shot);
+
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    const auto start = Clock::now();
+    ORO_TRY(std::unique_ptr<RegionPages> pages,
+            region_pages(shot.region, shot.view.exaggeration,
+                         [&](double share) { bar.show(share, "measuring levels"); }));
+    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
+    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), options.memory, shot.view.heights));
+    const PageLayout finest = scene.pages().layout(0);
+    shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
+    shot.triangles_at_full_resolution = scene.pages().facts().triangles;
+    shot.times.pages_s = seconds_since(start);
+    const auto drawing = Clock::now();
+    const Camera& camera = shot.view.camera;
+    ORO_TRY(const FramePlan first, scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+                                              shot.view.tau_px, shot.view.model));
+    // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
+    const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
+    if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
+    ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
+    const bool checks = is_check(options, files);
+    ORO_TRY(DrawnPicture picture, draw_picture(checks ? unnamed(files) : files, options.overwrite || checks,
+                                               shot.view, shot.region, shot.middle, *gpu, scene, style.frame,
+                                               [&](double share) { bar.show(share, "drawing"); }));
+    shot.picture = picture.report;
+    shot.times.draw_s = seconds_since(drawing);
+    if (shot.picture.triangles_drawn == 0)
+        say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
+    shot.pages_on_gpu = scene.store().size();
+    shot.page_bytes = scene.store().bytes();
+    shot.height_step_m = scene.height_step_m();
+    std::optional<WholeFile> errors;
+    if (options.verify) {
+        bar.show(1.0, "measuring errors");
+        ORO_TRY(errors, verify_shot(options, files, *gpu, scene, style, shot));
+    }
+    bar.clear();
+    const Result<void> finished = finish_shot(options, files, std::move(picture.file), std::move(errors));
+    if (finished.ok() || checks) tell(options, files, checks, shot, *gpu, style);
+    if (finished.ok() && checks)
+        say(options.quiet, files.picture + " is there already, and its view draws the same bytes");
+    return finished;
+}
+
+}  // namespace
+
+Result<void> run_shot(const ShotOptions& options) {
+    ORO_TRY(const PictureFiles files, shot_files(options));
+    return take_shot(options, files);
+}
+
+}  // namespace oro

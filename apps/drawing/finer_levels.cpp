@@ -1,0 +1,68 @@
+#include "apps/drawing/finer_levels.h"
+
+#include <chrono>
+#include <system_error>
+
+#include "apps/drawing/region_scene.h"
+#include "core/base/parallel.h"
+
+namespace oro {
+namespace {
+
+// Some 0.1 s of work on one processor (core/lod/pyramid.h).
+constexpr std::size_t posts_in_a_moment = 1'000'000;
+
+GridAxis every(const GridAxis& axis, int step) {
+    GridAxis coarse = axis;
+    coarse.posts_per_deg = axis.posts_per_deg / step;
+    coarse.phase_deg = axis.at_deg(0);
+    coarse.first = 0;
+    coarse.count = (axis.count - 1) / step + 1;
+    return coarse;
+}
+
+}  // namespace
+
+bool measures_long(const Region& region) {
+    return !region.file && !region.field.posts && region.field.grid.post_count() > 4 * posts_in_a_moment;
+}
+
+HeightField coarse_field(const HeightField& field) {
+    int step = 1;
+    while (field.grid.post_count() / static_cast<std::size_t>(step * step) > posts_in_a_moment) step *= 2;
+    HeightField coarse;
+    coarse.grid = {every(field.grid.lat, step), every(field.grid.lon, step)};
+    coarse.undulation = field.undulation;
+    coarse.H_m.reserve(coarse.grid.post_count());
+    for (int row = 0; row < coarse.grid.rows(); ++row) {
+        for (int column = 0; column < coarse.grid.columns(); ++column)
+            coarse.H_m.push_back(field.H_at_post_m(row * step, column * step));
+    }
+    return coarse;
+}
+
+FinerLevels::FinerLevels(const Region& region, double exaggeration) {
+    const auto measure = [this, &region, exaggeration] {
+        return region_pages(
+            region, exaggeration, [this](double share) { share_ = share; }, stop_.get_token());
+    };
+    try {
+        pages_ = std::async(std::launch::async, measure);
+    } catch (const std::system_error&) {
+        pages_ = std::async(std::launch::deferred, measure);
+    }
+}
+
+FinerLevels::~FinerLevels() {
+    stop_.request_stop();
+}
+
+bool FinerLevels::ready() const {
+    return pages_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
+}
+
+Result<std::unique_ptr<RegionPages>> FinerLevels::wait() {
+    return pages_.get();
+}
+
+}  // namespace oro

@@ -1,0 +1,51 @@
+#include "apps/drawing/region_scene.h"
+
+#include <utility>
+
+#include "core/baked/file_pages.h"
+#include "core/base/parallel.h"
+
+namespace oro {
+namespace {
+
+// A baked region's levels are those of its own heights; exaggerated ones, and those that its geoid was taken
+// from, need levels of their own, and to measure these, all posts in memory.
+Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exaggeration,
+                                              const RenderProgress& progress, const std::stop_token& stop) {
+    if (!region.file) return pages_in_memory(region.field, exaggeration, thread_count(), progress, stop);
+    const bool own_geoid = region.field.undulation.N_m.size() == region.file->outline().undulation.N_m.size();
+    if (own_geoid && exaggeration == 1.0) return pages_of_file(region.file);
+    ORO_TRY(HeightField field, field_in_memory(*region.file));
+    if (!own_geoid) field.undulation = region.field.undulation;
+    return pages_in_memory(field, exaggeration, thread_count(), progress);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double exaggeration,
+                                                  const RenderProgress& progress,
+                                                  const std::stop_token& stop) {
+    ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(region, exaggeration, progress, stop));
+    if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
+    if (pages->facts().triangles == 0)
+        return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
+    return pages;
+}
+
+Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
+                           const MemoryOptions& memory, const RenderProgress& progress,
+                           HeightStorage heights) {
+    ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(region, exaggeration, progress));
+    return create_scene(gpu, std::move(pages), memory, heights);
+}
+
+Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
+                           HeightStorage heights) {
+    const auto bytes = [](const std::optional<int>& mb) {
+        return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
+    };
+    return Scene::create(gpu, std::move(pages), {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb)},
+                         heights);
+}
+
+}  // namespace oro

@@ -1,0 +1,27 @@
+// From a region that was read to one that can be drawn.
+#pragma once
+
+#include <stop_token>
+
+#include "apps/commands/options.h"
+#include "geo/region/region.h"
+#include "render/scene/scene.h"
+
+namespace oro {
+
+// Pages of a region with levels for that exaggeration. stop: as pages_in_memory(). Errors: damage in a baked
+// region; nothing to draw in it (no_data); stopped.
+Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double exaggeration,
+                                                  const RenderProgress& progress = {},
+                                                  const std::stop_token& stop = {});
+// Makes them ready for a GPU. Errors: out of device memory. heights: how they are kept there.
+Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
+                           HeightStorage heights = HeightStorage::f32);
+
+// Builds the levels of a region and makes it ready for a GPU. Errors: nothing to draw in it (no_data), out of
+// device memory. heights: how they are kept on the GPU.
+Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
+                           const MemoryOptions& memory, const RenderProgress& progress = {},
+                           HeightStorage heights = HeightStorage::f32);
+
+}  // namespace oro

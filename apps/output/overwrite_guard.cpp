@@ -1,0 +1,39 @@
+#include "apps/output/overwrite_guard.h"
+
+#include <filesystem>
+
+namespace oro {
+
+namespace fs = std::filesystem;
+
+Result<void> spare_files(const std::vector<std::string>& written, const std::vector<std::string>& inputs,
+                         const std::string& what_they_are) {
+    for (const std::string& file : written) {
+        std::error_code not_there;
+        if (!fs::exists(file, not_there)) continue;
+        for (const std::string& input : inputs) {
+            if (fs::equivalent(file, input, not_there))
+                return Error{ErrorKind::usage, "--out", "would replace " + input + ", " + what_they_are};
+        }
+    }
+    return {};
+}
+
+Result<void> spare_inputs(const std::vector<std::string>& written, const View& view, const Region& region) {
+    std::vector<std::string> inputs{view.style};
+    for (const std::string& path : view.region.paths) inputs.push_back(path);
+    for (const SourceReport& source : region.sources) {
+        inputs.push_back(source.path);
+        inputs.insert(inputs.end(), source.files.begin(), source.files.end());
+    }
+    return spare_files(written, inputs, "which the picture is made from");
+}
+
+Result<void> spare_view(const std::vector<std::string>& written, const std::string& view_file) {
+    std::vector<std::string> inputs{view_file, view_file + ".json"};
+    for (const char* ending : {".json", ".png", ".jpg", ".jpeg", ".tif", ".tiff"})
+        inputs.push_back(fs::path(view_file).replace_extension(ending).string());
+    return spare_files(written, inputs, "which is the view, or the picture that it belongs to");
+}
+
+}  // namespace oro

@@ -1,0 +1,85 @@
+#include "apps/output/picture_file.h"
+
+#include <filesystem>
+
+#include "apps/drawing/pipeline_choice.h"
+#include "apps/report/region_json.h"
+#include "apps/view/view_paths.h"
+
+namespace oro {
+
+PictureFiles picture_files(const std::string& picture) {
+    const std::filesystem::path path(picture);
+    const bool is_png = path.extension() == ".png";
+    return {picture,
+            (is_png ? std::filesystem::path(path).replace_extension() : path).string() + ".error.png",
+            picture};
+}
+
+Geotags geotags_of(const View& view, const Region& region, const std::optional<SeenPlace>& middle) {
+    const Camera& camera = view.camera;
+    Geotags tags;
+    tags.lat_deg = camera.eye.lat_deg;
+    tags.lon_deg = camera.eye.lon_deg;
+    tags.h_m = camera.eye.h_m;
+    tags.N_m = region.field.undulation.at_m(tags.lat_deg, tags.lon_deg);
+    tags.H_m = tags.h_m - tags.N_m;
+    tags.geoid = region.geoid;
+    tags.heading_deg = camera.attitude.heading_deg;
+    tags.pitch_deg = camera.attitude.pitch_deg;
+    tags.roll_deg = camera.attitude.roll_deg;
+    tags.vertical_fov_deg = camera.vertical_fov_deg;
+    tags.width_px = camera.width_px;
+    tags.height_px = camera.height_px;
+    tags.time_utc_s = view.time_utc_s;
+    if (middle)
+        tags.destination =
+            DestinationTag{middle->lat_deg, middle->lon_deg, middle->bearing_deg, middle->distance_m};
+    tags.attribution = attribution_of(region);
+    tags.software = "Orograph " OROGRAPH_VERSION;
+    tags.view_json = view_to_json(view, false);
+    return tags;
+}
+
+Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
+                                  const Region& region, const std::optional<SeenPlace>& middle,
+                                  const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                  const RenderProgress& progress) {
+    // The eye and the tags come from heights that were asked for by now.
+    ORO_CHECK(region.field.health());
+    PictureOptions options;
+    ORO_TRY(options.path, choose_path(view.pipeline, gpu));
+    // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
+    View drawn = view_told_by(view, files.told_from);
+    drawn.pipeline = name_of(options.path);
+    ORO_CHECK(check_view_opens(drawn, files.picture));
+    ORO_TRY(const std::unique_ptr<PictureWriter> writer,
+            create_picture(files.picture, geotags_of(drawn, region, middle), overwrite));
+    options.samples = view.samples;
+    options.tau_px = view.tau_px;
+    options.model = view.model;
+    ORO_TRY(PictureReport report,
+            render_picture(
+                gpu, scene, view.camera, style, options,
+                [&](std::span<const std::uint8_t> rgb) { return writer->write_row(rgb); }, progress));
+    if (!gpu.validation_messages().empty())
+        return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
+    if (!report.settled)
+        return Error{ErrorKind::failed, "--gpu-memory",
+                     "the GPU may hold " + std::to_string(scene.store().capacity()) +
+                         " pages of terrain; this view needs more (a larger --tau needs fewer)"};
+    ORO_TRY(WholeFile file, writer->finished_file());
+    return DrawnPicture{report, std::move(file)};
+}
+
+Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
+                                    const Region& region, const std::optional<SeenPlace>& middle,
+                                    const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                    const RenderProgress& progress) {
+    ORO_TRY(DrawnPicture picture,
+            draw_picture(files, overwrite, view, region, middle, gpu, scene, style, progress));
+    ORO_CHECK(picture.file.commit());
+    return picture.report;
+}
+
+}  // namespace oro

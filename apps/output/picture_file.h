@@ -1,0 +1,44 @@
+// A view drawn into a file with its geotags, which hold the view. Used by shot and by the viewer.
+#pragma once
+
+#include "apps/view/view.h"
+#include "apps/window/picking.h"
+#include "geo/pictures/picture.h"
+#include "render/frame/picture_renderer.h"
+
+namespace oro {
+
+// A picture's file, and the picture of its errors, which --verify asks for: p.error.png of p.png,
+// p.jpg.error.png of p.jpg.
+struct PictureFiles {
+    std::string picture;
+    std::string error;
+    std::string told_from;  // the picture whose folder the view's paths start from: this one
+};
+PictureFiles picture_files(const std::string& picture);
+
+// All that a picture of a view says of itself, with the view as that picture carries it; `middle` is what it
+// sees there.
+Geotags geotags_of(const View& view, const Region& region, const std::optional<SeenPlace>& middle);
+
+// A picture that is whole and has no name yet.
+struct DrawnPicture {
+    PictureReport report;
+    WholeFile file;
+};
+
+// Draws a picture that is to be `files.picture`. The view in it names the way of drawing that --pipeline auto
+// came to. Errors: a view that could not be opened again, those of the file and of the device; any message of
+// the validation layer, where it is on.
+Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
+                                  const Region& region, const std::optional<SeenPlace>& middle,
+                                  const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                  const RenderProgress& progress);
+
+// The same, and gives it its name.
+Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
+                                    const Region& region, const std::optional<SeenPlace>& middle,
+                                    const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                    const RenderProgress& progress);
+
+}  // namespace oro

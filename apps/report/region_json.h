@@ -1,0 +1,21 @@
+// What a region is made of, as JSON and as lines for people.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "geo/region/region.h"
+
+namespace oro {
+
+nlohmann::ordered_json sources_json(const std::vector<SourceReport>& sources);
+nlohmann::ordered_json region_json(const Region& region);
+// The file of a baked region that is one whole; null for all others.
+nlohmann::ordered_json file_json(const Region& region);
+
+// A line about the region's posts without a height, by why, if it has any.
+std::string note_of_voids(const Region& region);
+
+// All attributions of a region, each once, joined by "; ".
+std::string attribution_of(const Region& region);
+
+}  // namespace oro

@@ -1,0 +1,50 @@
+# Puts the page of a trade together from its parts, and into a C++ source: text with two gaps, for what the page
+# states of itself and for its data. Run as: cmake -D FOLDER=... -D OUT=... -P embed.cmake
+
+# Base64 of a number of bytes written as hexadecimal digits; 32 bytes, as SHA-256 has them.
+function(base64_of_hash hex out)
+  set(digits "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/")
+  set(text "")
+  foreach(from RANGE 0 60 6)
+    string(SUBSTRING "${hex}0000" ${from} 6 three)
+    math(EXPR bits "0x${three}")
+    foreach(shift 18 12 6 0)
+      math(EXPR digit "(${bits} >> ${shift}) & 63")
+      string(SUBSTRING "${digits}" ${digit} 1 letter)
+      string(APPEND text "${letter}")
+    endforeach()
+  endforeach()
+  # 32 bytes are 10 groups of three and two bytes more: three digits of the last group count.
+  string(SUBSTRING "${text}" 0 43 text)
+  set(${out} "${text}=" PARENT_SCOPE)
+endfunction()
+
+file(READ "${FOLDER}/page.html" page)
+file(READ "${FOLDER}/page.css" style)
+set(script "")
+foreach(part figures axis labels plots tables page)
+  file(READ "${FOLDER}/${part}.js" text)
+  string(APPEND script "${text}")
+endforeach()
+# What a browser takes the hash of: all between the two tags.
+set(script "\n${script}")
+string(SHA256 hash "${script}")
+base64_of_hash("${hash}" hash)
+string(REPLACE "\n/* STYLE */\n" "\n${style}" page "${page}")
+string(REPLACE "\n/* SCRIPT */\n" "${script}" page "${page}")
+string(REPLACE "SCRIPT_HASH" "${hash}" page "${page}")
+
+# The two gaps.
+string(FIND "${page}" " STATED>" stated)
+string(FIND "${page}" "REPORT</script>" report)
+math(EXPR stated_end "${stated} + 7")
+math(EXPR report_end "${report} + 6")
+math(EXPR between "${report} - ${stated_end}")
+string(SUBSTRING "${page}" 0 ${stated} before)
+string(SUBSTRING "${page}" ${stated_end} ${between} middle)
+string(SUBSTRING "${page}" ${report_end} -1 after)
+set(source "#include \"apps/trade/trade_page.h\"\n\nnamespace oro {\n\n")
+foreach(piece before middle after script)
+  string(APPEND source "const char* const trade_page_${piece} = R\"orograph(${${piece}})orograph\";\n")
+endforeach()
+file(WRITE "${OUT}" "${source}\n}  // namespace oro\n")

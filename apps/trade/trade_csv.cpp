@@ -1,0 +1,45 @@
+#include <string_view>
+
+#include "apps/trade/trade_parts.h"
+
+namespace oro {
+namespace {
+
+// Source: RFC 4180, 2.5 to 2.7.
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + "\"";
+}
+
+std::string summary_fields(const ErrorSummary& summary) {
+    std::string fields;
+    for (const double value : {summary.largest, summary.p9999, summary.p99, summary.mean})
+        fields += "," + all_digits(value);
+    return fields + "," + std::to_string(summary.count);
+}
+
+constexpr std::string_view header =
+    "view,setting,gpu_ms,triangles,bytes,"
+    "interior_m_max,interior_m_p9999,interior_m_p99,interior_m_mean,interior_m_count,"
+    "interior_px_max,interior_px_p9999,interior_px_p99,interior_px_mean,interior_px_count,"
+    "skyline_px_max,skyline_px_p9999,skyline_px_p99,skyline_px_mean,skyline_px_count,"
+    "skyline_in_one_only";
+
+}  // namespace
+
+std::string trade_csv(const TradeReport& report) {
+    std::string csv(header);
+    csv += "\r\n";
+    for (const TradeShot& shot : report.shots) {
+        csv += field(shot.view) + "," + field(shot.setting) + "," + all_digits(shot.gpu_ms) + "," +
+               std::to_string(shot.triangles) + "," + std::to_string(shot.bytes);
+        csv += summary_fields(shot.interior_m) + summary_fields(shot.interior_px) +
+               summary_fields(shot.skyline_px);
+        csv += "," + std::to_string(shot.skyline_in_one_only) + "\r\n";
+    }
+    return csv;
+}
+
+}  // namespace oro

@@ -1,0 +1,144 @@
+#include "apps/trade/trade_measurement.h"
+
+#include <algorithm>
+
+#include "apps/drawing/region_scene.h"
+#include "core/base/median.h"
+#include "core/base/parallel.h"
+#include "geo/pictures/png_bytes.h"
+
+namespace oro {
+namespace {
+
+// Effects that no drawing shows.
+Result<void> add_data_effects(const EffectPrediction& prediction, const std::string& view,
+                              TradeReport& report) {
+    // What every second post would hide: predicted from every second post, and as it is.
+    const EffectSize guess = prediction.interpolation(2), known = prediction.interpolation(1);
+    report.effects.push_back({view, facts_of(EffectKind::interpolation).name, guess.worst_m, guess.worst_px,
+                              known.worst_m, known.worst_px, EffectMeasure::thinned});
+    ORO_TRY(const std::optional<EffectSize> source, prediction.size(EffectKind::source, 0.0));
+    if (source)
+        report.effects.push_back({view, facts_of(EffectKind::source).name, source->worst_m, source->worst_px,
+                                  std::nullopt, std::nullopt, EffectMeasure::stated});
+    return {};
+}
+
+Result<void> add_pictures(const Verification& drawn, const TradeCase& one, const std::string& view,
+                          TradeReport& report) {
+    const DepthPicture& picture = drawn.picture;
+    std::vector<std::uint8_t> rgb;
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+        rgb.insert(rgb.end(), {picture.rgba[i], picture.rgba[i + 1], picture.rgba[i + 2]});
+    ORO_TRY(std::vector<std::uint8_t> png, png_bytes(rgb, picture.width_px, picture.height_px));
+    report.pictures.push_back({view + ": " + one.name, one.options, std::move(png)});
+    ORO_TRY(std::vector<std::uint8_t> errors, error_picture_png(drawn, one.tau_px));
+    report.pictures.push_back({view + ": errors of " + one.name,
+                               "how far each pixel's ground is from the true ground", std::move(errors)});
+    return {};
+}
+
+}  // namespace
+
+Result<void> Trade::prepare() {
+    ORO_TRY(truth_, TrueScene::of(view_, region_));
+    ORO_TRY(pages_, region_pages(region_, view_.exaggeration));
+    ORO_TRY(world_, true_world(view_, region_, *pages_));
+    // Whatever air the view asks for: settings are drawn in the usual one, but those that leave it out.
+    world_.refraction_k = usual_refraction_k;
+    return {};
+}
+
+Camera Trade::camera_of(const Camera& camera, const TradeCase& one) const {
+    Camera from = camera;
+    if (!one.has_geoid) from.eye.h_m -= region_.field.undulation.at_m(from.eye.lat_deg, from.eye.lon_deg);
+    return from;
+}
+
+// There are three scenes at a time: as tiles have it, in 16 bits, without a geoid.
+MemoryOptions Trade::share_of_memory() const {
+    constexpr int scenes = 3, least_mb = 16;
+    MemoryOptions share = memory_;
+    if (share.gpu_memory_mb) share.gpu_memory_mb = std::max(least_mb, *share.gpu_memory_mb / scenes);
+    return share;
+}
+
+Result<Scene*> Trade::scene_of(const TradeCase& one) {
+    const std::pair key(one.has_geoid, one.heights);
+    if (const auto found = scenes_.find(key); found != scenes_.end()) return &found->second;
+    if (!one.has_geoid && !without_geoid_) {
+        without_geoid_ = region_;
+        leave_geoid_out(*without_geoid_);
+    }
+    const Region& region = one.has_geoid ? region_ : *without_geoid_;
+    ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(region, view_.exaggeration));
+    ORO_TRY(Scene scene, create_scene(gpu_, std::move(pages), share_of_memory(), one.heights));
+    return &scenes_.emplace(key, std::move(scene)).first->second;
+}
+
+Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const Sight& sight,
+                               Verification& drawn) {
+    ORO_TRY(Scene* const scene, scene_of(one));
+    const Camera from = camera_of(camera, one);
+    DepthPictureOptions drawing;
+    drawing.tau_px = one.tau_px;
+    drawing.model = one.world;
+    ORO_TRY(drawn.picture, painter_.draw(*scene, from, style_, drawing));
+    if (!gpu_.validation_messages().empty())
+        return Error{ErrorKind::failed, "Vulkan validation", gpu_.validation_messages().front()};
+    if (!drawn.picture.settled)
+        return Error{ErrorKind::failed, "--gpu-memory",
+                     "the GPU cannot hold the terrain of a view at full detail"};
+    std::vector<double> times_s{drawn.picture.report.gpu_s()};
+    drawing.skyline = false;
+    for (int i = 1; i < repeats_; ++i) {
+        ORO_TRY(const DepthPicture again, painter_.draw(*scene, from, style_, drawing));
+        times_s.push_back(again.report.gpu_s());
+    }
+    drawn.interior = interior_error(surface(), sight, camera, drawn.picture.centres(), thread_count());
+    drawn.skyline = skyline_error(drawn.true_skyline, camera, drawn.picture.skylines());
+    TradeShot shot;
+    shot.setting = one.name;
+    shot.gpu_ms = 1000.0 * median_of(std::move(times_s));
+    shot.triangles = drawn.picture.report.counts.triangles_drawn;
+    shot.bytes = drawn.picture.page_bytes;
+    shot.interior_m = drawn.interior.summary_m;
+    shot.interior_px = drawn.interior.summary_px;
+    shot.skyline_px = drawn.skyline.summary_px;
+    shot.skyline_in_one_only = drawn.skyline.in_one_only;
+    return shot;
+}
+
+Result<TradeEffect> Trade::predicted(const TradeCase& one, const EffectPrediction& prediction) const {
+    DrawingModel drawing{one.world, one.has_geoid, {}, one.tau_px};
+    if (one.heights == HeightStorage::i16) drawing.coding = world_.sixteen;
+    ORO_TRY(const EffectSize size, prediction.total(drawing));
+    TradeEffect effect;
+    effect.effect = one.effect;
+    effect.predicted_m = size.worst_m;
+    effect.predicted_px = size.worst_px;
+    return effect;
+}
+
+Result<void> Trade::measure(const Camera& camera, const std::string& name, bool pictures,
+                            TradeReport& report) {
+    const Sight sight = sight_from(camera.eye, world_.refraction_k);
+    const EffectPrediction prediction(surface(), *pages_, camera, world_, thread_count());
+    Verification drawn;
+    drawn.true_skyline = true_skyline(surface(), sight, camera, thread_count());
+    for (const TradeCase& one : cases_) {
+        ORO_TRY(TradeShot shot, shoot(one, camera, sight, drawn));
+        shot.view = name;
+        report.shots.push_back(shot);
+        if (pictures && (one.bundle == Bundle::draft || one.bundle == Bundle::balanced))
+            ORO_CHECK(add_pictures(drawn, one, name, report));
+        ORO_TRY(TradeEffect effect, predicted(one, prediction));
+        effect.view = name;
+        effect.measured_m = shot.interior_m.largest;
+        effect.measured_px = shot.interior_px.largest;
+        report.effects.push_back(effect);
+    }
+    return add_data_effects(prediction, name, report);
+}
+
+}  // namespace oro

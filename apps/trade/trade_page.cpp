@@ -1,0 +1,192 @@
+#include "apps/trade/trade_page.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "apps/trade/trade_parts.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+// What is no number is null in JSON by itself.
+ordered_json number(double value) {
+    if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
+    return value;
+}
+ordered_json number(const std::optional<double>& value) {
+    return value ? number(*value) : ordered_json(nullptr);
+}
+ordered_json measured(bool was, double value) {
+    return was ? number(value) : ordered_json(nullptr);
+}
+ordered_json range(const std::optional<RatioRange>& ratio) {
+    if (!ratio) return nullptr;
+    return {number(ratio->least), number(ratio->most)};
+}
+std::optional<RatioRange> as_range(const std::optional<double>& ratio) {
+    if (!ratio) return std::nullopt;
+    return RatioRange{*ratio, *ratio};
+}
+
+template <class Items, class Find>
+std::size_t index_of(const Items& items, const Find& is_it) {
+    return static_cast<std::size_t>(std::find_if(items.begin(), items.end(), is_it) - items.begin());
+}
+
+ordered_json setting_json(const TradeSetting& setting) {
+    const bool ground = setting.interior_pixels > 0;
+    return {{"name", valid_text(setting.name)},
+            {"options", valid_text(setting.options)},
+            {"limit_px", number(setting.limit_px)},
+            {"gpu_ms", number(setting.gpu_ms)},
+            {"triangles", setting.triangles},
+            {"bytes", setting.bytes},
+            {"ground_m", measured(ground, setting.interior_m)},
+            {"ground_px", measured(ground, setting.interior_px)},
+            {"ground_p99_px", measured(ground, setting.interior_p99_px)},
+            {"ground_mean_px", measured(ground, setting.interior_mean_px)},
+            {"skyline_px", measured(setting.skyline_columns > 0, setting.skyline_px)},
+            {"over_limit", ground && setting.limit_px && !(setting.interior_px <= *setting.limit_px)},
+            {"best", setting.on_front}};
+}
+
+ordered_json summary_json(const ErrorSummary& of) {
+    return {{"worst", number(of.largest)},
+            {"p9999", number(of.p9999)},
+            {"p99", number(of.p99)},
+            {"mean", number(of.mean)},
+            {"count", of.count}};
+}
+
+ordered_json shot_json(const TradeReport& report, const std::vector<std::string>& views,
+                       const TradeShot& shot) {
+    const auto view = index_of(views, [&](const std::string& name) { return name == shot.view; });
+    const auto setting =
+        index_of(report.settings, [&](const TradeSetting& one) { return one.name == shot.setting; });
+    return {{"view", view},
+            {"setting", setting},
+            {"gpu_ms", number(shot.gpu_ms)},
+            {"triangles", shot.triangles},
+            {"bytes", shot.bytes},
+            {"ground_m", summary_json(shot.interior_m)},
+            {"ground_px", summary_json(shot.interior_px)},
+            {"skyline_px", summary_json(shot.skyline_px)},
+            {"skyline_in_one_only", shot.skyline_in_one_only}};
+}
+
+ordered_json effect_json(const EffectWorst& effect) {
+    return {{"name", valid_text(effect.effect)},           {"predicted_m", number(effect.predicted_m)},
+            {"measured_m", number(effect.measured_m)},     {"ratio_m", range(effect.ratio_m)},
+            {"predicted_px", number(effect.predicted_px)}, {"measured_px", number(effect.measured_px)},
+            {"ratio_px", range(effect.ratio_px)},          {"over_in", effect.broken_in.size()},
+            {"measured_views", effect.measured_views},     {"remark", remark_on(effect.measured_by)}};
+}
+
+ordered_json effect_json(const TradeEffect& effect) {
+    return {{"view", valid_text(effect.view)},
+            {"name", valid_text(effect.effect)},
+            {"predicted_m", number(effect.predicted_m)},
+            {"measured_m", number(effect.measured_m)},
+            {"ratio_m", range(as_range(bound_ratio(effect.predicted_m, effect.measured_m)))},
+            {"predicted_px", number(effect.predicted_px)},
+            {"measured_px", number(effect.measured_px)},
+            {"ratio_px", range(as_range(bound_ratio(effect.predicted_px, effect.measured_px)))},
+            {"over", bound_broken(effect)},
+            {"remark", remark_on(effect.measured_by)}};
+}
+
+// How many pictures there are of settings with a limit, and how many of them are over it.
+ordered_json limits_json(const TradeReport& report) {
+    std::size_t pictures = 0;
+    std::size_t over = 0;
+    for (const TradeShot& shot : report.shots) {
+        const auto at = std::find_if(report.settings.begin(), report.settings.end(),
+                                     [&](const TradeSetting& one) { return one.name == shot.setting; });
+        if (at == report.settings.end() || !at->limit_px || shot.interior_px.count == 0) continue;
+        ++pictures;
+        if (!(shot.interior_px.largest <= *at->limit_px)) ++over;
+    }
+    return {{"pictures", pictures}, {"over", over}};
+}
+
+ordered_json bounds_json(const TradeReport& report) {
+    std::size_t known = 0;
+    std::size_t over = 0;
+    std::size_t loose = 0;
+    for (const TradeEffect& effect : report.effects) {
+        if (!effect.measured_m && !effect.measured_px) continue;
+        ++known;
+        if (bound_broken(effect)) ++over;
+        if (bound_loose(effect)) ++loose;
+    }
+    return {
+        {"measured", known}, {"over", over}, {"loose", loose}, {"unmeasured", report.effects.size() - known}};
+}
+
+// Source: PNG, 11.2.2: width and height are the 16th to 23rd byte. What is no PNG has no size and no bytes.
+ordered_json picture_json(const TradePicture& picture) {
+    constexpr std::array<std::uint8_t, 8> signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+    const std::vector<std::uint8_t>& png = picture.png;
+    ordered_json json{{"title", valid_text(picture.title)}, {"caption", valid_text(picture.caption)}};
+    const bool is_png = png.size() >= 24 && std::equal(signature.begin(), signature.end(), png.begin());
+    const auto side_px = [&](std::size_t at) {
+        return is_png ? std::uint32_t{png[at]} << 24U | std::uint32_t{png[at + 1]} << 16U |
+                            std::uint32_t{png[at + 2]} << 8U | png[at + 3]
+                      : 0U;
+    };
+    json["size_px"] = {side_px(16), side_px(20)};
+    json["png"] = is_png ? base64(png) : "";
+    return json;
+}
+
+// JSON within HTML: nothing in it may look like a tag.
+std::string json_for_html(const ordered_json& json) {
+    std::string html;
+    for (const char c : json.dump()) html += c == '<' ? std::string("\\u003c") : std::string(1, c);
+    return html;
+}
+
+}  // namespace
+
+ordered_json trade_page_json(const TradeReport& report) {
+    const std::vector<std::string> views = views_of(report);
+    ordered_json json;
+    for (const auto& [name, text] : {std::pair{"region", &report.region},
+                                     {"command", &report.command},
+                                     {"machine", &report.machine},
+                                     {"gpu", &report.gpu},
+                                     {"driver", &report.driver},
+                                     {"pipeline", &report.pipeline},
+                                     {"version", &report.version},
+                                     {"time", &report.time}})
+        json[name] = valid_text(*text);
+    json["size_px"] = {report.width_px, report.height_px};
+    for (const char* list : {"views", "settings", "shots", "effects", "effects_of_views", "pictures"})
+        json[list] = ordered_json::array();
+    for (const std::string& view : views) json["views"].push_back(valid_text(view));
+    for (const TradeSetting& setting : report.settings) json["settings"].push_back(setting_json(setting));
+    for (const TradeShot& shot : report.shots) json["shots"].push_back(shot_json(report, views, shot));
+    for (const EffectWorst& effect : worst_effects(report)) json["effects"].push_back(effect_json(effect));
+    for (const TradeEffect& effect : report.effects) json["effects_of_views"].push_back(effect_json(effect));
+    for (const TradePicture& picture : report.pictures) json["pictures"].push_back(picture_json(picture));
+    json["limits"] = limits_json(report);
+    json["bounds"] = bounds_json(report);
+    json["loose_ratio"] = loose_ratio;
+    return json;
+}
+
+std::string trade_html(const TradeReport& report) {
+    // What the page must hold, said apart from the data that its script draws: a check compares the two.
+    const std::string stated = " data-plots=\"" + std::to_string(trade_page_plots) + "\" data-settings=\"" +
+                               std::to_string(report.settings.size()) + "\" data-shots=\"" +
+                               std::to_string(report.shots.size()) + "\" data-effects=\"" +
+                               std::to_string(worst_effects(report).size()) + "\" data-pictures=\"" +
+                               std::to_string(report.pictures.size()) + "\"";
+    return trade_page_before + stated + trade_page_middle + json_for_html(trade_page_json(report)) +
+           trade_page_after;
+}
+
+}  // namespace oro

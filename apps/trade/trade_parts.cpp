@@ -1,0 +1,134 @@
+#include "apps/trade/trade_parts.h"
+
+#include <utf8.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oro {
+namespace {
+
+// U+0000 to U+001F, U+007F to U+009F.
+bool is_control(std::uint32_t code) {
+    return code < 0x20 || (code >= 0x7F && code < 0xA0);
+}
+
+constexpr std::string_view replacement = "\xEF\xBF\xBD";
+
+void widen(std::optional<RatioRange>& range, const std::optional<double>& ratio) {
+    if (!ratio) return;
+    if (!range) range = RatioRange{*ratio, *ratio};
+    range->least = std::min(range->least, *ratio);
+    range->most = std::max(range->most, *ratio);
+}
+
+void widen(std::optional<double>& worst, const std::optional<double>& value) {
+    if (value) worst = worst ? worse(*worst, *value) : *value;
+}
+
+void add(EffectWorst& worst, const TradeEffect& effect) {
+    worst.predicted_m = worse(worst.predicted_m, effect.predicted_m);
+    worst.predicted_px = worse(worst.predicted_px, effect.predicted_px);
+    widen(worst.measured_m, effect.measured_m);
+    widen(worst.measured_px, effect.measured_px);
+    widen(worst.ratio_m, bound_ratio(effect.predicted_m, effect.measured_m));
+    widen(worst.ratio_px, bound_ratio(effect.predicted_px, effect.measured_px));
+    worst.measured_by = effect.measured_by;
+    if (bound_broken(effect)) worst.broken_in.push_back(effect.view);
+    ++worst.views;
+    if (effect.measured_m || effect.measured_px) ++worst.measured_views;
+}
+
+}  // namespace
+
+double megabytes(std::uint64_t bytes) {
+    return static_cast<double>(bytes) / 1e6;
+}
+
+std::string valid_text(std::string_view text) {
+    std::string valid;
+    while (!text.empty()) {
+        const auto end = utf8::find_invalid(text.begin(), text.end());
+        for (auto at = text.begin(); at != end;) {
+            const auto from = at;
+            if (is_control(utf8::unchecked::next(at)))
+                valid += replacement;
+            else
+                valid.append(from, at);
+        }
+        if (end == text.end()) break;
+        valid += replacement;
+        text.remove_prefix(static_cast<std::size_t>(end - text.begin()) + 1);
+    }
+    return valid;
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k) three = three << 8U | (k < count ? bytes[i + k] : 0U);
+        for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[three >> (18U - 6U * k) & 63U] : '=';
+    }
+    return text;
+}
+
+double worse(double a, double b) {
+    if (std::isnan(a)) return a;
+    return a > b ? a : b;
+}
+
+bool bound_broken(const TradeEffect& effect) {
+    // Not "measured > predicted": a bound that is no number holds nothing.
+    return (effect.measured_m && !(*effect.measured_m <= effect.predicted_m)) ||
+           (effect.measured_px && !(*effect.measured_px <= effect.predicted_px));
+}
+
+bool bound_loose(const TradeEffect& effect) {
+    const std::optional<double> ratio = bound_ratio(effect.predicted_px, effect.measured_px);
+    return effect.predicted_px > negligible_px && ratio && *ratio > loose_ratio;
+}
+
+const char* remark_on(EffectMeasure measured_by) {
+    switch (measured_by) {
+        case EffectMeasure::picture:
+        case EffectMeasure::full_detail:
+            return "";
+        case EffectMeasure::thinned:
+            return "tried on every second post";
+        case EffectMeasure::stated:
+            return "stated by the source, not measured here";
+    }
+    return "";
+}
+
+std::optional<double> bound_ratio(double predicted, const std::optional<double>& measured) {
+    if (!measured || !(*measured > 0.0)) return std::nullopt;
+    return predicted / *measured;
+}
+
+std::vector<EffectWorst> worst_effects(const TradeReport& report) {
+    std::vector<EffectWorst> effects;
+    for (const TradeEffect& effect : report.effects) {
+        auto at = std::find_if(effects.begin(), effects.end(),
+                               [&](const EffectWorst& worst) { return worst.effect == effect.effect; });
+        if (at == effects.end()) {
+            at = effects.emplace(effects.end());
+            at->effect = effect.effect;
+        }
+        add(*at, effect);
+    }
+    return effects;
+}
+
+std::vector<std::string> views_of(const TradeReport& report) {
+    std::vector<std::string> views;
+    for (const TradeShot& shot : report.shots)
+        if (std::find(views.begin(), views.end(), shot.view) == views.end()) views.push_back(shot.view);
+    return views;
+}
+
+}  // namespace oro

@@ -1,0 +1,30 @@
+// The settings that a trade draws each view with.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/accuracy/accuracy.h"
+#include "apps/view/view.h"
+#include "core/truth/effects.h"
+
+namespace oro {
+
+struct TradeCase {
+    std::string name;
+    std::string options;  // what a user would type; empty for what only measurements ask for
+    double tau_px{0.0};
+    WorldModel world;
+    bool has_geoid{true};
+    HeightStorage heights{HeightStorage::f32};
+    std::optional<double> limit_px{};  // interior error that it must not exceed
+    std::optional<Bundle> bundle{};    // that this is
+    std::string effect{};              // that this measures
+};
+
+// Full detail first, then levels, then one thing left out or rounded at a time, then bundles. All but those
+// that leave it out have the usual refraction.
+std::vector<TradeCase> trade_cases();
+
+}  // namespace oro

@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "apps/trade/trade_parts.h"
+#include "core/base/median.h"
+
+namespace oro {
+namespace {
+
+TradeSetting sum_of(const std::vector<TradeShot>& shots, const std::string& name) {
+    TradeSetting sum;
+    sum.name = name;
+    std::vector<double> times_ms;
+    double means_px = 0.0;
+    int measured = 0;
+    for (const TradeShot& shot : shots) {
+        if (shot.setting != name) continue;
+        times_ms.push_back(shot.gpu_ms);
+        sum.triangles += shot.triangles;
+        sum.bytes += shot.bytes;
+        sum.interior_pixels += shot.interior_px.count;
+        sum.skyline_columns += shot.skyline_px.count;
+        sum.interior_m = worse(sum.interior_m, shot.interior_m.largest);
+        sum.interior_px = worse(sum.interior_px, shot.interior_px.largest);
+        sum.interior_p99_px = worse(sum.interior_p99_px, shot.interior_px.p99);
+        sum.skyline_px = worse(sum.skyline_px, shot.skyline_px.largest);
+        if (shot.interior_px.count == 0) continue;
+        means_px += shot.interior_px.mean;
+        ++measured;
+    }
+    sum.gpu_ms = median_of(std::move(times_ms));
+    if (measured > 0) sum.interior_mean_px = means_px / measured;
+    return sum;
+}
+
+bool can_compare(const TradeSetting& setting) {
+    return setting.interior_pixels > 0 && std::isfinite(setting.gpu_ms) && std::isfinite(setting.interior_px);
+}
+
+bool better(const TradeSetting& a, const TradeSetting& b) {
+    return a.gpu_ms <= b.gpu_ms && a.interior_px <= b.interior_px &&
+           (a.gpu_ms < b.gpu_ms || a.interior_px < b.interior_px);
+}
+
+}  // namespace
+
+void sum_up(TradeReport& report) {
+    const std::vector<TradeSetting> known = std::move(report.settings);
+    const auto named = [](const std::vector<TradeSetting>& settings, const std::string& name) {
+        return std::find_if(settings.begin(), settings.end(),
+                            [&](const TradeSetting& setting) { return setting.name == name; });
+    };
+    report.settings.clear();
+    for (const TradeShot& shot : report.shots) {
+        if (named(report.settings, shot.setting) != report.settings.end()) continue;
+        TradeSetting sum = sum_of(report.shots, shot.setting);
+        if (const auto at = named(known, shot.setting); at != known.end()) {
+            sum.options = at->options;
+            sum.limit_px = at->limit_px;
+        }
+        report.settings.push_back(std::move(sum));
+    }
+    for (TradeSetting& setting : report.settings)
+        setting.on_front =
+            can_compare(setting) &&
+            std::none_of(report.settings.begin(), report.settings.end(), [&](const TradeSetting& other) {
+                return can_compare(other) && better(other, setting);
+            });
+}
+
+}  // namespace oro

@@ -1,0 +1,199 @@
+#include <algorithm>
+
+#include "apps/trade/trade_parts.h"
+
+namespace oro {
+namespace {
+
+constexpr std::size_t terminal_columns = 120;
+constexpr std::size_t least_last_column = 16;
+constexpr std::size_t most_name_columns = 32;
+
+// Characters, not bytes; combining and double-width ones count as one.
+std::size_t width_of(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+// At most `columns` characters, the last of them "~" where something is left out.
+std::string cut(const std::string& text, std::size_t columns) {
+    if (width_of(text) <= columns) return text;
+    std::string kept;
+    for (std::size_t i = 0, width = 0; i < text.size(); ++i) {
+        if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U && ++width == columns) break;
+        kept += text[i];
+    }
+    return kept + "~";
+}
+
+// Lines of at most `columns` characters, broken at spaces; a longer word has a line of its own.
+std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
+    std::vector<std::string> lines(1);
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t to = std::min(text.find(' ', from), text.size());
+        const std::string word = text.substr(from, to - from);
+        if (!lines.back().empty() && width_of(lines.back()) + 1 + width_of(word) > columns)
+            lines.emplace_back();
+        if (!word.empty()) lines.back() += (lines.back().empty() ? "" : " ") + word;
+        from = to + 1;
+    }
+    return lines;
+}
+
+// Characters before a number's point, and from there on.
+struct Halves {
+    std::size_t before{}, after{};
+};
+Halves halves_of(const std::string& number) {
+    const std::size_t width = width_of(number), before = std::min(number.find('.'), width);
+    return {before, width - before};
+}
+
+// A table whose first column is a name, the next are numbers, below each other by their points, and the last,
+// if `text_last`, is text that may take several lines.
+class Table {
+  public:
+    Table(std::vector<std::vector<std::string>> headers, bool text_last)
+        : rows_(std::move(headers)), headers_(rows_.size()), text_last_(text_last) {}
+    void add(std::vector<std::string> row) {
+        row[0] = cut(row[0], most_name_columns);
+        rows_.push_back(std::move(row));
+    }
+    [[nodiscard]] std::string text() const {
+        const std::vector<Halves> columns = columns_of();
+        const std::size_t before = width_before_last(columns);
+        const std::size_t room = terminal_columns - std::min(before, terminal_columns);
+        std::string text;
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            text += line(rows_[i], i < headers_, columns, std::max(room, least_last_column));
+            if (i + 1 == headers_) text += std::string(std::min(rule(columns), terminal_columns), '-') + "\n";
+        }
+        return text;
+    }
+
+  private:
+    [[nodiscard]] std::vector<Halves> columns_of() const {
+        std::vector<Halves> columns(rows_[0].size());
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                const Halves halves = is_number(r < headers_, i) ? halves_of(rows_[r][i]) : Halves{};
+                columns[i].before = std::max(columns[i].before, halves.before);
+                columns[i].after = std::max(columns[i].after, halves.after);
+            }
+        }
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                const std::size_t width = width_of(rows_[r][i]);
+                if (!is_number(r < headers_, i) && width > columns[i].before + columns[i].after)
+                    columns[i].before = width - columns[i].after;
+            }
+        }
+        return columns;
+    }
+    [[nodiscard]] bool is_number(bool header, std::size_t column) const {
+        return !header && column > 0 && !(text_last_ && column + 1 == rows_[0].size());
+    }
+    [[nodiscard]] static std::size_t width_before_last(const std::vector<Halves>& columns) {
+        std::size_t before = 0;
+        for (std::size_t i = 0; i + 1 < columns.size(); ++i)
+            before += columns[i].before + columns[i].after + 2;
+        return before;
+    }
+    static std::size_t rule(const std::vector<Halves>& columns) {
+        return width_before_last(columns) + columns.back().before + columns.back().after;
+    }
+    [[nodiscard]] std::string cell_text(const std::string& cell, bool header, std::size_t column,
+                                        const Halves& width) const {
+        const std::size_t all = width.before + width.after;
+        if (column == 0) return cell + std::string(all - width_of(cell), ' ');
+        if (!is_number(header, column)) return std::string(all - width_of(cell), ' ') + cell;
+        const Halves halves = halves_of(cell);
+        return std::string(width.before - halves.before, ' ') + cell +
+               std::string(width.after - halves.after, ' ');
+    }
+    [[nodiscard]] std::string line(const std::vector<std::string>& row, bool header,
+                                   const std::vector<Halves>& columns, std::size_t room) const {
+        std::string text;
+        const std::size_t numbers = text_last_ ? row.size() - 1 : row.size();
+        for (std::size_t i = 0; i < numbers; ++i)
+            text += (i > 0 ? "  " : "") + cell_text(row[i], header, i, columns[i]);
+        if (text_last_) {
+            const std::vector<std::string> lines = wrapped(row.back(), room);
+            text += "  " + lines[0];
+            for (std::size_t i = 1; i < lines.size(); ++i)
+                text += "\n" + std::string(width_before_last(columns), ' ') + lines[i];
+        }
+        text.erase(text.find_last_not_of(' ') + 1);
+        return text + "\n";
+    }
+
+    std::vector<std::vector<std::string>> rows_;
+    std::size_t headers_;
+    bool text_last_;
+};
+
+std::string settings_text(const TradeReport& report) {
+    Table table(
+        {{"  setting", "time", "triangles", "terrain", "ground", "", "", "", "limit", "skyline"},
+         {"", "median ms", "all views", "MB", "worst m", "worst px", "99 % px", "mean px", "px", "worst px"}},
+        false);
+    for (const TradeSetting& setting : report.settings) {
+        const bool measured = setting.interior_pixels > 0;
+        const auto ground = [&](double value) { return measured ? figure(value) : std::string("n/a"); };
+        table.add({(setting.on_front ? "* " : "  ") + valid_text(setting.name), figure(setting.gpu_ms),
+                   grouped(setting.triangles), figure(megabytes(setting.bytes)), ground(setting.interior_m),
+                   ground(setting.interior_px), ground(setting.interior_p99_px),
+                   ground(setting.interior_mean_px), setting.limit_px ? figure(*setting.limit_px) : "",
+                   setting.skyline_columns > 0 ? figure(setting.skyline_px) : "n/a"});
+    }
+    return table.text() +
+           "* unbeaten: no other setting is both as fast and as close (worst px), and better in one of the "
+           "two\n"
+           "ground: how far each drawn point is from the true ground, in height (m) and on the picture (px)\n"
+           "99 %: so many of the points are off by no more\n"
+           "skyline: how far the drawn skyline is from the true one\n"
+           "limit: by how much --tau lets ground be off, and 0.05 px for what drawing rounds off\n"
+           "terrain: what the GPU read of it\n";
+}
+
+std::string ratio_text(const std::optional<RatioRange>& ratio) {
+    if (!ratio) return "";
+    const std::string least = figure(ratio->least);
+    const std::string most = figure(ratio->most);
+    return least == most ? least : least + "-" + most;
+}
+
+std::string remark_of(const EffectWorst& effect) {
+    const std::string how = remark_on(effect.measured_by);
+    if (effect.broken_in.empty()) return how;
+    return "MORE THAN PREDICTED in " + std::to_string(effect.broken_in.size()) + " of " +
+           std::to_string(effect.measured_views) + " views" + (how.empty() ? "" : "; ") + how;
+}
+
+std::string effects_text(const TradeReport& report) {
+    Table table({{"effect", "predicted", "measured", "ratio", "predicted", "measured", "ratio", "remark"},
+                 {"(worst of the views)", "m", "m", "", "px", "px", "", ""}},
+                true);
+    for (const EffectWorst& effect : worst_effects(report))
+        table.add({valid_text(effect.effect), figure(effect.predicted_m), figure(effect.measured_m),
+                   ratio_text(effect.ratio_m), figure(effect.predicted_px), figure(effect.measured_px),
+                   ratio_text(effect.ratio_px), remark_of(effect)});
+    return table.text() +
+           "predicted: a bound, worked out before anything is drawn; orograph plan tells it for one view\n"
+           "ratio: predicted / measured, least and most of the views; below 1 a bound does not hold\n";
+}
+
+}  // namespace
+
+std::string trade_text(const TradeReport& report) {
+    std::string text = "What each setting costs, and how close it is, over " +
+                       std::to_string(views_of(report).size()) +
+                       (views_of(report).size() == 1 ? " view of " : " views of ") +
+                       std::to_string(report.width_px) + " x " + std::to_string(report.height_px) + " px\n\n";
+    text += report.settings.empty() ? "none\n" : settings_text(report);
+    text += "\nWhat each part of the model does that is left out, or rounded\n\n";
+    text += report.effects.empty() ? "none\n" : effects_text(report);
+    return text;
+}
+
+}  // namespace oro

@@ -1,0 +1,62 @@
+#include "apps/view/model_names.h"
+
+#include <array>
+#include <utility>
+
+namespace oro {
+namespace {
+
+template <class Choice, std::size_t count>
+using Names = std::array<std::pair<const char*, Choice>, count>;
+
+constexpr Names<Earth, 3> earths{
+    {{"ellipsoid", Earth::ellipsoid}, {"sphere", Earth::sphere}, {"flat", Earth::flat}}};
+// The third is for measuring alone.
+constexpr Names<Precision, 3> precisions{
+    {{"relative", Precision::relative}, {"naive", Precision::naive}, {"", Precision::rounded_posts}}};
+constexpr Names<bool, 2> geoids{{{"egm96", true}, {"none", false}}};
+constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16", HeightStorage::i16}}};
+
+template <class Choice, std::size_t count>
+Result<Choice> named(const char* option, const Names<Choice, count>& names, const std::string& name) {
+    std::string all;
+    for (const auto& [known, choice] : names) {
+        if (*known == '\0') continue;
+        if (name == known) return choice;
+        all += (all.empty() ? "" : ", ") + std::string(known);
+    }
+    return Error{ErrorKind::usage, option, "is '" + name + "', none of " + all};
+}
+
+template <class Choice, std::size_t count>
+const char* name_in(const Names<Choice, count>& names, Choice choice) {
+    for (const auto& [known, its] : names) {
+        if (its == choice) return known;
+    }
+    return "";
+}
+
+}  // namespace
+
+Result<Earth> earth_named(const std::string& name) {
+    return named("--earth", earths, name);
+}
+Result<Precision> precision_named(const std::string& name) {
+    return named("--precision", precisions, name);
+}
+Result<bool> geoid_named(const std::string& name) {
+    return named("--geoid", geoids, name);
+}
+Result<HeightStorage> heights_named(const std::string& name) {
+    return named("--heights", storages, name);
+}
+
+nlohmann::ordered_json models_json(const View& view) {
+    return {{"earth", name_in(earths, view.model.earth)},
+            {"geoid", name_in(geoids, view.has_geoid)},
+            {"refraction", view.model.refraction_k},
+            {"precision", name_in(precisions, view.model.precision)},
+            {"heights", name_in(storages, view.heights)}};
+}
+
+}  // namespace oro

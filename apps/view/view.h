@@ -1,0 +1,83 @@
+// A view: all that decides a picture, complete and resolved. Written into every picture and read back.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/commands/options.h"
+#include "core/earth/camera.h"
+#include "core/earth/world_model.h"
+#include "core/terrain/height_quantization.h"
+#include "core/terrain/page.h"
+#include "geo/region/region.h"
+
+namespace oro {
+
+struct SunDirection {
+    double azimuth_deg;    // clockwise from true north
+    double elevation_deg;  // above the horizon, [-90, 90]; below 0 the ground has ambient light alone
+};
+
+struct View {
+    RegionRequest region;
+    Camera camera;  // the eye's h is above the ellipsoid
+    double exaggeration{1.0};
+    int samples{1};
+    std::optional<SunDirection> sun;  // nothing: the style's
+    std::string style{"default"};
+    std::string pipeline{"auto"};  // or "mesh", "compute": written views name the one that drew them
+    double tau_px{1.0};            // largest error of what is drawn; 0: full resolution
+    WorldModel model;
+    bool has_geoid{true};  // false: N is 0 everywhere, heights are above the ellipsoid
+    HeightStorage heights{HeightStorage::f32};
+    std::string accuracy;  // the bundle that these come from; empty when they were chosen one by one
+    std::int64_t time_utc_s{};
+    bool tells_paths{true};           // false: its picture names neither sources nor the folder of a style
+    bool paths_from_own_file{false};  // relative paths start from the file that the view is in
+};
+
+// What to read, from the options. Usage errors: no path, a malformed box or tile.
+Result<RegionRequest> region_request(const RegionOptions& options);
+
+// Everything of a view that needs no terrain, checked: sizes, ranges, times. The camera has no eye yet.
+Result<View> view_without_eye(const ViewOptions& options, RegionRequest region);
+
+// Puts the eye of a view where the options say: at a place over the ground or above sea level, or so that the
+// whole region is in the picture. Errors: no data under an eye that is placed over the ground (no_data); an
+// eye beyond view_limits (usage).
+Result<void> place_eye(View& view, const ViewOptions& options, const Region& region);
+
+// Nothing of a region is in a view: an error where the eye is not over the region's box (a view of another
+// place: no_data), a note for eyes over it, which may look into the sky. `view_file` is where the view comes
+// from, if from one.
+Result<std::string> nothing_in_view(const View& view, const Region& region, const std::string& view_file);
+
+// Changes a view read from a file as far as options other than the eye's are given; those of the eye are
+// usage errors.
+Result<void> change_view(View& view, const ViewOptions& options);
+// The same for its region: other paths to the same data may be given, all else is a usage error.
+Result<void> change_region(View& view, const RegionOptions& options);
+
+// A view as JSON text, every double with all its digits; on one line unless `pretty`.
+std::string view_to_json(const View& view, bool pretty);
+// Errors name what is missing or wrong, and `where` it was read from.
+Result<View> view_from_json(const std::string& text, const std::string& where);
+// From a .json file, or from a picture that carries its view; its paths then lead from the working folder.
+Result<View> read_view(const std::string& path);
+// That the view, written, is read back as it is. Errors: what the reader would say of it. To be asked before
+// a picture is drawn that nobody could open again.
+Result<void> check_view_opens(const View& view, const std::string& where);
+
+// Takes N out of a region: heights are then above the ellipsoid, for the eye's place as for the terrain's.
+void leave_geoid_out(Region& region);
+
+// The view that a command's options ask for, and the region it looks at: from `view_file` where one is named,
+// changed as far as the options may, else from the options alone. Errors: all of the above and those of
+// open_region.
+Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
+                       const RegionOptions& region_options, const Progress& progress, View& view,
+                       Region& region);
+
+}  // namespace oro

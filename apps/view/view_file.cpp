@@ -1,0 +1,245 @@
+// Views as JSON, and back.
+#include <charconv>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "apps/accuracy/accuracy.h"
+#include "apps/report/json_fields.h"
+#include "apps/report/json_text.h"
+#include "apps/view/model_names.h"
+#include "apps/view/view.h"
+#include "apps/view/view_limits.h"
+#include "apps/view/view_paths.h"
+#include "geo/files/letter_case.h"
+#include "geo/pictures/picture.h"
+#include "geo/sources/raster_source.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+namespace limits = view_limits;
+
+constexpr int view_format = 1;
+constexpr const char* own_file = "this file";
+
+Error not_a_view(const std::string& where, const std::string& reason) {
+    return {ErrorKind::failed, where, "holds no view that can be read: " + reason};
+}
+
+double number(const nlohmann::json& json, const char* name, const Limits& limits) {
+    return json_number(json, name, limits.low, limits.high);
+}
+
+std::int64_t whole(const nlohmann::json& json, const char* name, const Limits& limits) {
+    return json_whole(json, name, static_cast<std::int64_t>(limits.low),
+                      static_cast<std::int64_t>(limits.high));
+}
+
+BoundingBox read_box(const nlohmann::json& json) {
+    const nlohmann::json& corners = json_array(json, "bbox", 4);
+    const auto angle = [&](std::size_t i, double limit) {
+        return json_number({{"bbox", corners[i]}}, "bbox", -limit, limit);
+    };
+    const BoundingBox box{angle(0, 180), angle(1, 90), angle(2, 180), angle(3, 90)};
+    if (!(box.south_deg < box.north_deg) || box.west_deg == box.east_deg) throw JsonFault{"'bbox' is empty"};
+    return box;
+}
+
+// Of a named choice; views of before there was it have none, and keep what `value` is.
+template <class Choice, class Named>
+void read_choice(const nlohmann::json& json, const char* name, Named named, Choice& value) {
+    if (!json.contains(name)) return;
+    Result<Choice> found = named(json_string(json, name));
+    if (!found.ok()) throw JsonFault{"'" + std::string(name) + "' " + found.error().what};
+    value = *found;
+}
+
+void read_models(const nlohmann::json& json, View& view) {
+    read_choice(json, "earth", earth_named, view.model.earth);
+    read_choice(json, "precision", precision_named, view.model.precision);
+    read_choice(json, "geoid", geoid_named, view.has_geoid);
+    read_choice(json, "heights", heights_named, view.heights);
+    if (json.contains("refraction"))
+        view.model.refraction_k = number(json, "refraction", limits::refraction_k);
+}
+
+// File names are bytes. Those that are no text, or none that XML may hold, are written as {"hex":
+// "ff2e686774"}.
+nlohmann::ordered_json path_json(const std::string& path) {
+    bool is_text =
+        path.find("\xEF\xBF\xBE") == std::string::npos && path.find("\xEF\xBF\xBF") == std::string::npos;
+    try {
+        (void)nlohmann::json(path).dump();
+    } catch (const nlohmann::json::exception&) {
+        is_text = false;
+    }
+    if (is_text) return path;
+    constexpr const char* digits = "0123456789abcdef";
+    std::string hex;
+    for (const char c : path) {
+        hex += digits[static_cast<unsigned char>(c) >> 4U];
+        hex += digits[static_cast<unsigned char>(c) & 15U];
+    }
+    return {{"hex", hex}};
+}
+
+std::string path_from(const nlohmann::json& json, const char* name) {
+    if (!json_field(json, name).is_object()) return json_string(json, name);
+    const std::string hex = json_string(json_field(json, name), "hex");
+    std::string path;
+    for (std::size_t at = 0; at + 1 < hex.size(); at += 2) {
+        unsigned byte = 0;
+        const auto [end, error] = std::from_chars(&hex[at], &hex[at] + 2, byte, 16);
+        if (error != std::errc() || end != &hex[at] + 2 || byte == 0) break;
+        path += static_cast<char>(static_cast<unsigned char>(byte));
+    }
+    if (path.empty() || path.size() * 2 != hex.size())
+        throw JsonFault{"'" + std::string(name) + "' is no path in hexadecimal digits"};
+    return path;
+}
+
+void read_sources(const nlohmann::json& json, View& view) {
+    const nlohmann::json& sources = json_field(json, "sources");
+    if (!sources.is_array())
+        throw JsonFault{"'sources' must be a list, and is " + std::string(sources.type_name())};
+    for (const nlohmann::json& source : sources)
+        view.region.paths.push_back(path_from({{"sources", source}}, "sources"));
+    view.tells_paths = !view.region.paths.empty();
+    // Views of before pictures told where paths start have them from the working folder.
+    if (!json.contains("paths_from")) return;
+    if (json_string(json, "paths_from") != own_file)
+        throw JsonFault{"'paths_from' is not '" + std::string(own_file) + "'"};
+    view.paths_from_own_file = true;
+}
+
+void read_camera(const nlohmann::json& json, Camera& camera) {
+    const auto& eye = json_field(json, "eye");
+    camera.eye = {number(eye, "lat_deg", limits::lat_deg), number(eye, "lon_deg", limits::lon_deg),
+                  number(eye, "h_m", limits::eye_h_m)};
+    camera.attitude = {number(json, "heading_deg", limits::heading_deg),
+                       number(json, "pitch_deg", limits::pitch_deg),
+                       number(json, "roll_deg", limits::roll_deg)};
+    camera.vertical_fov_deg = number(json, "fov_deg", limits::fov_deg);
+    const nlohmann::json& size = json_array(json, "size_px", 2);
+    camera.width_px = static_cast<int>(whole({{"size_px", size[0]}}, "size_px", limits::side_px));
+    camera.height_px = static_cast<int>(whole({{"size_px", size[1]}}, "size_px", limits::side_px));
+}
+
+// What the parser of options would have refused must not come in by a file.
+View read_fields(const nlohmann::json& json) {
+    View view;
+    read_sources(json, view);
+    if (!json_field(json, "bbox").is_null()) view.region.box = read_box(json);
+    view.region.height_unit = json_string(json, "height_unit");
+    if (!view.region.height_unit.empty() && !metres_in(view.region.height_unit))
+        throw JsonFault{"'height_unit' is '" + view.region.height_unit + "', none of m, ft, us-ft, cm"};
+    view.region.fill_voids = json_flag(json, "fill_voids");
+    view.region.strict_datum = json_flag(json, "strict_datum");
+    read_camera(json, view.camera);
+    view.samples = static_cast<int>(whole(json, "samples", limits::samples));
+    view.exaggeration = number(json, "exaggeration", limits::exaggeration);
+    if (const auto& sun = json_field(json, "sun"); !sun.is_null())
+        view.sun = SunDirection{number(sun, "azimuth_deg", limits::sun_azimuth_deg),
+                                number(sun, "elevation_deg", limits::sun_elevation_deg)};
+    view.style = path_from(json, "style");
+    // Views of before there was a choice have none.
+    if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
+    if (view.pipeline != "auto" && view.pipeline != "mesh" && view.pipeline != "compute")
+        throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of auto, mesh, compute"};
+    // Nor have they a tau: they were drawn at full resolution.
+    view.tau_px = json.contains("tau_px") ? number(json, "tau_px", limits::tau_px) : 0.0;
+    read_models(json, view);
+    // The bundle's name alone: what it stood for is in the fields themselves, which somebody may have
+    // changed.
+    if (json.contains("accuracy")) view.accuracy = json_string(json, "accuracy");
+    if (!view.accuracy.empty() && !accuracy_bundle(view.accuracy).ok())
+        throw JsonFault{"'accuracy' is '" + view.accuracy + "', none of draft, balanced, survey"};
+    forget_other_bundle(view);
+    view.time_utc_s = whole(json, "time_utc_s", limits::time_utc_s);
+    return view;
+}
+
+}  // namespace
+
+std::string time_text(std::int64_t time_utc_s) {
+    const std::time_t time = time_utc_s;
+    std::tm parts{};
+    gmtime_r(&time, &parts);
+    char text[40];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+std::string view_to_json(const View& view, bool pretty) {
+    ordered_json json;
+    json["orograph_view"] = view_format;
+    if (view.paths_from_own_file) json["paths_from"] = own_file;
+    json["sources"] = ordered_json::array();
+    for (const std::string& path : view.region.paths) json["sources"].push_back(path_json(path));
+    json["bbox"] = nullptr;
+    if (const auto& box = view.region.box)
+        json["bbox"] = {box->west_deg, box->south_deg, box->east_deg, box->north_deg};
+    json["height_unit"] = view.region.height_unit;
+    json["fill_voids"] = view.region.fill_voids;
+    json["strict_datum"] = view.region.strict_datum;
+    const Camera& camera = view.camera;
+    json["eye"] = {{"lat_deg", camera.eye.lat_deg}, {"lon_deg", camera.eye.lon_deg}, {"h_m", camera.eye.h_m}};
+    json["heading_deg"] = camera.attitude.heading_deg;
+    json["pitch_deg"] = camera.attitude.pitch_deg;
+    json["roll_deg"] = camera.attitude.roll_deg;
+    json["fov_deg"] = camera.vertical_fov_deg;
+    json["size_px"] = {camera.width_px, camera.height_px};
+    json["samples"] = view.samples;
+    json["exaggeration"] = view.exaggeration;
+    json["sun"] = nullptr;
+    if (view.sun)
+        json["sun"] = {{"azimuth_deg", view.sun->azimuth_deg}, {"elevation_deg", view.sun->elevation_deg}};
+    json["style"] = path_json(view.style);
+    json["pipeline"] = view.pipeline;
+    json["tau_px"] = view.tau_px;
+    json["accuracy"] = view.accuracy;
+    json.update(models_json(view));
+    json["time_utc_s"] = view.time_utc_s;
+    json["time"] = time_text(view.time_utc_s);
+    return json_text(json, pretty);
+}
+
+Result<View> view_from_json(const std::string& text, const std::string& where) {
+    try {
+        const nlohmann::json json = parsed_json(text);
+        if (!json.is_object() || !json.contains("orograph_view"))
+            return not_a_view(where, "no orograph_view in it");
+        if (json["orograph_view"] != view_format)
+            return not_a_view(where, "its format is " + json["orograph_view"].dump() +
+                                         ", this program reads " + std::to_string(view_format));
+        return read_fields(json);
+    } catch (const JsonFault& fault) {
+        return not_a_view(where, fault.what);
+    } catch (const nlohmann::json::exception& e) {
+        return not_a_view(where, e.what());
+    }
+}
+
+Result<View> read_view(const std::string& path) {
+    const std::size_t dot = path.find_last_of('.');
+    const std::string ending = dot == std::string::npos ? "" : lower_case(path.substr(dot));
+    ORO_TRY(const std::string text, ending == ".json" ? read_text_file(path) : read_view_json(path));
+    ORO_TRY(View view, view_from_json(text, path));
+    lead_from_working_folder(view, path);
+    return view;
+}
+
+Result<void> check_view_opens(const View& view, const std::string& where) {
+    const std::string text = view_to_json(view, false);
+    const Result<View> again = view_from_json(text, where);
+    if (!again.ok())
+        return Error{ErrorKind::failed, where,
+                     "would carry a view that cannot be opened again: " + again.error().what};
+    if (view_to_json(*again, false) != text)
+        return Error{ErrorKind::failed, where, "would carry a view that is another when it is opened again"};
+    return {};
+}
+
+}  // namespace oro

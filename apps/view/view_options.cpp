@@ -1,0 +1,218 @@
+// From options to a view: numbers checked, the clock asked, nothing opened.
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+
+#include "apps/accuracy/accuracy.h"
+#include "apps/report/json_text.h"
+#include "apps/view/model_names.h"
+#include "apps/view/view.h"
+#include "apps/view/view_limits.h"
+
+namespace oro {
+namespace {
+
+Error usage(const std::string& option, const std::string& what) {
+    return {ErrorKind::usage, option, what};
+}
+
+template <class Number>
+bool read_whole(std::string_view text, Number& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+Result<void> set_size(const std::string& text, Camera& camera) {
+    const std::size_t cross = text.find_first_of("xX");
+    long long width = 0, height = 0;
+    if (cross == std::string::npos || !read_whole(std::string_view(text).substr(0, cross), width) ||
+        !read_whole(std::string_view(text).substr(cross + 1), height))
+        return usage("--size", "'" + text + "' is not WIDTHxHEIGHT in pixels, e.g. 1920x1080");
+    constexpr Limits side_px = view_limits::side_px;
+    if (!side_px.hold(static_cast<double>(width)) || !side_px.hold(static_cast<double>(height)))
+        return usage("--size", "'" + text + "': each side must be 1 to " +
+                                   std::to_string(static_cast<int>(side_px.high)) + " pixels");
+    camera.width_px = static_cast<int>(width);
+    camera.height_px = static_cast<int>(height);
+    return {};
+}
+
+Result<SunDirection> parse_sun(const std::string& text) {
+    SunDirection sun{};
+    const std::size_t comma = text.find(',');
+    const std::string_view all(text);
+    if (comma == std::string::npos || !read_whole(all.substr(0, comma), sun.azimuth_deg) ||
+        !read_whole(all.substr(comma + 1), sun.elevation_deg) ||
+        !view_limits::sun_azimuth_deg.hold(sun.azimuth_deg) ||
+        !view_limits::sun_elevation_deg.hold(sun.elevation_deg))
+        return usage("--sun", "'" + text +
+                                  "' is not azimuth,elevation in degrees, e.g. 315,45 (elevation -90 to 90, "
+                                  "azimuth within 1e9)");
+    return sun;
+}
+
+// Of a picture without --time.
+Result<std::int64_t> picture_time_s() {
+    const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
+    std::int64_t fixed = 0;
+    if (epoch && (!read_whole(std::string_view(epoch), fixed) ||
+                  !view_limits::time_utc_s.hold(static_cast<double>(fixed))))
+        return usage("SOURCE_DATE_EPOCH",
+                     "'" + std::string(epoch) + "' is no number of seconds within the years 0 to 9999");
+    return time_now_s();
+}
+
+Result<std::int64_t> parse_time(const std::string& text) {
+    std::tm parts{};
+    const char* const end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+    if (!end || *end != '\0')
+        return usage("--time", "'" + text + "' is not a UTC time like 2026-11-21T09:00:00Z");
+    // timegm carries what is too much: the 30th of February would be the 2nd of March.
+    const auto time_utc_s = static_cast<std::int64_t>(timegm(&parts));
+    if (time_text(time_utc_s) != text)
+        return usage("--time", "'" + text + "' is no time of the calendar written like 2026-11-21T09:00:00Z");
+    return time_utc_s;
+}
+
+Result<double> within(const char* option, double value, const Limits& limits) {
+    if (limits.hold(value)) return value;
+    char text[120];
+    std::snprintf(text, sizeof text, "%g is not between %g and %g", value, limits.low, limits.high);
+    return usage(option, text);
+}
+
+Result<void> apply_models(View& view, const ViewOptions& options) {
+    if (options.accuracy) {
+        ORO_TRY(const AccuracyBundle bundle, accuracy_bundle(*options.accuracy));
+        apply_bundle(bundle, view);
+    }
+    if (options.earth) {
+        ORO_TRY(view.model.earth, earth_named(*options.earth));
+    }
+    if (options.refraction_k) {
+        ORO_TRY(view.model.refraction_k,
+                within("--refraction", *options.refraction_k, view_limits::refraction_k));
+    }
+    if (options.precision) {
+        ORO_TRY(view.model.precision, precision_named(*options.precision));
+    }
+    if (options.geoid) {
+        ORO_TRY(view.has_geoid, geoid_named(*options.geoid));
+    }
+    if (options.heights) {
+        ORO_TRY(view.heights, heights_named(*options.heights));
+    }
+    return {};
+}
+
+// The options that a view from a file can be changed by.
+Result<void> apply_look(View& view, const ViewOptions& options) {
+    if (options.size) ORO_CHECK(set_size(*options.size, view.camera));
+    if (options.sun) {
+        ORO_TRY(const SunDirection sun, parse_sun(*options.sun));
+        view.sun = sun;
+    }
+    if (options.exaggeration) {
+        ORO_TRY(view.exaggeration,
+                within("--exaggeration", *options.exaggeration, view_limits::exaggeration));
+    }
+    if (options.samples) {
+        ORO_TRY(const double samples, within("--samples", *options.samples, view_limits::samples));
+        view.samples = static_cast<int>(samples);
+    }
+    if (options.style) view.style = *options.style;
+    if (options.pipeline) view.pipeline = *options.pipeline;
+    ORO_CHECK(apply_models(view, options));
+    if (options.tau_px) {
+        ORO_TRY(view.tau_px, within("--tau", *options.tau_px, view_limits::tau_px));
+    }
+    forget_other_bundle(view);
+    if (options.time) {
+        ORO_TRY(view.time_utc_s, parse_time(*options.time));
+    }
+    return {};
+}
+
+}  // namespace
+
+std::int64_t time_now_s() {
+    std::int64_t fixed = 0;
+    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
+        epoch && read_whole(std::string_view(epoch), fixed))
+        return fixed;
+    return std::chrono::duration_cast<std::chrono::seconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+Result<RegionRequest> region_request(const RegionOptions& options) {
+    if (options.paths.empty()) return usage("PATH", "no elevation data given: name a file or a folder");
+    RegionRequest request;
+    request.paths = options.paths;
+    request.strict_datum = options.strict_datum;
+    request.fill_voids = options.fill_voids;
+    request.height_unit = options.height_unit;
+    if (!options.bbox.empty()) {
+        ORO_TRY(request.box, parse_bounding_box(options.bbox));
+    } else if (!options.tile.empty()) {
+        ORO_TRY(request.box, parse_tile_range(options.tile));
+    }
+    return request;
+}
+
+Result<View> view_without_eye(const ViewOptions& options, RegionRequest region) {
+    View view;
+    view.region = std::move(region);
+    view.camera.width_px = 1280;
+    view.camera.height_px = 720;
+    if (!options.time) {
+        ORO_TRY(view.time_utc_s, picture_time_s());
+    }
+    ORO_CHECK(apply_look(view, options));
+    if (options.vertical_fov_deg) {
+        ORO_TRY(view.camera.vertical_fov_deg,
+                within("--fov", *options.vertical_fov_deg, view_limits::fov_deg));
+    }
+    Attitude& attitude = view.camera.attitude;
+    if (options.heading_deg) {
+        ORO_TRY(attitude.heading_deg, within("--heading", *options.heading_deg, view_limits::heading_deg));
+        attitude.heading_deg = std::fmod(attitude.heading_deg + 360.0, 360.0);
+    }
+    if (options.pitch_deg) {
+        ORO_TRY(attitude.pitch_deg, within("--pitch", *options.pitch_deg, view_limits::pitch_deg));
+    }
+    if (options.roll_deg) {
+        ORO_TRY(attitude.roll_deg, within("--roll", *options.roll_deg, view_limits::roll_deg));
+    }
+    if (options.look_at && (options.heading_deg || options.pitch_deg))
+        return usage("--look-at", "cannot be combined with --heading or --pitch");
+    if (options.altitude_m) ORO_CHECK(within("--altitude", *options.altitude_m, view_limits::altitude_m));
+    if (options.above_m) ORO_CHECK(within("--above", *options.above_m, view_limits::above_m));
+    if (!options.at && (options.above_m || options.altitude_m))
+        return usage(options.above_m ? "--above" : "--altitude", "needs --at PLACE");
+    if (!options.at && options.look_at) return usage("--look-at", "needs --at PLACE");
+    return view;
+}
+
+Result<void> change_view(View& view, const ViewOptions& options) {
+    if (options.at || options.above_m || options.altitude_m || options.heading_deg || options.pitch_deg ||
+        options.roll_deg || options.vertical_fov_deg || options.look_at)
+        return usage("--view",
+                     "brings its own eye: --at, --above, --altitude, --heading, --pitch, --roll, --fov and "
+                     "--look-at cannot be added");
+    return apply_look(view, options);
+}
+
+Result<void> change_region(View& view, const RegionOptions& options) {
+    if (!options.bbox.empty() || !options.tile.empty() || !options.height_unit.empty() ||
+        options.strict_datum || options.fill_voids)
+        return usage("--view",
+                     "brings its own region: --bbox, --tile, --height-unit, --strict-datum and --fill-voids "
+                     "cannot be added");
+    if (!options.paths.empty()) view.region.paths = options.paths;
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,333 @@
+// orograph view: a window to fly over a region.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "apps/commands/commands.h"
+#include "apps/drawing/finer_levels.h"
+#include "apps/drawing/pipeline_choice.h"
+#include "apps/drawing/region_scene.h"
+#include "apps/output/picture_file.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
+#include "apps/view/style.h"
+#include "apps/window/flight.h"
+#include "apps/window/picking.h"
+#include "core/base/parallel.h"
+#include "core/terrain/ground.h"
+#include "core/truth/true_surface.h"
+#include "geo/places/place.h"
+#include "render/window.h"
+
+namespace oro {
+namespace {
+
+// Everything that lives while the window is open.
+struct Viewer {
+    const WindowOptions& options;
+    View view;
+    Region region;
+    gpu::FrameStyle style;
+    const Gpu& gpu;
+    std::unique_ptr<Scene> scene;  // of every n-th post while `finer` is being measured
+    Window& window;
+    FrameRenderer& renderer;
+    bool asking_place{false};
+    std::string place_text{};
+    std::string shown_title{};
+    std::string message{};                 // shown in the title until the eye moves
+    std::vector<PageIndex> missing{};      // what the last frame should have had
+    std::optional<TrueSurface> surface{};  // made when it is first asked, for all questions after
+    std::unique_ptr<FinerLevels> finer{};  // the levels that the view asks for, until they are here
+};
+
+Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px) {
+    if (!viewer.surface)
+        viewer.surface.emplace(viewer.region.field, viewer.view.exaggeration, thread_count());
+    return place_seen(viewer.view, viewer.region, *viewer.surface, point_px);
+}
+
+std::string title_of(const Viewer& viewer) {
+    if (viewer.asking_place) return "Go to: " + viewer.place_text + "_";
+    const Camera& camera = viewer.view.camera;
+    const double N_m = viewer.region.field.undulation.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
+    char text[160];
+    std::snprintf(text, sizeof text, "%.6f° %.6f°  H %.1f m  heading %.1f°", camera.eye.lat_deg,
+                  camera.eye.lon_deg, camera.eye.h_m - N_m, camera.attitude.heading_deg);
+    char coarse[60] = "";
+    if (viewer.finer)
+        std::snprintf(coarse, sizeof coarse, "coarse: finer detail is measured, %.0f %%  |  ",
+                      100.0 * viewer.finer->share());
+    return coarse + (viewer.message.empty() ? "" : viewer.message + "  |  ") + text;
+}
+
+FlightStep step_of(const WindowInput& input, const Camera& camera) {
+    const auto axis = [&](Key plus, Key minus) {
+        return (input.is_held(plus) ? 1.0 : 0.0) - (input.is_held(minus) ? 1.0 : 0.0);
+    };
+    FlightStep step;
+    step.forward = axis(Key::forward, Key::back);
+    step.right = axis(Key::right, Key::left);
+    step.up = axis(Key::up, Key::down);
+    step.fast = input.is_held(Key::fast);
+    step.elapsed_s = std::min(input.elapsed_s, 0.25);  // a slow frame must not become a leap
+    const double turn_deg_s = camera.vertical_fov_deg;
+    const double deg_per_px = camera.vertical_fov_deg / camera.height_px;
+    // Dragging takes hold of the scene: it follows the cursor.
+    step.turn_right_deg =
+        axis(Key::look_right, Key::look_left) * turn_deg_s * step.elapsed_s - input.dragged_px.x * deg_per_px;
+    step.turn_up_deg =
+        axis(Key::look_up, Key::look_down) * turn_deg_s * step.elapsed_s + input.dragged_px.y * deg_per_px;
+    return step;
+}
+
+bool moves(const FlightStep& step) {
+    return step.forward != 0.0 || step.right != 0.0 || step.up != 0.0 || step.turn_right_deg != 0.0 ||
+           step.turn_up_deg != 0.0;
+}
+
+// Jumps to a place, as high over its ground as the eye was over the old one.
+void jump(Viewer& viewer) {
+    const auto place = parse_place(viewer.place_text);
+    viewer.asking_place = false;
+    if (!place.ok()) {
+        viewer.message = place.error().line();
+        say(false, viewer.message);
+        return;
+    }
+    Camera& camera = viewer.view.camera;
+    const double exaggeration = viewer.view.exaggeration;
+    const HeightField& field = viewer.region.field;
+    const auto from = ground_h_m(field, camera.eye.lat_deg, camera.eye.lon_deg, exaggeration);
+    const auto to = ground_h_m(field, place->lat_deg, place->lon_deg, exaggeration);
+    const double above_m = std::max(eye_clearance_m, camera.eye.h_m - from.value_or(0.0));
+    camera.eye = {place->lat_deg, place->lon_deg, to ? *to + above_m : std::max(camera.eye.h_m, above_m)};
+    viewer.message = to ? "" : "no data there";
+}
+
+// Typing a place: characters, backspace, enter, escape.
+void ask_place(Viewer& viewer, const WindowInput& input) {
+    viewer.place_text += input.typed;
+    if (input.backspace && !viewer.place_text.empty()) {
+        while (!viewer.place_text.empty() &&
+               (static_cast<unsigned char>(viewer.place_text.back()) & 0xC0U) == 0x80U)
+            viewer.place_text.pop_back();
+        if (!viewer.place_text.empty()) viewer.place_text.pop_back();
+    }
+    if (input.escape) viewer.asking_place = false;
+    if (input.enter) jump(viewer);
+}
+
+// The next free name, from the time: orograph-20261121T090000Z.png, then -2, -3 ...
+std::string free_picture_name(std::int64_t time_utc_s) {
+    std::string stem = "orograph-" + time_text(time_utc_s);
+    std::erase_if(stem, [](char c) { return c == ':'; });
+    std::error_code ignored;
+    for (int i = 1;; ++i) {
+        const std::string name = stem + (i > 1 ? "-" + std::to_string(i) : "") + ".png";
+        if (!std::filesystem::exists(name, ignored)) return name;
+    }
+}
+
+// Takes the measured levels in place of the coarse ones, and waits for them where they are not ready. The eye
+// stays: from its first frame on, the new scene has what a coarse picture needs.
+Result<void> take_finer_levels(Viewer& viewer) {
+    constexpr double first_tau_px = 4.0;
+    ORO_TRY(std::unique_ptr<RegionPages> pages, viewer.finer->wait());
+    viewer.finer.reset();
+    ORO_TRY(Scene scene,
+            create_scene(viewer.gpu, std::move(pages), viewer.options.memory, viewer.view.heights));
+    const Camera& camera = viewer.view.camera;
+    ORO_CHECK(scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+                                 std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
+    viewer.scene = std::make_unique<Scene>(std::move(scene));
+    viewer.missing.clear();
+    return {};
+}
+
+void show_title(Viewer& viewer) {
+    const std::string title = title_of(viewer);
+    if (title == viewer.shown_title) return;
+    viewer.window.set_title(title);
+    viewer.shown_title = title;
+}
+
+Result<void> take_picture(Viewer& viewer) {
+    if (viewer.finer) {
+        // A picture is what its view says, and nothing coarser.
+        viewer.message = "the picture waits for finer detail";
+        show_title(viewer);
+        ORO_CHECK(take_finer_levels(viewer));
+    }
+    viewer.view.time_utc_s = time_now_s();
+    const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
+    const Camera& camera = viewer.view.camera;
+    ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
+    const auto written = write_picture(files, false, viewer.view, viewer.region, middle, viewer.gpu,
+                                       *viewer.scene, viewer.style, {});
+    viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
+    say(viewer.options.quiet && written.ok(), viewer.message);
+    return {};
+}
+
+// Tells what the picture that is shown has under the cursor.
+Result<void> pick(Viewer& viewer, glm::dvec2 point_px) {
+    ORO_TRY(const auto place, seen_at(viewer, point_px));
+    viewer.message = line_of(place);
+    std::printf("%s\n", viewer.message.c_str());
+    std::fflush(stdout);  // whoever reads along has it now
+    return {};
+}
+
+// One turn of the loop: input, then a frame where something has changed. False when the user leaves.
+Result<bool> turn(Viewer& viewer, bool& changed) {
+    const bool can_draw = viewer.window.extent().width > 0;  // not so while minimised
+    const double wait_s = changed && can_draw ? 0.0 : viewer.missing.empty() ? 0.05 : 0.005;
+    const WindowInput input = viewer.window.poll(wait_s);
+    if (input.closed) return false;
+    if (viewer.asking_place) {
+        ask_place(viewer, input);
+        changed = changed || !viewer.asking_place;
+    } else if (input.escape) {
+        return false;
+    } else if (input.go_to) {
+        viewer.asking_place = true;
+        viewer.place_text.clear();
+        // While a slow frame is drawn, people type on: what follows the G belongs to the place.
+        WindowInput after = input;
+        const std::size_t g = input.typed.find_first_of("gG");
+        after.typed = g == std::string::npos ? "" : input.typed.substr(g + 1);
+        ask_place(viewer, after);
+        changed = changed || !viewer.asking_place;
+    } else {
+        // What is clicked at is the picture that is shown, before the eye moves on.
+        if (input.picked_px) ORO_CHECK(pick(viewer, *input.picked_px));
+        const FlightStep step = step_of(input, viewer.view.camera);
+        if (moves(step)) {
+            viewer.view.camera =
+                flown(viewer.view.camera, step, viewer.region.field, viewer.view.exaggeration);
+            viewer.message.clear();
+            changed = true;
+        }
+        if (input.take_picture) {
+            ORO_CHECK(take_picture(viewer));
+            changed = true;  // it may have brought finer detail
+        }
+    }
+    // The eye stands on ground that was asked for: it ends as a page does that cannot be drawn.
+    ORO_CHECK(viewer.region.field.health());
+    show_title(viewer);
+    return true;
+}
+
+// Draws with what is on the GPU; what is missing comes in the background and is drawn when it is there.
+Result<void> draw_frame(Viewer& viewer, bool& changed) {
+    const VkExtent2D extent = viewer.window.extent();
+    Camera& camera = viewer.view.camera;
+    if (extent.width == 0 || extent.height == 0) return {};
+    if (extent.width != viewer.renderer.extent().width || extent.height != viewer.renderer.extent().height) {
+        ORO_CHECK(viewer.renderer.resize(extent));
+        changed = true;
+    }
+    if (!viewer.missing.empty()) {
+        ORO_TRY(const bool better, viewer.scene->advance(viewer.missing));
+        changed = changed || better;
+    }
+    if (!changed) return {};
+    camera.width_px = static_cast<int>(extent.width);
+    camera.height_px = static_cast<int>(extent.height);
+    const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+    ORO_TRY(FramePlan plan, viewer.scene->plan(camera, tile, viewer.view.tau_px, viewer.view.model));
+    viewer.missing = plan.missing;
+    ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style));
+    ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
+    changed = !shown;
+    return {};
+}
+
+Result<void> run_loop(Viewer& viewer) {
+    bool changed = true;
+    show_title(viewer);
+    for (;;) {
+        if (viewer.finer && viewer.finer->ready()) {
+            ORO_CHECK(take_finer_levels(viewer));
+            changed = true;
+        }
+        ORO_CHECK(draw_frame(viewer, changed));
+        if (!viewer.gpu.validation_messages().empty())
+            return Error{ErrorKind::failed, "Vulkan validation", viewer.gpu.validation_messages().front()};
+        ORO_TRY(const bool stays, turn(viewer, changed));
+        if (!stays) return {};
+    }
+}
+
+// What a window begins with: all levels, or where measuring them takes long, those of every n-th post.
+Result<std::unique_ptr<RegionPages>> first_pages(const Region& region, const View& view,
+                                                 const RenderProgress& progress) {
+    if (!measures_long(region)) return region_pages(region, view.exaggeration, progress);
+    return pages_in_memory(coarse_field(region.field), view.exaggeration, thread_count());
+}
+
+// A window is drawn in one piece, where a picture has tiles.
+Result<void> check_window_size(const Camera& camera, const DeviceReport& device) {
+    const auto most = static_cast<int>(device.max_picture_side_px);
+    if (camera.width_px <= most && camera.height_px <= most) return {};
+    return Error{ErrorKind::usage, "--size",
+                 std::to_string(camera.width_px) + "x" + std::to_string(camera.height_px) +
+                     " is too large for a window: " + device.name + " draws at most " + std::to_string(most) +
+                     " pixels a side"};
+}
+
+}  // namespace
+
+Result<void> run_view(const WindowOptions& options) {
+    if (options.view.tolerance)
+        return Error{ErrorKind::usage, "--tolerance",
+                     "is for single pictures: a window takes --accuracy or --tau"};
+    ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
+    ProgressBar bar(options.quiet);
+    View view;
+    Region region;
+    ORO_CHECK(open_view(
+        options.view_file, options.view, options.region,
+        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    if (options.no_paths) view.tells_paths = false;
+    // Each of two levels is within tau of the full resolution: where one takes the other's place nothing
+    // moves by more than twice that.
+    if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
+    view.camera = above_ground(view.camera, region.field, view.exaggeration);
+    ORO_CHECK(region.field.health());
+    ORO_TRY(const Style style, load_style(view.style, view.sun));
+    GpuOptions gpu_options = gpu_options_from_environment();
+    gpu_options.instance_extensions = extensions;
+    gpu_options.presents = true;
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
+    ORO_CHECK(check_window_size(view.camera, gpu->report()));
+    const bool coarse_first = measures_long(region);
+    ORO_TRY(std::unique_ptr<RegionPages> pages,
+            first_pages(region, view, [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), options.memory, view.heights));
+    bar.clear();
+    for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
+    if (const std::string holes = note_of_voids(region); !holes.empty()) say(options.quiet, "note: " + holes);
+    ORO_TRY(const std::unique_ptr<Window> window,
+            Window::create(*gpu, view.camera.width_px, view.camera.height_px, "Orograph"));
+    FrameRendererOptions renderer_options;
+    renderer_options.extent = window->extent();
+    ORO_TRY(renderer_options.path, choose_path(view.pipeline, *gpu));
+    if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
+    ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
+    Viewer viewer{options,
+                  std::move(view),
+                  std::move(region),
+                  style.frame,
+                  *gpu,
+                  std::make_unique<Scene>(std::move(scene)),
+                  *window,
+                  renderer};
+    if (coarse_first) viewer.finer = std::make_unique<FinerLevels>(viewer.region, viewer.view.exaggeration);
+    return run_loop(viewer);
+}
+
+}  // namespace oro

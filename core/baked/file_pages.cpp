@@ -1,0 +1,160 @@
+#include "core/baked/file_pages.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace oro {
+namespace {
+
+constexpr std::size_t records_kept = 65536;  // 40 MB
+
+class FilePages : public RegionPages {
+  public:
+    explicit FilePages(std::shared_ptr<const RegionFile> file)
+        : RegionPages({file->outline().grid, file->outline().undulation, file->outline().shape,
+                       file->outline().triangles}),
+          file_(std::move(file)) {}
+
+    [[nodiscard]] Result<PageRecord> record(const PageIndex& page) const override {
+        const std::uint64_t number = file_->order().number(page);
+        {
+            const std::scoped_lock lock(mutex_);
+            const auto found = records_.find(number);
+            if (found != records_.end()) return found->second;
+        }
+        ORO_TRY(PageRecord record, file_->record(page));
+        const std::scoped_lock lock(mutex_);
+        if (records_.size() >= records_kept) records_.clear();
+        records_.emplace(number, record);
+        return record;
+    }
+
+    Result<void> load(const PageIndex& page, gpu::PageBlock& block) const override {
+        const auto payload = std::make_unique<PagePayload>();
+        ORO_CHECK(file_->payload(page, *payload));
+        const auto elevations = std::make_unique<PageElevations>(PageElevations{payload->H_m});
+        const PageHeights heights =
+            page_heights(facts().grid, facts().undulation, facts().shape.exaggeration, *elevations, page);
+        build_page(facts().grid, facts().shape, heights, page, block);
+        for (std::size_t i = 0; i < gpu::meshlets_per_page; ++i) {
+            block.meshlets[i].error_m = payload->error_m[i];
+            block.meshlets[i].lod_radius = payload->lod_radius_m[i];
+        }
+        return {};
+    }
+
+  private:
+    std::shared_ptr<const RegionFile> file_;
+    mutable std::mutex mutex_;
+    mutable std::unordered_map<std::uint64_t, PageRecord> records_;
+};
+
+// Pages of level 0 by number, those asked for last in front.
+class FilePosts : public PostSource {
+  public:
+    FilePosts(std::shared_ptr<const RegionFile> file, std::size_t pages)
+        : file_(std::move(file)), capacity_(std::max<std::size_t>(pages, 4)) {}
+
+    [[nodiscard]] float H_m(int row, int column) const override {
+        constexpr int quads = static_cast<int>(gpu::page_quads);
+        const PageLayout layout = file_->order().layout(0);
+        // The last row and column of a page are the next one's first, where there is a next one.
+        const PageIndex page{std::min(row / quads, layout.rows - 1),
+                             std::min(column / quads, layout.columns - 1), 0};
+        const int in_row = row - page.row * quads + 1, in_column = column - page.column * quads + 1;
+        const std::scoped_lock lock(mutex_);
+        return posts_of(
+            page)[static_cast<std::size_t>(in_row * static_cast<int>(gpu::height_stride) + in_column)];
+    }
+
+    [[nodiscard]] Result<void> health() const override {
+        const std::scoped_lock lock(mutex_);
+        return fault_ ? Result<void>(*fault_) : Result<void>();
+    }
+
+  private:
+    using Posts = std::array<float, gpu::page_heights>;
+    struct Kept {
+        std::uint64_t number;
+        std::unique_ptr<Posts> posts;
+    };
+
+    const Posts& posts_of(const PageIndex& page) const {
+        const std::uint64_t number = file_->order().number(page);
+        if (!kept_.empty() && kept_.front().number == number) return *kept_.front().posts;
+        const auto found = places_.find(number);
+        if (found != places_.end()) {
+            kept_.splice(kept_.begin(), kept_, found->second);
+            return *kept_.front().posts;
+        }
+        if (kept_.size() >= capacity_) {
+            places_.erase(kept_.back().number);
+            kept_.pop_back();
+        }
+        const auto payload = std::make_unique<PagePayload>();
+        if (const Result<void> read = file_->payload(page, *payload); !read.ok()) {
+            if (!fault_) fault_ = read.error();
+            payload->H_m.fill(void_height_m);
+        }
+        kept_.push_front({number, std::make_unique<Posts>(payload->H_m)});
+        places_[number] = kept_.begin();
+        return *kept_.front().posts;
+    }
+
+    std::shared_ptr<const RegionFile> file_;
+    std::size_t capacity_;
+    mutable std::mutex mutex_;
+    mutable std::list<Kept> kept_;
+    mutable std::unordered_map<std::uint64_t, std::list<Kept>::iterator> places_;
+    mutable std::optional<Error> fault_;  // the first
+};
+
+}  // namespace
+
+std::unique_ptr<RegionPages> pages_of_file(std::shared_ptr<const RegionFile> file) {
+    return std::make_unique<FilePages>(std::move(file));
+}
+
+HeightField field_of_file(std::shared_ptr<const RegionFile> file, std::size_t memory_bytes) {
+    HeightField field;
+    field.grid = file->outline().grid;
+    field.undulation = file->outline().undulation;
+    field.range = HeightRange{file->outline().lowest_H_m, file->outline().highest_H_m,
+                              static_cast<std::size_t>(file->outline().voids)};
+    field.posts =
+        std::make_shared<FilePosts>(std::move(file), memory_bytes / (sizeof(float) * gpu::page_heights));
+    return field;
+}
+
+Result<HeightField> field_in_memory(const RegionFile& file) {
+    constexpr int quads = static_cast<int>(gpu::page_quads), stride = static_cast<int>(gpu::height_stride);
+    const PageLayout layout = file.order().layout(0);
+    const std::uint64_t pages = layout.count();  // numbered before those of all other levels
+    // Memory is taken for pages that are there, not for what the header says.
+    for (std::uint64_t i = 0; i < pages; ++i) ORO_CHECK(file.record(file.order().index(i)));
+    HeightField field;
+    field.grid = file.outline().grid;
+    field.undulation = file.outline().undulation;
+    field.H_m.assign(field.grid.post_count(), void_height_m);
+    const auto payload = std::make_unique<PagePayload>();
+    for (std::uint64_t i = 0; i < pages; ++i) {
+        const PageIndex page = file.order().index(i);
+        ORO_CHECK(file.payload(page, *payload));
+        const int first_row = page.row * quads, first_column = page.column * quads;
+        const int rows = std::min(quads + 1, field.grid.rows() - first_row);
+        const int columns = std::min(quads + 1, field.grid.columns() - first_column);
+        for (int row = 0; row < rows; ++row)
+            std::copy_n(
+                payload->H_m.begin() + (row + 1) * stride + 1, columns,
+                field.H_m.begin() + (std::ptrdiff_t{first_row} + row) * field.grid.columns() + first_column);
+    }
+    return field;
+}
+
+}  // namespace oro

@@ -1,0 +1,303 @@
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <optional>
+#include <utility>
+
+#include "core/baked/region_format.h"
+#include "core/base/checksum.h"
+#include "core/base/file_target.h"
+#include "core/base/little_endian.h"
+
+// The order of writing: a page's stitched errors, its payload, its record. A page is there when all three
+// bear their checksums, whatever of them a kill or a power cut has let through. The header names the file's
+// size only when all pages are on the disk.
+namespace oro {
+namespace {
+
+using namespace region_format;
+
+constexpr std::size_t stitched_bytes = sizeof(StitchedErrors) + 8;  // and a checksum
+constexpr std::uint64_t at_file_bytes = 16;
+
+Error fault(const std::string& path, const std::string& what) {
+    return {ErrorKind::failed, path, what};
+}
+
+std::string partial_of(const std::string& target) {
+    return target + ".partial";
+}
+std::string stitched_of(const std::string& target) {
+    return target + ".partial-stitched";
+}
+
+// What was found under a name that a bake uses.
+struct Leftover {
+    std::uint64_t bytes{};
+};
+
+Error no_leftover(const std::string& path, const std::string& what) {
+    return fault(path, what + "; move it away, or choose another name for the region");
+}
+
+// That an open file has no other name: whoever uses that would find it changed.
+Result<Leftover> only_name(const OpenFile& file) {
+    struct stat found {};
+    if (fstat(file.descriptor(), &found) != 0)
+        return fault(file.path(), "cannot be written: " + system_reason(errno));
+    if (found.st_nlink > 1)
+        return no_leftover(file.path(), "has another name, too (a hard link), and would change there");
+    return Leftover{static_cast<std::uint64_t>(found.st_size)};
+}
+
+// A .partial that a bake left behind begins as a region file does, as far as it goes.
+Result<Leftover> check_partial(const OpenFile& file) {
+    ORO_TRY(const Leftover found, only_name(file));
+    std::array<std::byte, magic.size()> begins;
+    const auto there = std::span(begins).first(std::min<std::uint64_t>(found.bytes, begins.size()));
+    ORO_CHECK(file.read(0, there));
+    if (!std::equal(there.begin(), there.end(), std::as_bytes(std::span(magic)).begin()))
+        return no_leftover(file.path(), "is there already, and no bake has left it behind");
+    return found;
+}
+
+// Opens the .partial and keeps other writers out for as long as it is open. One that finishes while this one
+// waits takes the file away under its real name: then there must be a new one.
+Result<OpenFile> open_alone(const std::string& path) {
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::write));
+        if (flock(file.descriptor(), LOCK_EX | LOCK_NB) != 0) {
+            if (errno == EWOULDBLOCK) return fault(path, "is being written by another program");
+            if (errno != ENOLCK && errno != EOPNOTSUPP && errno != EINVAL)
+                return fault(path, "cannot be locked: " + system_reason(errno));
+        }
+        struct stat open_one {
+        }, named{};
+        if (fstat(file.descriptor(), &open_one) == 0 && lstat(path.c_str(), &named) == 0 &&
+            open_one.st_ino == named.st_ino && open_one.st_dev == named.st_dev)
+            return file;
+    }
+    return fault(path, "cannot be written: it is taken away again and again");
+}
+
+// The header that was given, with the file's size in it.
+std::vector<std::byte> header_with_size(const std::vector<std::byte>& header, std::uint64_t file_bytes) {
+    HeaderBytes bytes;
+    std::copy(header.begin(), header.end(), bytes.begin());
+    RegionHeader changed = header_from_bytes(bytes);
+    changed.file_bytes = file_bytes;
+    bytes = header_to_bytes(changed);
+    return {bytes.begin(), bytes.end()};
+}
+
+Result<void> read_stitched(const OpenFile& file, std::uint64_t number, StitchedErrors* into) {
+    std::array<std::byte, stitched_bytes> bytes;
+    const std::uint64_t offset = number * stitched_bytes;
+    ORO_CHECK(file.read(offset, bytes));
+    const std::uint64_t computed = xxh64(std::span(bytes).first(stitched_bytes - 8), number);
+    const auto stored = from_little_endian<std::uint64_t>(&bytes[stitched_bytes - 8]);
+    if (computed != stored)
+        return file.damaged(offset, "the errors of page number " + std::to_string(number) +
+                                        " have checksum " + hexadecimal(computed) + ", expected " +
+                                        hexadecimal(stored));
+    const std::byte* at = bytes.data();
+    for (std::size_t node = 0; into && node < into->size(); ++node) {
+        for (float& error_m : (*into)[node]) {
+            error_m = from_little_endian<float>(at);
+            at += sizeof(float);
+        }
+    }
+    return {};
+}
+
+// Stitched errors have no magic. Those of a .partial are beside it, in whatever state; alone they are known
+// by the checksum of the first.
+Result<void> check_stitched(const OpenFile& file, bool partial_has_bytes) {
+    ORO_TRY(const Leftover found, only_name(file));
+    if (found.bytes == 0 || partial_has_bytes || read_stitched(file, 0, nullptr).ok()) return {};
+    return no_leftover(file.path(), "is there already, and no bake has left it behind");
+}
+
+// Opens for reading what has a name, if anything has; no link is followed.
+Result<std::optional<OpenFile>> open_leftover(const std::string& path) {
+    struct stat found {};
+    if (lstat(path.c_str(), &found) != 0) {
+        if (errno == ENOENT) return std::optional<OpenFile>();
+        return fault(path, "cannot be written: " + system_reason(errno));
+    }
+    if (S_ISLNK(found.st_mode)) return no_leftover(path, "is a link, and no bake has left it behind");
+    ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    return std::optional(std::move(file));
+}
+
+}  // namespace
+
+std::vector<std::string> files_of_bake(const std::string& path) {
+    std::string target = path;
+    (void)check_target(target, true).ok();  // what it finds wrong, others tell
+    return {target, partial_of(target), stitched_of(target)};
+}
+
+Result<void> RegionFileWriter::check(const std::string& path, bool overwrite) {
+    std::string target = path;
+    ORO_TRY([[maybe_unused]] const unsigned old_mode, check_target(target, overwrite));
+    ORO_TRY(const std::optional<OpenFile> partial, open_leftover(partial_of(target)));
+    Leftover found;
+    if (partial) {
+        ORO_TRY(found, check_partial(*partial));
+    }
+    ORO_TRY(const std::optional<OpenFile> stitched, open_leftover(stitched_of(target)));
+    if (!stitched) return {};
+    return check_stitched(*stitched, found.bytes > 0);
+}
+
+Result<EncodedPage> encode_page(const PageRecord& record, const PagePayload& payload) {
+    EncodedPage page{record, {}, 0};
+    ORO_TRY(page.payload, encode_payload(payload));
+    page.checksum = xxh64(page.payload);
+    return page;
+}
+
+RegionFileWriter::RegionFileWriter(OpenFile partial, OpenFile stitched, const PostGrid& grid)
+    : partial_(std::move(partial)), stitched_(std::move(stitched)), order_(grid) {}
+
+Result<RegionFileWriter> RegionFileWriter::create(const std::string& path, const RegionOutline& outline,
+                                                  std::uint64_t fingerprint, bool overwrite) {
+    ignore_size_limit_signal();
+    std::string target = path;
+    ORO_TRY(const unsigned old_mode, check_target(target, overwrite));
+    assert(outline.shape.exaggeration == 1.0);
+    if (const auto wrong = implausible(outline))
+        return fault(path, "cannot hold this region: " + wrong->what);
+    ORO_CHECK(check(path, overwrite));
+    ORO_TRY(OpenFile partial, open_alone(partial_of(target)));
+    ORO_TRY(OpenFile stitched, OpenFile::open(stitched_of(target), OpenFile::Use::write));
+    // Once more of what is open now, whatever has happened to the names.
+    ORO_TRY(const Leftover found, check_partial(partial));
+    ORO_CHECK(check_stitched(stitched, found.bytes > 0));
+    RegionFileWriter writer(std::move(partial), std::move(stitched), outline.grid);
+    writer.path_ = target;
+    writer.overwrite_ = overwrite;
+    writer.old_mode_ = old_mode;
+    ORO_CHECK(writer.start_or_resume(beginning_of(outline, fingerprint)));
+    return writer;
+}
+
+Result<void> RegionFileWriter::start_or_resume(std::vector<std::byte> beginning) {
+    header_.assign(beginning.begin(), beginning.begin() + header_bytes);
+    places_.records = beginning.size();
+    places_.payloads = places_.records + order_.count() * record_bytes;
+    end_ = places_.payloads;
+    ORO_TRY(const std::uint64_t found_bytes, partial_.size());
+    bool same = found_bytes >= beginning.size();
+    bool begun_to_finish = false;
+    if (same) {
+        std::vector<std::byte> found(beginning.size());
+        ORO_CHECK(partial_.read(0, found));
+        const auto finished_bytes = from_little_endian<std::uint64_t>(&found[at_file_bytes]);
+        begun_to_finish = finished_bytes != 0;
+        const std::vector<std::byte> expected = header_with_size(header_, finished_bytes);
+        same = std::equal(expected.begin(), expected.end(), found.begin()) &&
+               std::equal(beginning.begin() + header_bytes, beginning.end(), found.begin() + header_bytes);
+    }
+    if (same) {
+        // Broken off in finish(): then all is there, except perhaps the stitched errors, which nobody needs
+        // any more.
+        if (begun_to_finish) ORO_CHECK(find_pages_done(false));
+        if (!begun_to_finish || pages_done_ < order_.count()) {
+            ORO_CHECK(partial_.write(0, header_));
+            ORO_CHECK(find_pages_done(true));
+        }
+    } else {
+        ORO_CHECK(partial_.resize(0));
+        ORO_CHECK(partial_.write(0, beginning));
+    }
+    // What a break has torn.
+    ORO_CHECK(partial_.resize(end_));
+    ORO_TRY(const std::uint64_t stitched_found, stitched_.size());
+    return stitched_.resize(std::min(stitched_found, pages_done_ * stitched_bytes));
+}
+
+Result<void> RegionFileWriter::find_pages_done(bool needs_stitched) {
+    end_ = places_.payloads;
+    pages_done_ = 0;
+    ORO_TRY(const std::uint64_t found_bytes, partial_.size());
+    for (; pages_done_ < order_.count(); ++pages_done_) {
+        const auto record = read_record(partial_, places_, order_, pages_done_, found_bytes);
+        if (!record.ok() || record->payload_offset != end_) break;
+        if (!read_payload(partial_, *record).ok()) break;
+        if (needs_stitched && !read_stitched(stitched_, pages_done_, nullptr).ok()) break;
+        end_ += record->payload_bytes;
+    }
+    return {};
+}
+
+// These read nothing that append() changes, so that they may be called beside it.
+Result<PageRecord> RegionFileWriter::record(std::uint64_t number) const {
+    ORO_TRY(const StoredRecord stored, read_record(partial_, places_, order_, number, largest_file));
+    return stored.page;
+}
+
+Result<void> RegionFileWriter::payload(std::uint64_t number, PagePayload& payload) const {
+    ORO_TRY(const StoredRecord stored, read_record(partial_, places_, order_, number, largest_file));
+    return read_payload(partial_, stored, payload);
+}
+
+Result<void> RegionFileWriter::stitched(std::uint64_t number, StitchedErrors& stitched) const {
+    return read_stitched(stitched_, number, &stitched);
+}
+
+Result<void> RegionFileWriter::append(const EncodedPage& page, const StitchedErrors& stitched) {
+    if (pages_done_ == order_.count()) return fault(partial_.path(), "has all its pages already");
+    if (const auto what = implausible(page.record, order_.index(pages_done_)))
+        return fault(partial_.path(), "cannot take " + *what);
+    assert(!page.payload.empty() && page.payload.size() <= largest_payload_bytes);
+    if (page.payload.size() > largest_file - end_) return fault(partial_.path(), "would exceed 2^63 bytes");
+    std::array<std::byte, stitched_bytes> errors;
+    std::byte* at = errors.data();
+    for (const auto& node : stitched) {
+        for (const float error_m : node) {
+            to_little_endian(error_m, at);
+            at += sizeof(float);
+        }
+    }
+    to_little_endian(xxh64(std::span(errors).first(stitched_bytes - 8), pages_done_), at);
+    ORO_CHECK(stitched_.write(pages_done_ * stitched_bytes, errors));
+    ORO_CHECK(partial_.write(end_, page.payload));
+    const auto bytes = static_cast<std::uint32_t>(page.payload.size());
+    ORO_CHECK(partial_.write(places_.records + pages_done_ * record_bytes,
+                             record_to_bytes({page.record, end_, bytes, page.checksum})));
+    end_ += bytes;
+    ++pages_done_;
+    return {};
+}
+
+Result<void> RegionFileWriter::finish() {
+    if (pages_done_ != order_.count())
+        return fault(partial_.path(), "has " + std::to_string(pages_done_) + " pages, expected " +
+                                          std::to_string(order_.count()));
+    ORO_CHECK(partial_.resize(end_));  // a failed append may have left something behind
+    // A file that its owner had closed to others stays closed to them when it is replaced.
+    if (old_mode_ != 0) (void)fchmod(partial_.descriptor(), old_mode_);
+    ORO_CHECK(partial_.sync());
+    ORO_CHECK(partial_.write(0, header_with_size(header_, end_)));
+    ORO_CHECK(partial_.sync());
+    unlink(stitched_.path().c_str());
+    return take_name();
+}
+
+Result<void> RegionFileWriter::take_name() {
+    const std::string& partial = partial_.path();
+    const int why = take_file_name(partial, path_, overwrite_);
+    if (why == EEXIST && !overwrite_)
+        return fault(path_,
+                     "appeared while it was being written, and is left as it is; the new one is " + partial);
+    if (why != 0) return fault(path_, "cannot be written: " + system_reason(why));
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,31 @@
+#include "core/base/checksum.h"
+
+// All of xxHash is compiled into this file: a benchmark carries it to machines that lack the library.
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace oro {
+
+std::uint64_t xxh64(std::span<const std::byte> bytes, std::uint64_t seed) {
+    return XXH64(bytes.data(), bytes.size(), seed);
+}
+
+struct RunningChecksum::State {
+    XXH64_state_t xxh;
+};
+
+RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) {
+    XXH64_reset(&state_->xxh, 0);
+}
+
+RunningChecksum::~RunningChecksum() = default;
+
+void RunningChecksum::add(std::span<const std::byte> bytes) {
+    if (!bytes.empty()) XXH64_update(&state_->xxh, bytes.data(), bytes.size());
+}
+
+std::uint64_t RunningChecksum::sum() const {
+    return XXH64_digest(&state_->xxh);
+}
+
+}  // namespace oro

@@ -1,0 +1,56 @@
+#include "core/earth/world_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace oro {
+namespace {
+
+// Height in which the air's density falls by e. Source: U.S. Standard Atmosphere 1976, table 4, sea level: R
+// T0 / (M g).
+constexpr double scale_height_m = 8434.0;
+
+Ecef on_sphere(const Geodetic& point) {
+    const SineCosine lat = sine_cosine_deg(point.lat_deg), lon = sine_cosine_deg(point.lon_deg);
+    return {(mean_radius_m + point.h_m) *
+            glm::dvec3(lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine)};
+}
+
+}  // namespace
+
+Refraction::Refraction(const Geodetic& eye, double k)
+    : curvature_per_m_(k * std::exp(-std::max(eye.h_m, 0.0) / scale_height_m) /
+                       std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg))),
+      up_(ecef_from_enu(eye.lat_deg, eye.lon_deg)[2]) {}
+
+Refraction Refraction::with_curvature(const Geodetic& eye, double curvature_per_m) {
+    Refraction refraction(eye, 0.0);
+    refraction.curvature_per_m_ = curvature_per_m;
+    return refraction;
+}
+
+double Refraction::lift_m(const glm::dvec3& offset_m) const {
+    if (curvature_per_m_ == 0.0) return 0.0;
+    const glm::dvec3 across = offset_m - glm::dot(offset_m, up_) * up_;
+    return 0.5 * curvature_per_m_ * glm::dot(across, across);
+}
+
+Ecef model_eye_ecef(Earth earth, const Geodetic& eye) {
+    return earth == Earth::sphere ? on_sphere(eye) : ecef_from_geodetic(eye);
+}
+
+glm::dvec3 model_offset_m(Earth earth, const Geodetic& eye, const Geodetic& point) {
+    if (earth == Earth::sphere) return on_sphere(point).m - on_sphere(eye).m;
+    if (earth == Earth::ellipsoid) return ecef_from_geodetic(point).m - ecef_from_geodetic(eye).m;
+    const double east_m = prime_vertical_radius_m(eye.lat_deg) * sine_cosine_deg(eye.lat_deg).cosine *
+                          radians_from_deg(std::remainder(point.lon_deg - eye.lon_deg, 360.0)).rad;
+    const double north_m = meridian_radius_m(eye.lat_deg) * radians_from_deg(point.lat_deg - eye.lat_deg).rad;
+    return ecef_from_enu(eye.lat_deg, eye.lon_deg) * glm::dvec3(east_m, north_m, point.h_m - eye.h_m);
+}
+
+glm::dvec3 model_offset_m(const WorldModel& model, const Geodetic& eye, const Geodetic& point) {
+    return Refraction(eye, model.refraction_k).apparent_m(model_offset_m(model.earth, eye, point));
+}
+
+}  // namespace oro

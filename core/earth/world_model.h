@@ -1,0 +1,78 @@
+// What a picture models of the world and what it leaves out: the choices that cost or save accuracy.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "core/earth/ellipsoid.h"
+
+namespace oro {
+
+enum class Earth {
+    ellipsoid,  // WGS84
+    sphere,     // of mean_radius_m, latitudes and longitudes taken as they are
+    flat,       // the plane that touches WGS84 at the eye; degrees there are as long as they are at the eye
+};
+// How posts are placed on the GPU.
+enum class Precision {
+    relative,       // relative to the eye, from tables in double (shaders/place/place.glsl)
+    rounded_posts,  // ECEF rounded to float32, then relative to the eye without further loss
+    naive,          // ECEF in float32 times a float32 view matrix: what is to be measured against
+};
+
+struct WorldModel {
+    Earth earth{Earth::ellipsoid};
+    double refraction_k{0.0};  // coefficient of refraction of the air, -1 .. 0.9; 0: light goes straight
+    Precision precision{Precision::relative};
+};
+
+// The usual coefficient by day. Source: Torge & Müller, Geodesy, 4th ed. 2012, section 5.1.1.2.
+inline constexpr double usual_refraction_k = 0.13;
+// The mean Earth radius R1. Source: H. Moritz, Geodetic Reference System 1980, J. Geodesy 74, 2000.
+inline constexpr double mean_radius_m = 6371008.7714;
+
+// How much sight lines from an eye bend. Light from a point at a distance s comes in higher than straight by
+// k s^2 / (2 R): what is seen is the scene with each point lifted by that along the eye's vertical. Every
+// part of the program that asks what can be seen where asks here.
+class Refraction {
+  public:
+    // Light goes straight.
+    Refraction() = default;
+    // R is the Gaussian radius of curvature at the eye. k falls with the air's density at the eye (by e each
+    // 8,434 m): the air around the eye bends most of what is seen, so an eye in space has none.
+    Refraction(const Geodetic& eye, double k);
+    // Sight lines of that curvature, 1/m, whatever bends them: with the Earth's own it looks flat.
+    static Refraction with_curvature(const Geodetic& eye, double curvature_per_m);
+
+    [[nodiscard]] bool straight() const { return curvature_per_m_ == 0.0; }
+    // 1 / radius of the sight lines, 1/m: k / R at the eye's height.
+    [[nodiscard]] double curvature_per_m() const { return curvature_per_m_; }
+    // The eye's vertical, a unit ECEF direction.
+    [[nodiscard]] const glm::dvec3& up() const { return up_; }
+    // From where a point is to where it is seen; offsets from the eye, metres, ECEF axes.
+    [[nodiscard]] glm::dvec3 apparent_m(const glm::dvec3& offset_m) const {
+        return offset_m + lift_m(offset_m) * up_;
+    }
+    // The inverse, exact but for rounding: the lift does not change the distance across the vertical.
+    [[nodiscard]] glm::dvec3 true_m(const glm::dvec3& apparent_m) const {
+        return apparent_m - lift_m(apparent_m) * up_;
+    }
+
+    // How far `offset_m` is lifted.
+    [[nodiscard]] double lift_m(const glm::dvec3& offset_m) const;
+
+  private:
+    double curvature_per_m_{0.0};
+    glm::dvec3 up_{0.0, 0.0, 1.0};
+};
+
+// Where the eye is on that model of the Earth, ECEF; the flat one touches WGS84 at the eye.
+Ecef model_eye_ecef(Earth earth, const Geodetic& eye);
+
+// From the eye to where that model of the Earth puts a point, light going straight: ECEF axes of the true
+// eye, metres. The eye is on the same model by its own latitude, longitude and height. Error: rounding of
+// doubles, 3e-9 m near the Earth. Flat: east and west part at the meridian opposite to the eye.
+glm::dvec3 model_offset_m(Earth earth, const Geodetic& eye, const Geodetic& point);
+// The same as it is seen through the model's air. Precision is left out.
+glm::dvec3 model_offset_m(const WorldModel& model, const Geodetic& eye, const Geodetic& point);
+
+}  // namespace oro

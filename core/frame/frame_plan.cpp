@@ -1,0 +1,314 @@
+#include "core/frame/frame_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <map>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "core/earth/model_view.h"
+#include "core/frame/frame_tables.h"
+#include "core/lod/levels.h"
+#include "core/lod/levels_gpu.h"
+
+namespace oro {
+namespace {
+
+using Place = std::pair<int, int>;  // (row, column) of a page in its level
+
+// A page that can be seen and is needed.
+struct WantedPage {
+    PageRecord record;
+    std::uint64_t address{};  // 0: not on the GPU
+    bool open{};              // takes part in the frame
+    std::uint32_t stand_in{};
+    double distance_m{};
+    std::uint32_t number{gpu::no_page};  // in the frame
+};
+using WantedLevel = std::map<Place, WantedPage>;
+
+// One frame's choice among a region's pages.
+class PageChoice {
+  public:
+    PageChoice(const RegionPages& pages, const Residency& residency, const Camera& camera, const Tile& tile,
+               double tau_px, const ModelView& model)
+        : pages_(pages),
+          residency_(residency),
+          view_(level_view(camera, tau_px)),
+          model_(model),
+          view_from_ecef_(camera.view_from_ecef()),
+          planes_(frustum_planes_view(projection_of_tile(camera, tile))),
+          horizon_(model.horizon(pages.facts().shape.occluder)),
+          post_spacing_m_(wgs84_a_m * radians_from_deg(pages.facts().grid.lat.spacing_deg()).rad),
+          levels_(static_cast<std::size_t>(pages.levels())) {
+        for (Plane& plane : planes_) plane.w += model.rounding_m();
+    }
+
+    Result<void> choose();
+    void number_pages(FramePlan& plan);
+    void list_pages(FrameTables& tables, FramePlan& plan) const;
+
+  private:
+    WantedLevel& level(int number) { return levels_[static_cast<std::size_t>(number)]; }
+    [[nodiscard]] const WantedLevel& level(int number) const {
+        return levels_[static_cast<std::size_t>(number)];
+    }
+    [[nodiscard]] bool good_enough(const PageSummary& page, const PageQuarter& quarter) const;
+    [[nodiscard]] bool fine_enough_to_shade(const PageSummary& page, const PageQuarter& quarter) const;
+    bool hidden(const PageRecord& page, const ViewSphere& seen);
+    Result<void> want(const PageIndex& index);
+    Result<void> descend(WantedPage& page);
+    void open_level(int number);
+    [[nodiscard]] std::array<PageIndex, 4> beside_parents(const PageIndex& index,
+                                                          std::array<bool, 4>& there) const;
+    [[nodiscard]] std::uint32_t number_of(const PageIndex& index) const;
+    [[nodiscard]] gpu::FramePage frame_page(const WantedPage& page) const;
+    void set_neighbours(const PageIndex& index, gpu::FramePage& frame) const;
+
+    const RegionPages& pages_;
+    const Residency& residency_;
+    LevelView view_;
+    const ModelView& model_;
+    glm::dmat3 view_from_ecef_;
+    std::array<Plane, 5> planes_;
+    SeenHorizon horizon_;
+    double post_spacing_m_;  // of level 0, along the meridian
+    std::vector<WantedLevel> levels_;
+    std::size_t beyond_frustum_{};
+    std::size_t beyond_horizon_{};
+};
+
+bool PageChoice::good_enough(const PageSummary& page, const PageQuarter& quarter) const {
+    if (quarter.largest_error_m >= gpu::unfit_error_m) return false;
+    if (quarter.lod_radius_m < 0.0) return true;  // nothing there, on any level
+    const ViewSphere seen = model_.seen(page, quarter.centre_m, quarter.lod_radius_m);
+    const double stretch = model_.stretch(page, quarter.centre_m, quarter.lod_radius_m);
+    return gpu::projected_error_px(gpu::vec3(seen.centre_m), static_cast<float>(seen.radius_m),
+                                   quarter.largest_error_m * static_cast<float>(stretch),
+                                   view_.pixels_per_tangent, view_.corner_tangent) <= view_.tau_px;
+}
+
+// Are the page's posts close enough on the screen, all over a quarter, to shade slopes from?
+bool PageChoice::fine_enough_to_shade(const PageSummary& page, const PageQuarter& quarter) const {
+    if (quarter.lod_radius_m < 0.0) return true;
+    const ViewSphere seen = model_.seen(page, quarter.centre_m, quarter.lod_radius_m);
+    const double distance_m = glm::length(seen.centre_m) - seen.radius_m;
+    const double spacing_m = std::ldexp(post_spacing_m_, page.index.level);
+    return spacing_m * static_cast<double>(view_.pixels_per_tangent) <= gpu::shading_spacing_px * distance_m;
+}
+
+bool PageChoice::hidden(const PageRecord& page, const ViewSphere& seen) {
+    if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
+        ++beyond_frustum_;
+        return true;
+    }
+    if (beyond_horizon(horizon_.eye, {page.horizon.direction, page.horizon.angle_rad * horizon_.stretch})) {
+        ++beyond_horizon_;
+        return true;
+    }
+    return false;
+}
+
+Result<void> PageChoice::want(const PageIndex& index) {
+    ORO_TRY(PageRecord record, pages_.record(index));
+    if (record.reach_m < 0.0) return {};
+    const ViewSphere seen = model_.seen_page(pages_.facts().grid, record);
+    if (hidden(record, seen)) return {};
+    WantedPage page;
+    page.distance_m = std::max(0.0, glm::length(seen.centre_m) - seen.radius_m);
+    page.address = residency_(index);
+    page.record = std::move(record);
+    level(index.level).emplace(Place{index.row, index.column}, std::move(page));
+    return {};
+}
+
+// What of a page must be drawn finer.
+Result<void> PageChoice::descend(WantedPage& page) {
+    const PageSummary& summary = page.record.summary;
+    if (summary.index.level == 0) return {};
+    const PageLayout below = pages_.layout(summary.index.level - 1);
+    for (int i = 0; i < 4; ++i) {
+        const PageIndex child{2 * summary.index.row + i / 2, 2 * summary.index.column + i % 2,
+                              summary.index.level - 1};
+        if (child.row >= below.rows || child.column >= below.columns) continue;
+        const PageQuarter& quarter = page.record.quarters[static_cast<std::size_t>(i)];
+        const bool enough = good_enough(summary, quarter);
+        if (enough) page.stand_in |= 1U << static_cast<unsigned>(i);
+        if (!enough || !fine_enough_to_shade(summary, quarter)) ORO_CHECK(want(child));
+    }
+    return {};
+}
+
+// Pages of the level above that hold what lies beyond a page's rims: north, east, south, west.
+std::array<PageIndex, 4> PageChoice::beside_parents(const PageIndex& index,
+                                                    std::array<bool, 4>& there) const {
+    const PageLayout layout = pages_.layout(index.level);
+    constexpr std::array<Place, 4> steps{Place{-1, 0}, Place{0, 1}, Place{1, 0}, Place{0, -1}};
+    std::array<PageIndex, 4> parents;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const int row = index.row + steps[i].first;
+        int column = index.column + steps[i].second;
+        const bool beyond = column < 0 || column >= layout.columns;
+        if (beyond && pages_.goes_round()) column = (column + layout.columns) % layout.columns;
+        there[i] = row >= 0 && row < layout.rows && column >= 0 && column < layout.columns;
+        parents[i] = {row / 2, column / 2, index.level + 1};
+    }
+    return parents;
+}
+
+// A page is open when it and all above it are there, and no page of the level above beside it is missing:
+// what is drawn beside it is then at most one level coarser.
+void PageChoice::open_level(int number) {
+    const bool top = number == pages_.levels() - 1;
+    for (auto& [place, page] : level(number)) {
+        page.open = page.address != 0;
+        if (top) continue;
+        WantedLevel& above = level(number + 1);
+        const PageIndex& index = page.record.summary.index;
+        WantedPage& parent = above.at({index.row / 2, index.column / 2});
+        std::array<bool, 4> there{};
+        const std::array<PageIndex, 4> beside = beside_parents(index, there);
+        page.open = page.open && parent.open;
+        for (std::size_t i = 0; i < 4 && page.open; ++i) {
+            if (!there[i]) continue;
+            const auto found = above.find({beside[i].row, beside[i].column});
+            page.open = found == above.end() || found->second.open;
+        }
+        if (!page.open)
+            parent.stand_in |= 1U << static_cast<unsigned>(2 * (index.row % 2) + index.column % 2);
+    }
+}
+
+Result<void> PageChoice::choose() {
+    const int top = pages_.levels() - 1;
+    if (pages_.layout(top).rows == 0 || pages_.layout(top).columns == 0) return {};
+    ORO_CHECK(want({0, 0, top}));
+    for (int number = top; number >= 0; --number) {
+        open_level(number);
+        for (auto& [place, page] : level(number)) ORO_CHECK(descend(page));
+    }
+    return {};
+}
+
+void PageChoice::number_pages(FramePlan& plan) {
+    std::vector<WantedPage*> open;
+    std::vector<const WantedPage*> missing;
+    for (WantedLevel& wanted : levels_) {
+        plan.pages_wanted += wanted.size();
+        for (auto& [place, page] : wanted) {
+            if (page.open) open.push_back(&page);
+            if (page.address == 0) missing.push_back(&page);
+        }
+    }
+    const auto key = [](const WantedPage& page) {
+        const PageIndex& index = page.record.summary.index;
+        return std::tuple(index.level, index.row, index.column);
+    };
+    // Near pages first: what they hide fails the depth test before it is shaded. Ties by number: one order
+    // for one input.
+    std::sort(open.begin(), open.end(), [&](const WantedPage* a, const WantedPage* b) {
+        return a->distance_m != b->distance_m ? a->distance_m < b->distance_m : key(*a) < key(*b);
+    });
+    // What others wait for first, then what is near.
+    std::sort(missing.begin(), missing.end(), [&](const WantedPage* a, const WantedPage* b) {
+        const PageIndex& one = a->record.summary.index;
+        const PageIndex& other = b->record.summary.index;
+        if (one.level != other.level) return one.level > other.level;
+        return a->distance_m != b->distance_m ? a->distance_m < b->distance_m : key(*a) < key(*b);
+    });
+    for (WantedPage* page : open) {
+        page->number = static_cast<std::uint32_t>(plan.page_indices.size());
+        plan.page_indices.push_back(page->record.summary.index);
+    }
+    for (const WantedPage* page : missing) plan.missing.push_back(page->record.summary.index);
+    plan.pages_beyond_frustum = beyond_frustum_;
+    plan.pages_beyond_horizon = beyond_horizon_;
+}
+
+std::uint32_t PageChoice::number_of(const PageIndex& index) const {
+    if (index.level >= pages_.levels()) return gpu::no_page;
+    const auto found = level(index.level).find({index.row, index.column});
+    return found == level(index.level).end() ? gpu::no_page : found->second.number;
+}
+
+void PageChoice::set_neighbours(const PageIndex& index, gpu::FramePage& frame) const {
+    constexpr int side = static_cast<int>(gpu::meshlets_per_side);
+    frame.quarter = static_cast<gpu::uint>(2 * (index.row % 2) + index.column % 2);
+    frame.parent = number_of({index.row / 2, index.column / 2, index.level + 1});
+    std::array<bool, 4> there{};
+    const std::array<PageIndex, 4> beside = beside_parents(index, there);
+    for (std::size_t i = 0; i < 4; ++i) frame.beside[i] = there[i] ? number_of(beside[i]) : gpu::no_page;
+    for (int i = 0; i < 4; ++i) {
+        const PageIndex child{2 * index.row + i / 2, 2 * index.column + i % 2, index.level - 1};
+        frame.children[i] = index.level == 0 ? gpu::no_page : number_of(child);
+    }
+    frame.last_column = frame.west_column = gpu::meshlets_per_side - 1;
+    if (!pages_.goes_round()) return;
+    const int nodes = level_grid(pages_.facts().grid, index.level).column.nodes();
+    frame.last_column = static_cast<gpu::uint>(std::min(side - 1, nodes - 1 - index.column * side));
+    if (index.column == 0) frame.west_column = static_cast<gpu::uint>((nodes - 1) / 2 % side);
+}
+
+gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
+    const PageSummary& summary = page.record.summary;
+    const glm::dmat3 view_from_page = view_from_ecef_ * summary.ecef_from_page;
+    const glm::dvec3 origin_view = model_.origin_m(summary);
+    const ViewSphere seen = model_.seen(summary, summary.centre_m, summary.radius_m);
+    gpu::FramePage frame{};
+    frame.view_from_page = gpu::mat3(view_from_page);
+    frame.origin_view = gpu::vec3(origin_view);
+    bool inside_all = true;
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+        const glm::dvec3 normal(planes_[i]);
+        const Plane for_nodes = model_.plane_for_nodes(planes_[i], summary);
+        frame.planes[i] = gpu::vec4(gpu::vec3(glm::transpose(view_from_page) * normal),
+                                    static_cast<float>(glm::dot(normal, origin_view) + for_nodes.w));
+        inside_all = inside_all && glm::dot(normal, seen.centre_m) + planes_[i].w > seen.radius_m;
+    }
+    frame.horizon_direction = gpu::vec3(horizon_.eye.direction - summary.horizon.direction);
+    frame.cull = (inside_all ? 0U : gpu::cull_by_frustum) |
+                 (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
+    if (!model_.culls_nodes()) frame.cull = 0;
+    frame.block = {static_cast<gpu::uint>(page.address), static_cast<gpu::uint>(page.address >> 32U)};
+    frame.level = static_cast<gpu::uint>(summary.index.level);
+    frame.stand_in = page.stand_in;
+    set_neighbours(summary.index, frame);
+    return frame;
+}
+
+void PageChoice::list_pages(FrameTables& tables, FramePlan& plan) const {
+    for (const PageIndex& index : plan.page_indices) {
+        gpu::FramePage frame = frame_page(level(index.level).at({index.row, index.column}));
+        tables.place(index, frame);
+        plan.pages.push_back(frame);
+    }
+}
+
+}  // namespace
+
+Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residency, const Camera& camera,
+                             const Tile& tile, double tau_px, const WorldModel& model,
+                             const HeightQuantization& coding) {
+    const ModelView model_view(camera, model, coding);
+    PageChoice choice(pages, residency, camera, tile, tau_px, model_view);
+    ORO_CHECK(choice.choose());
+    FramePlan plan;
+    choice.number_pages(plan);
+    if (plan.page_indices.size() > gpu::pages_max)
+        return Error{ErrorKind::failed, "frame",
+                     std::to_string(plan.page_indices.size()) + " pages of terrain in one frame, at most " +
+                         std::to_string(gpu::pages_max) + " can be drawn (a larger --tau needs fewer)"};
+    FrameTables tables(pages.facts().grid, camera.eye, model.earth);
+    choice.list_pages(tables, plan);
+    plan.row_terms = tables.take_rows();
+    plan.column_terms = tables.take_columns();
+    plan.constants = frame_constants(pages, camera, tile, tau_px, model, coding);
+    plan.constants.page_count = static_cast<gpu::uint>(plan.pages.size());
+    return plan;
+}
+
+}  // namespace oro

@@ -1,0 +1,47 @@
+// What a frame draws: the pages that can be seen from an eye at the detail that tau asks for, with all that
+// places them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/earth/camera.h"
+#include "core/earth/world_model.h"
+#include "core/frame/region_pages.h"
+#include "core/terrain/height_quantization.h"
+#include "shaders/shared.h"
+
+namespace oro {
+
+// One frame of one tile, ready for the GPU but for the addresses of its buffers and the style.
+struct FramePlan {
+    gpu::FrameConstants constants{};
+    std::vector<gpu::FramePage> pages;  // nearest first; parents of drawn pages, too
+    std::vector<PageIndex> page_indices;
+    std::vector<gpu::RowTerms> row_terms;        // 129 for each row of pages of a level
+    std::vector<gpu::ColumnTerms> column_terms;  // 129 for each column of pages of a level
+    // Pages that the frame should have and has not, most wanted first. Where there are any, coarser ones
+    // stand in; the picture still has no cracks.
+    std::vector<PageIndex> missing;
+    std::size_t
+        pages_wanted{};  // those of `pages` and `missing`, and those that wait for a missing neighbour
+    std::size_t pages_beyond_frustum{};
+    std::size_t pages_beyond_horizon{};
+};
+
+// Device address of a page's block, 0 where it is not on the GPU.
+using Residency = std::function<std::uint64_t(const PageIndex& page)>;
+
+// Chooses the pages of a frame, from the top down: of those that can be seen (conservative: none that can is
+// left out) each whose parent is not good enough for tau_px pixels everywhere, or has its posts too far apart
+// to shade slopes from (gpu::shading_spacing_px). Between neighbours that are there the levels differ by at
+// most one, whatever is missing. model: what of the world is drawn; on another Earth than WGS84 tau_px is
+// kept as well as that Earth agrees with it. coding: of the heights on the GPU. Errors: a page's record that
+// cannot be read; more pages than triangle ids can number.
+Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residency, const Camera& camera,
+                             const Tile& tile, double tau_px, const WorldModel& model = {},
+                             const HeightQuantization& coding = {});
+
+}  // namespace oro

@@ -1,0 +1,183 @@
+#include "core/frame/frame_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/earth/model_view.h"
+#include "core/frame/culling.h"
+#include "core/lod/levels.h"
+#include "core/terrain/drawn_heights.h"
+
+namespace oro {
+namespace {
+
+constexpr int posts = static_cast<int>(gpu::page_posts);
+constexpr int quads = static_cast<int>(gpu::page_quads);
+
+gpu::UndulationTable undulation_table(const PostGrid& grid, const UndulationField& field) {
+    gpu::UndulationTable table{};
+    if (field.N_m.empty()) return table;
+    table.rows = static_cast<gpu::uint>(field.lat.count);
+    table.columns = static_cast<gpu::uint>(field.lon.count);
+    const double row = field.lat.index_at(grid.lat.at_deg(0));
+    double column = field.lon.index_at(grid.lon.at_deg(0));
+    const double turn = 360.0 * field.lon.posts_per_deg;
+    // In the whole turn that holds the region.
+    const double middle = 0.5 * (field.lon.count - 1);
+    const double across = 0.5 * (grid.columns() - 1) * grid.lon.spacing_deg() * field.lon.posts_per_deg;
+    column -= turn * std::round((column + across - middle) / turn);
+    table.first = gpu::vec2(row, column);
+    table.per_post = gpu::vec2(grid.lat.spacing_deg() * field.lat.posts_per_deg,
+                               grid.lon.spacing_deg() * field.lon.posts_per_deg);
+    return table;
+}
+
+}  // namespace
+
+double reference_height_m(const Geodetic& eye) {
+    return std::round(std::clamp(eye.h_m, -524000.0, 524000.0));
+}
+
+FrameTables::FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth)
+    : grid_(grid), eye_(eye), earth_(earth), reference_m_(reference_height_m(eye)) {
+    const SineCosine lat = sine_cosine_deg(eye.lat_deg);
+    const double normal_m = earth == Earth::sphere ? mean_radius_m : prime_vertical_radius_m(eye.lat_deg);
+    const double e2 = earth == Earth::sphere ? 0.0 : wgs84_e2;
+    rho_m_ = (normal_m + eye.h_m) * lat.cosine;
+    z_m_ = (normal_m * (1.0 - e2) + eye.h_m) * lat.sine;
+}
+
+// On the ellipsoid or the sphere.
+gpu::RowTerms FrameTables::round_row(double lat_deg) const {
+    const SineCosine lat = sine_cosine_deg(lat_deg);
+    const bool sphere = earth_ == Earth::sphere;
+    const double normal_m = sphere ? mean_radius_m : prime_vertical_radius_m(lat_deg);
+    const double P = (normal_m + reference_m_) * lat.cosine;
+    const double Z = (normal_m * (1.0 - (sphere ? 0.0 : wgs84_e2)) + reference_m_) * lat.sine - z_m_;
+    const auto cosine = static_cast<float>(lat.cosine);
+    return {static_cast<float>(P - rho_m_),
+            cosine,
+            static_cast<float>(lat.sine),
+            static_cast<float>(P),
+            static_cast<float>(Z),
+            cosine,
+            cosine};
+}
+
+// On the plane: its up and north turned into the eye's meridian frame, and with Q = 0 all columns as far
+// apart.
+gpu::RowTerms FrameTables::flat_row(double lat_deg) const {
+    const SineCosine at_eye = sine_cosine_deg(eye_.lat_deg);
+    const double north_m = meridian_radius_m(eye_.lat_deg) * radians_from_deg(lat_deg - eye_.lat_deg).rad;
+    const double up_m = reference_m_ - eye_.h_m;
+    return {static_cast<float>(at_eye.cosine * up_m - at_eye.sine * north_m),
+            static_cast<float>(at_eye.cosine),
+            static_cast<float>(at_eye.sine),
+            static_cast<float>(prime_vertical_radius_m(eye_.lat_deg) * at_eye.cosine),
+            static_cast<float>(at_eye.sine * up_m + at_eye.cosine * north_m),
+            0.0F,
+            static_cast<float>(sine_cosine_deg(lat_deg).cosine)};
+}
+
+void FrameTables::add_row(std::int64_t row) {
+    const double lat_deg = row_lat_deg(grid_, row);
+    rows_.push_back(earth_ == Earth::flat ? flat_row(lat_deg) : round_row(lat_deg));
+}
+
+void FrameTables::add_column(std::int64_t column) {
+    // Round the Earth the last column is the first.
+    const bool twin = column == grid_.columns() - 1 && grid_.goes_round();
+    const double turn_deg = std::remainder(grid_.lon.at_deg(twin ? 0 : column) - eye_.lon_deg, 360.0);
+    if (earth_ == Earth::flat) {
+        columns_.push_back({0.0F, static_cast<float>(radians_from_deg(turn_deg).rad)});
+        return;
+    }
+    const double half_sine = sine_cosine_deg(0.5 * turn_deg).sine;
+    columns_.push_back({static_cast<float>(2.0 * half_sine * half_sine),
+                        static_cast<float>(sine_cosine_deg(turn_deg).sine)});
+}
+
+void FrameTables::place(const PageIndex& index, gpu::FramePage& page) {
+    const LevelGrid level = level_grid(grid_, index.level);
+    page.first_row = static_cast<gpu::uint>(std::int64_t{index.row} * quads << index.level);
+    page.first_column = static_cast<gpu::uint>(std::int64_t{index.column} * quads << index.level);
+    const auto [row, new_row] = row_places_.try_emplace({index.level, index.row}, rows_.size());
+    for (int i = 0; new_row && i < posts; ++i) add_row(post_beyond(level.row, index.row * quads + i));
+    const auto [column, new_column] =
+        column_places_.try_emplace({index.level, index.column}, columns_.size());
+    for (int i = 0; new_column && i < posts; ++i)
+        add_column(post_beyond(level.column, index.column * quads + i));
+    page.row_terms = row->second;
+    page.column_terms = column->second;
+}
+
+namespace {
+
+// Radius of curvature at the eye of the sphere that the bare Earth is drawn as; sight lines that bend make it
+// larger.
+double seen_earth_radius_m(const WorldModel& model, const Geodetic& eye) {
+    if (model.earth == Earth::flat) return 1e12;
+    const double radius_m =
+        model.earth == Earth::sphere
+            ? mean_radius_m
+            : std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg));
+    return radius_m / (1.0 - Refraction(eye, model.refraction_k).curvature_per_m() * radius_m);
+}
+
+// What place.glsl needs to place posts by other than the frame's tables alone.
+void set_model(const WorldModel& model, const Camera& camera, gpu::FrameConstants& constants) {
+    constants.refraction_per_m =
+        static_cast<float>(Refraction(camera.eye, model.refraction_k).curvature_per_m());
+    constants.placing = static_cast<gpu::uint>(model.precision);
+    const glm::dmat3 view_from_ecef = camera.view_from_ecef();
+    const glm::dvec3 eye = model_eye_ecef(model.earth, camera.eye).m;
+    const SineCosine lon = sine_cosine_deg(camera.eye.lon_deg);
+    constants.view_from_ecef = gpu::mat3(view_from_ecef);
+    constants.view_translation = gpu::vec3(-(view_from_ecef * eye));
+    constants.eye_high = gpu::vec3(eye);
+    constants.eye_low = gpu::vec3(eye - glm::dvec3(constants.eye_high));
+    constants.eye_meridian = gpu::vec2(lon.cosine, lon.sine);
+}
+
+}  // namespace
+
+gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& camera, const Tile& tile,
+                                    double tau_px, const WorldModel& model,
+                                    const HeightQuantization& coding) {
+    const RegionFacts& region = pages.facts();
+    const Projection projection = projection_of_tile(camera, tile);
+    const SeenHorizon horizon = ModelView(camera, model, coding).horizon(region.shape.occluder);
+    const LevelView view = level_view(camera, tau_px);
+    const glm::dmat3 view_from_ecef = camera.view_from_ecef();
+    const SineCosine lon = sine_cosine_deg(camera.eye.lon_deg);
+    gpu::FrameConstants constants{};
+    constants.view_from_eye = gpu::mat3(
+        view_from_ecef * glm::dmat3(lon.cosine, lon.sine, 0.0, -lon.sine, lon.cosine, 0.0, 0.0, 0.0, 1.0));
+    constants.reference_steps = height_steps(reference_height_m(camera.eye));
+    constants.projection_scale = gpu::vec2(projection.scale);
+    constants.projection_shift = gpu::vec2(projection.shift);
+    constants.near_m = static_cast<float>(projection.near_m);
+    constants.horizon_angle_rad = static_cast<float>(horizon.eye.angle_rad);
+    constants.horizon_stretch = static_cast<float>(horizon.stretch);
+    const glm::dvec3 up = ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg)[2];
+    constants.up_view = gpu::vec3(view_from_ecef * up);
+    constants.eye_h_m = static_cast<float>(camera.eye.h_m);
+    constants.earth_radius_m = static_cast<float>(seen_earth_radius_m(model, camera.eye));
+    set_model(model, camera, constants);
+    constants.height_bits = coding.sixteen ? 16U : 32U;
+    constants.height_shift = static_cast<gpu::uint>(coding.shift);
+    constants.height_offset = coding.offset_steps;
+    constants.width_px = static_cast<gpu::uint>(tile.width_px);
+    constants.height_px = static_cast<gpu::uint>(tile.height_px);
+    constants.pixels_per_tangent = view.pixels_per_tangent;
+    constants.corner_tangent = view.corner_tangent;
+    constants.tau_px = view.tau_px;
+    constants.exaggeration = static_cast<float>(region.shape.exaggeration);
+    constants.last_row = static_cast<gpu::uint>(region.grid.rows() - 1);
+    constants.last_column = static_cast<gpu::uint>(region.grid.columns() - 1);
+    constants.sample_count = 1;
+    constants.undulation = undulation_table(region.grid, region.undulation);
+    return constants;
+}
+
+}  // namespace oro

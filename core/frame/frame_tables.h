@@ -1,0 +1,58 @@
+// What places a frame's posts: tables of its rows and columns relative to the eye, and the constants of the
+// frame.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/earth/camera.h"
+#include "core/earth/world_model.h"
+#include "core/frame/region_pages.h"
+#include "core/terrain/height_quantization.h"
+#include "shaders/shared.h"
+
+namespace oro {
+
+// The terms of shaders/shared.h's RowTerms and ColumnTerms for the pages of a frame. Each depends on the
+// post's own angle and the eye alone, so that all pages that share a row or a column hold the same bits.
+class FrameTables {
+  public:
+    // The eye's longitude may be in any whole turn; its height anything from the Earth's centre to the Moon.
+    FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth = Earth::ellipsoid);
+
+    // Makes sure that a page's rows and columns are there, and tells the page where, and where it lies.
+    void place(const PageIndex& index, gpu::FramePage& page);
+
+    std::vector<gpu::RowTerms> take_rows() { return std::move(rows_); }
+    std::vector<gpu::ColumnTerms> take_columns() { return std::move(columns_); }
+
+  private:
+    void add_row(std::int64_t row);
+    void add_column(std::int64_t column);
+    [[nodiscard]] gpu::RowTerms round_row(double lat_deg) const;
+    [[nodiscard]] gpu::RowTerms flat_row(double lat_deg) const;
+
+    const PostGrid& grid_;
+    Geodetic eye_;
+    Earth earth_;
+    double reference_m_;
+    double rho_m_;
+    double z_m_;
+    std::vector<gpu::RowTerms> rows_;
+    std::vector<gpu::ColumnTerms> columns_;
+    std::map<std::pair<int, int>, std::uint32_t> row_places_;  // of (level, row of pages)
+    std::map<std::pair<int, int>, std::uint32_t> column_places_;
+};
+
+// The whole metres that a frame's heights are relative to: the eye's own, but no farther from the ellipsoid
+// than 524,000 m.
+double reference_height_m(const Geodetic& eye);
+
+// All of a frame's constants that do not depend on buffers and style. coding: of the heights on the GPU.
+gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& camera, const Tile& tile,
+                                    double tau_px, const WorldModel& model = {},
+                                    const HeightQuantization& coding = {});
+
+}  // namespace oro

@@ -1,0 +1,66 @@
+#include "core/frame/region_pages.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace oro {
+namespace {
+
+class PagesInMemory : public RegionPages {
+  public:
+    PagesInMemory(RegionFacts facts, LevelPyramid pyramid, DrawnHeights heights)
+        : RegionPages(std::move(facts)), pyramid_(std::move(pyramid)), heights_(std::move(heights)) {}
+
+    [[nodiscard]] Result<PageRecord> record(const PageIndex& page) const override {
+        return PageRecord(at(page));
+    }
+
+    Result<void> load(const PageIndex& page, gpu::PageBlock& block) const override {
+        const PyramidPage& built = at(page);
+        const PageHeights heights = page_heights(facts().grid, heights_, page);
+        std::copy(built.nodes.begin(), built.nodes.end(), std::begin(block.meshlets));
+        std::copy(heights.steps.begin(), heights.steps.end(), std::begin(block.heights));
+        set_spacing(facts().grid, built.summary.origin, block);
+        return {};
+    }
+
+  private:
+    [[nodiscard]] const PyramidPage& at(const PageIndex& page) const {
+        return pyramid_.levels[static_cast<std::size_t>(page.level)].page(page.row, page.column);
+    }
+
+    LevelPyramid pyramid_;
+    DrawnHeights heights_;
+};
+
+}  // namespace
+
+RegionPages::RegionPages(RegionFacts facts)
+    : facts_(std::move(facts)), levels_(level_count(facts_.grid)), goes_round_(facts_.grid.goes_round()) {}
+
+std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,
+                                             const std::function<void(double share)>& progress,
+                                             const std::stop_token& stop) {
+    RegionFacts facts{field.grid, field.undulation, region_shape(field, exaggeration), 0};
+    DrawnHeights heights = drawn_heights(field, exaggeration, threads);
+    std::uint64_t all = 0;
+    for (int level = 0; level < level_count(field.grid); ++level) {
+        all += level_grid(field.grid, level).pages().count();
+    }
+    std::uint64_t done = 0;
+    PyramidHooks hooks;
+    hooks.sink = [&](int, const PyramidPage& page, const gpu::PageBlock&,
+                     const StitchedErrors&) -> Result<void> {
+        if (stop.stop_requested()) return Error{ErrorKind::failed, "levels", "nobody wants them any more"};
+        if (page.summary.index.level == 0) facts.triangles += page.summary.triangles;
+        ++done;
+        if (progress) progress(static_cast<double>(done) / static_cast<double>(all));
+        return {};
+    };
+    Result<LevelPyramid> pyramid = build_pyramid_with(field.grid, facts.shape, heights, threads, hooks);
+    if (!pyramid.ok()) return nullptr;
+    return std::make_unique<PagesInMemory>(std::move(facts), std::move(pyramid).value(), std::move(heights));
+}
+
+}  // namespace oro

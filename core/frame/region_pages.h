@@ -1,0 +1,58 @@
+// The pages of a region, wherever they come from: what is known of each, and the block that the GPU gets of
+// it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+
+#include "core/base/result.h"
+#include "core/lod/pyramid.h"
+#include "core/terrain/page.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+// What holds for a region as a whole.
+struct RegionFacts {
+    PostGrid grid;
+    UndulationField undulation;
+    RegionShape shape;
+    std::uint64_t triangles{};  // at full resolution
+};
+
+// Pages of all levels of a region; safe to ask from several threads.
+class RegionPages {
+  public:
+    explicit RegionPages(RegionFacts facts);
+    virtual ~RegionPages() = default;
+    RegionPages(const RegionPages&) = delete;
+    RegionPages& operator=(const RegionPages&) = delete;
+
+    [[nodiscard]] const RegionFacts& facts() const { return facts_; }
+    [[nodiscard]] int levels() const { return levels_; }
+    [[nodiscard]] bool goes_round() const { return goes_round_; }
+    // Pages of a level, drawn or not.
+    [[nodiscard]] PageLayout layout(int level) const { return level_grid(facts_.grid, level).pages(); }
+
+    // What the choice of pages needs; cheap. The page is one of the layout. Errors: a file that cannot be
+    // read.
+    [[nodiscard]] virtual Result<PageRecord> record(const PageIndex& page) const = 0;
+    // Fills the page's block. Errors: as record().
+    virtual Result<void> load(const PageIndex& page, gpu::PageBlock& block) const = 0;
+
+  private:
+    RegionFacts facts_;
+    int levels_;
+    bool goes_round_;
+};
+
+// Builds all levels of a field with up to `threads` threads (core/lod/pyramid.h) and keeps what load() needs
+// of them: 12 KB a page and 4 bytes a post. The field is not needed afterwards. progress is told shares of
+// the whole from the caller's thread. stop: nothing is given once it is asked for (within some 0.1 s).
+std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,
+                                             const std::function<void(double share)>& progress = {},
+                                             const std::stop_token& stop = {});
+
+}  // namespace oro

@@ -1,0 +1,239 @@
+#include "core/lod/node_errors.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "core/earth/ellipsoid.h"
+#include "core/earth/extremes.h"
+#include "core/lod/levels_gpu.h"
+
+namespace oro {
+namespace {
+
+constexpr int node_quads = static_cast<int>(gpu::meshlet_quads);
+// Posts are placed in float32 to within this share of their page's size (measured: 1 mm on 12 km).
+constexpr double placement_share = 1.0e-7;
+// Above the rounding of the interpolations here.
+constexpr double rounding_m = 1.0e-8;
+
+}  // namespace
+
+NodeErrors::NodeErrors(const PostGrid& grid, const DrawnHeights& heights, int level)
+    : grid_(grid),
+      heights_(heights),
+      level_(level_grid(grid, level)),
+      goes_round_(grid.goes_round()),
+      highest_m_(std::max(0.0, heights.highest_steps * height_step_m)),
+      whole_node_(stitched_triangles(node_quads, node_quads,
+                                     gpu::edge_north | gpu::edge_east | gpu::edge_south | gpu::edge_west)) {
+    assert(heights.rows == grid.rows() && heights.columns == grid.columns());
+    for (int i = 0; i < level_.row.nodes(); ++i) {
+        const double north_deg = grid.lat.at_deg(level_.row.region_post(i * node_quads));
+        const double south_deg =
+            grid.lat.at_deg(level_.row.region_post(std::min((i + 1) * node_quads, level_.row.quads)));
+        const double outer_deg = std::min(90.0, std::max(std::abs(north_deg), std::abs(south_deg)));
+        const double inner_deg =
+            north_deg >= 0.0 && south_deg <= 0.0 ? 0.0 : std::min(std::abs(north_deg), std::abs(south_deg));
+        const double cosine = sine_cosine_deg(inner_deg).cosine;
+        curvature_.push_back({1.0001 * (meridian_radius_m(outer_deg) + highest_m_),
+                              (prime_vertical_radius_m(outer_deg) + highest_m_) * cosine,
+                              sine_cosine_deg(outer_deg).sine, cosine});
+    }
+}
+
+std::uint32_t NodeErrors::edges(int node_row, int node_column) const {
+    const bool first_column = node_column == 0;
+    const bool last_column = node_column == level_.column.nodes() - 1;
+    return (node_row > 0 ? gpu::edge_north : 0U) |
+           (node_row < level_.row.nodes() - 1 ? gpu::edge_south : 0U) |
+           (!first_column || goes_round_ ? gpu::edge_west : 0U) |
+           (!last_column || goes_round_ ? gpu::edge_east : 0U);
+}
+
+// A quad narrower than high (or lower than wide), where the region ends: its diagonal crosses cells of the
+// full resolution. Both triangles' planes are asked at the posts of those cells: never less than the error.
+double NodeErrors::narrow_quad_error(int north, int west, int south, int east) const {
+    const double height = south - north;
+    const double width = east - west;
+    const double nw = heights_.at(north, west);
+    const double ne = heights_.at(north, east) - nw;
+    const double sw = heights_.at(south, west) - nw;
+    const double se = heights_.at(south, east) - nw;
+    Extremes extremes;
+    for (int row = north; row <= south; ++row) {
+        for (int column = west; column <= east; ++column) {
+            const double u = (row - north) / height;
+            const double v = (column - west) / width;
+            const double h = heights_.at(row, column) - nw;
+            const double side = (u - v) * height * width;
+            if (side > -(height + width)) extremes.add(h - (u * sw + v * (se - sw)));
+            if (side < height + width) extremes.add(h - (v * ne + u * (se - ne)));
+        }
+    }
+    return extremes.magnitude();
+}
+
+// Which part of a quad with void posts the full-resolution surface and the quad's triangles cover.
+NodeErrors::Quad NodeErrors::quad_with_voids(int north, int west, int south, int east) const {
+    const auto there = [&](int row, int column) { return heights_.at(row, column) != void_height_steps; };
+    std::array<std::int64_t, 2> drawn{};  // cells' triangles on either side of the diagonal
+    for (int row = north; row < south; ++row) {
+        for (int column = west; column < east; ++column) {
+            if (!there(row, column) || !there(row + 1, column + 1)) continue;
+            for (const int side : {0, 1}) {
+                if (!there(row + 1 - side, column + side)) continue;
+                const int off = (row - north) - (column - west);
+                ++drawn[off > 0 || (off == 0 && side == 0) ? 0 : 1];
+            }
+        }
+    }
+    const bool diagonal = there(north, west) && there(south, east);
+    const std::array present{diagonal && there(south, west), diagonal && there(north, east)};
+    if (drawn[0] + drawn[1] == 0 && !present[0] && !present[1]) return {Cover::empty, 0.0};
+    if (south - north != east - west) return {Cover::unequal, unfit_m};
+    const std::int64_t whole = static_cast<std::int64_t>(south - north) * (south - north);
+    double error = 0.0;
+    for (const std::size_t side : {0U, 1U}) {
+        if (drawn[side] != (present[side] ? whole : 0)) return {Cover::unequal, unfit_m};
+        const Post third = side == 0 ? Post{south, west} : Post{north, east};
+        if (present[side])
+            error = std::max(error, triangle_error({Post{north, west}, third, Post{south, east}}));
+    }
+    return {std::isinf(error) ? Cover::unequal : Cover::equal, error};
+}
+
+// Largest difference over one quad of the level, row and column counted over the level, in steps.
+NodeErrors::Quad NodeErrors::quad_error(int row, int column) const {
+    const int north = level_.row.region_post(row), south = level_.row.region_post(row + 1);
+    const int west = level_.column.region_post(column), east = level_.column.region_post(column + 1);
+    bool any_void = false;
+    for (const int r : {north, south}) {
+        for (const int c : {west, east}) any_void = any_void || heights_.at(r, c) == void_height_steps;
+    }
+    const bool square = south - north == east - west;
+    const double nw = heights_.at(north, west);
+    const double share = 1.0 / (south - north);
+    const double down_west = share * (heights_.at(south, west) - nw);
+    const double right_south =
+        share * (static_cast<double>(heights_.at(south, east)) - heights_.at(south, west));
+    const double right_north = share * (heights_.at(north, east) - nw);
+    const double down_east =
+        share * (static_cast<double>(heights_.at(south, east)) - heights_.at(north, east));
+    Extremes south_west;
+    Extremes north_east;
+    for (int i = 0; i <= south - north && !any_void; ++i) {
+        const std::int32_t* steps = heights_.row(north + i) + west;
+        const int diagonal = square ? i : -1;
+        std::int32_t lowest = 0;
+        for (int j = 0; j <= diagonal; ++j) {
+            lowest = std::min(lowest, steps[j]);
+            south_west.add(steps[j] - (nw + i * down_west + j * right_south));
+        }
+        for (int j = diagonal + 1; j <= east - west; ++j) {
+            lowest = std::min(lowest, steps[j]);
+            north_east.add(steps[j] - (nw + j * right_north + i * down_east));
+        }
+        any_void = lowest == void_height_steps;
+    }
+    if (any_void) return quad_with_voids(north, west, south, east);
+    if (!square) return {Cover::full, narrow_quad_error(north, west, south, east)};
+    return {Cover::full, std::max(south_west.magnitude(), north_east.magnitude())};
+}
+
+NodeError NodeErrors::height_error(int node_row, int node_column) const {
+    const int rows = level_.row.quads_of_node(node_row);
+    const int columns = level_.column.quads_of_node(node_column);
+    std::array<Cover, 64> covers{};
+    bool all_full = true;
+    bool all_empty = true;
+    double own_steps = 0.0;
+    // Level 0 is the full resolution: all there is to ask is what voids leave of it.
+    const bool as_it_is = level_.level() == 0 && !post_range(node_row, node_column).any_void;
+    if (as_it_is) all_empty = false;
+    for (int i = 0; i < rows && !as_it_is; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            const Quad quad = quad_error(node_row * node_quads + i, node_column * node_quads + j);
+            covers[static_cast<std::size_t>(i * node_quads + j)] = quad.cover;
+            all_full = all_full && quad.cover == Cover::full;
+            all_empty = all_empty && quad.cover == Cover::empty;
+            own_steps = std::max(own_steps, quad.error_steps);
+        }
+    }
+    NodeError error;
+    error.empty = all_empty;
+    if (all_empty) return error;
+    error.own_m = own_steps * height_step_m;
+    const std::uint32_t around = edges(node_row, node_column);
+    const bool simple = as_it_is && rows == node_quads && columns == node_quads;
+    const PerEdge steps =
+        simple ? finest_stitched_error(node_row, node_column) : stitched_error(node_row, node_column, around);
+    const std::uint32_t unfit = all_full ? 0U : unfit_edges(covers, rows, columns);
+    for (std::size_t i = 0; i < 4; ++i) {
+        if ((around >> i & 1U) != 0)
+            error.stitched_m[i] = (unfit >> i & 1U) != 0 ? unfit_m : steps[i] * height_step_m;
+    }
+    return error;
+}
+
+// Range of the node's own posts.
+NodeErrors::PostRange NodeErrors::post_range(int node_row, int node_column) const {
+    PostRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), false};
+    for (int i = 0; i <= level_.row.quads_of_node(node_row); ++i) {
+        const std::int32_t* steps = heights_.row(level_.row.region_post(node_row * node_quads + i));
+        for (int j = 0; j <= level_.column.quads_of_node(node_column); ++j) {
+            const std::int32_t h = steps[level_.column.region_post(node_column * node_quads + j)];
+            range.any_void = range.any_void || h == void_height_steps;
+            if (h == void_height_steps) continue;
+            range.lowest = std::min<double>(range.lowest, h);
+            range.highest = std::max<double>(range.highest, h);
+        }
+    }
+    return range;
+}
+
+// How far a flat triangle lies from the curved one that is linear in (row, column, height): half the second
+// derivative of the position along the offsets to its corners, by Taylor's theorem. With e, t, n the
+// directions east, north and up, position'' = -(M+h) dlat^2 n + M' dlat^2 t - r dlon^2 (cos(lat) n - sin(lat)
+// t) - 2 (M+h) sin(lat) dlat dlon e + 2 dh (dlat t + cos(lat) dlon e), r = (N+h) cos(lat); and the mean
+// square of offsets within a range is at most a quarter of its square. M' is below 0.0102 M and at right
+// angles to the first term. A stitched triangle is up to two quads long along one axis.
+NodeErrors::Sag NodeErrors::sag(int node_row, double dh_m, double finest_dh_m) const {
+    const Curvature& at = curvature_[static_cast<std::size_t>(node_row)];
+    const auto bound_m = [&](double dlat, double dlon, double dh) {
+        return 0.125 * (at.M_m * dlat * dlat + at.r_m * dlon * dlon + 2.0 * at.M_m * at.sine * dlat * dlon +
+                        2.0 * dh * (dlat + at.cosine * dlon));
+    };
+    const double finest_lat = radians_from_deg(grid_.lat.spacing_deg()).rad;
+    const double finest_lon = radians_from_deg(grid_.lon.spacing_deg()).rad;
+    const double dlat = std::ldexp(finest_lat, level_.level());
+    const double dlon = std::ldexp(finest_lon, level_.level());
+    return {bound_m(dlat, dlon, dh_m),
+            std::max(bound_m(2.0 * dlat, dlon, dh_m), bound_m(dlat, 2.0 * dlon, dh_m)),
+            bound_m(finest_lat, finest_lon, finest_dh_m),
+            placement_share * gpu::page_quads * (at.M_m * dlat + at.r_m * dlon)};
+}
+
+NodeError NodeErrors::error(int node_row, int node_column) const {
+    NodeError error = height_error(node_row, node_column);
+    if (error.empty) return error;
+    const bool finest = level_.level() == 0;
+    // The full resolution's heights differ from the node's by the error, at either end of an edge.
+    const PostRange range = post_range(node_row, node_column);
+    const double dh_m = (range.highest - range.lowest) * height_step_m;
+    const Sag sag_m = sag(node_row, dh_m, std::isinf(error.own_m) ? dh_m : dh_m + 2.0 * error.own_m);
+    // Where the region ends, the diagonals of narrow quads cross cells of the full resolution, as stitched
+    // edges do.
+    const bool narrow = node_row == level_.row.nodes() - 1 || node_column == level_.column.nodes() - 1;
+    const double rest_m = rounding_m + (finest ? 0.0 : sag_m.placement_m);
+    error.own_m =
+        finest ? 0.0 : error.own_m + rest_m + (narrow ? sag_m.stitched_m + sag_m.finest_m : sag_m.own_m);
+    const std::uint32_t around = edges(node_row, node_column);
+    for (std::size_t i = 0; i < 4; ++i) {
+        if ((around >> i & 1U) != 0) error.stitched_m[i] += sag_m.stitched_m + sag_m.finest_m + rest_m;
+    }
+    return error;
+}
+
+}  // namespace oro

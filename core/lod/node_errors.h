@@ -1,0 +1,104 @@
+// How far a node's triangles lie from the region's full-resolution surface: exact maxima, no estimates.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "core/terrain/level_grid.h"
+#include "core/terrain/page.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+// Edges of a node by number: north, east, south, west; edge i is bit i of shaders/choose/levels.glsl.
+using PerEdge = std::array<double, 4>;
+
+// Largest difference, metres, between a node's triangles and the full-resolution surface. Infinite where the
+// node's triangles do not cover the same area, because of voids.
+struct NodeError {
+    double own_m{};        // of the node as it is
+    PerEdge stitched_m{};  // of the triangles that are there when that edge is stitched to a coarser
+                           // neighbour, whatever the other edges are; 0 for an edge without a neighbour. (A
+                           // triangle that needs two stitched edges counts for one of them.)
+    bool empty{};          // no triangle, neither the node's nor of the full resolution
+};
+inline constexpr double unfit_m = std::numeric_limits<double>::infinity();
+
+// The errors of one level's nodes. Reads `heights` where it is; safe to ask from several threads.
+class NodeErrors {
+  public:
+    NodeErrors(const PostGrid& grid, const DrawnHeights& heights, int level);
+
+    // In height, both surfaces linear over their triangles in (row, column): over every place, not only the
+    // posts (the corners of the difference are the posts and where the node's edges cross those of the full
+    // resolution; all are asked). Exact; never too small where the region ends within a quad.
+    [[nodiscard]] NodeError height_error(int node_row, int node_column) const;
+    // Upper bound of the distance in space between a point of the full-resolution surface (flat triangles
+    // between posts) and the point of the drawn node at the same (row, column); the rounding of the drawn
+    // posts' places included. 0 for level 0 as it is.
+    [[nodiscard]] NodeError error(int node_row, int node_column) const;
+    // Edges (shaders/choose/levels.glsl) on which a node has a neighbour. Round the Earth the last column's
+    // is the first.
+    [[nodiscard]] std::uint32_t edges(int node_row, int node_column) const;
+
+  private:
+    // One corner of a triangle, by its number in the region.
+    struct Post {
+        int row;
+        int column;
+    };
+    using Triangle = std::array<Post, 3>;
+    // Triangle of a node, by (row, column) within it, that is there only with some edges stitched.
+    struct Stitched {
+        std::uint32_t edges;
+        std::array<std::array<std::uint32_t, 2>, 3> posts;
+    };
+    enum class Cover { full, empty, equal, unequal };
+    struct Quad {
+        Cover cover;
+        double error_steps;
+    };
+    struct PostRange {
+        double lowest;
+        double highest;
+        bool any_void;
+    };
+    // Largest in a row of nodes: of M + h, (N + h) cos(lat), |sin(lat)|, cos(lat).
+    struct Curvature {
+        double M_m;
+        double r_m;
+        double sine;
+        double cosine;
+    };
+    struct Sag {
+        double own_m;
+        double stitched_m;
+        double finest_m;
+        double placement_m;
+    };
+
+    static std::vector<Stitched> stitched_triangles(std::uint32_t rows, std::uint32_t columns,
+                                                    std::uint32_t edges);
+    [[nodiscard]] double triangle_error(const Triangle& triangle) const;
+    [[nodiscard]] double crossing_error(const Post& from, const Post& to) const;
+    [[nodiscard]] Quad quad_error(int row, int column) const;
+    [[nodiscard]] Quad quad_with_voids(int north, int west, int south, int east) const;
+    [[nodiscard]] double narrow_quad_error(int north, int west, int south, int east) const;
+    [[nodiscard]] static std::uint32_t unfit_edges(const std::array<Cover, 64>& covers, int rows,
+                                                   int columns);
+    [[nodiscard]] PerEdge stitched_error(int node_row, int node_column, std::uint32_t edges) const;
+    [[nodiscard]] PerEdge finest_stitched_error(int node_row, int node_column) const;
+    [[nodiscard]] PostRange post_range(int node_row, int node_column) const;
+    [[nodiscard]] Sag sag(int node_row, double dh_m, double finest_dh_m) const;
+
+    const PostGrid& grid_;
+    const DrawnHeights& heights_;
+    LevelGrid level_;
+    bool goes_round_;
+    double highest_m_;
+    std::vector<Curvature> curvature_;  // by row of nodes
+    std::vector<Stitched> whole_node_;  // of a node of 8 x 8 quads with neighbours on all sides
+};
+
+}  // namespace oro

@@ -1,0 +1,395 @@
+#include "core/terrain/page.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace oro {
+namespace {
+
+constexpr int quads = static_cast<int>(gpu::page_quads);
+constexpr int posts = static_cast<int>(gpu::page_posts);
+constexpr int stride = static_cast<int>(gpu::height_stride);
+constexpr int meshlet_quads = static_cast<int>(gpu::meshlet_quads);
+constexpr int meshlets_per_side = static_cast<int>(gpu::meshlets_per_side);
+
+// Distance of a place from the Earth's axis.
+double cylinder_rho_m(const Geodetic& place) {
+    return (prime_vertical_radius_m(place.lat_deg) + place.h_m) * sine_cosine_deg(place.lat_deg).cosine;
+}
+
+// Where the posts of a page lie in the region.
+class PagePosts {
+  public:
+    PagePosts(const PostGrid& grid, PageIndex index)
+        : level_(level_grid(grid, index.level)),
+          first_row_(index.row * quads),
+          first_column_(index.column * quads),
+          goes_round_(grid.goes_round()) {}
+
+    // The region's post at a page's row and column, -1 .. 129; nothing outside the region. The apron goes on
+    // round the Earth.
+    [[nodiscard]] std::optional<PageIndex> region_post(int row, int column) const {
+        const int level_row = first_row_ + row;
+        int level_column = first_column_ + column;
+        const int quads_round = level_.column.quads;
+        if (goes_round_) {
+            if (level_column == -1) level_column = quads_round - 1;
+            if (level_column == quads_round + 1 && column == posts) level_column = 1;
+        }
+        if (level_row < 0 || level_row > level_.row.quads) return std::nullopt;
+        if (level_column < 0 || level_column > quads_round) return std::nullopt;
+        return PageIndex{level_.row.region_post(level_row), level_.column.region_post(level_column)};
+    }
+    [[nodiscard]] const LevelGrid& level() const { return level_; }
+    [[nodiscard]] int first_row() const { return first_row_; }  // of the level's posts
+    [[nodiscard]] int first_column() const { return first_column_; }
+
+  private:
+    LevelGrid level_;
+    int first_row_;
+    int first_column_;
+    bool goes_round_;
+};
+
+template <class Visit>
+void for_each_post(const PagePosts& page, const Visit& visit) {
+    for (int row = -1; row <= posts; ++row) {
+        for (int column = -1; column <= posts; ++column)
+            visit(static_cast<std::size_t>((row + 1) * stride + column + 1), page.region_post(row, column));
+    }
+}
+
+// A page while it is built: its posts in double, then what the block and the summary make of them.
+class Draft {
+  public:
+    Draft(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights, PageIndex index,
+          gpu::PageBlock& block)
+        : grid_(grid), shape_(shape), heights_(heights), block_(block), posts_(grid, index) {
+        summary_.index = index;
+    }
+
+    PageSummary build() {
+        measure_heights();
+        place_origin();
+        fill_block();
+        place_posts();
+        bound_meshlets();
+        bound_page();
+        return summary_;
+    }
+
+  private:
+    void measure_heights();
+    void place_origin();
+    void fill_block();
+    void place_posts();
+    void bound_meshlets();
+    void bound_page();
+    void bound_meshlet(int number);
+    int mark_triangles(int number);
+    glm::dvec3 scaled(const glm::dvec3& position_m) const;
+
+    static std::size_t at(int row, int column) { return static_cast<std::size_t>(row * posts + column); }
+    std::int32_t steps(int row, int column) const {
+        return heights_.steps[static_cast<std::size_t>((row + 1) * stride + column + 1)];
+    }
+    bool drawable(int row, int column) const { return steps(row, column) != void_height_steps; }
+
+    const PostGrid& grid_;
+    const RegionShape& shape_;
+    const PageHeights& heights_;
+    gpu::PageBlock& block_;
+    PagePosts posts_;
+    PageSummary summary_{};
+    double middle_lon_deg_{};  // of the origin, in the region's own whole turn
+    double rho0_m_{};
+    double z0_m_{};
+    std::vector<glm::dvec3> position_m_;  // page frame
+    std::vector<bool> drawn_;             // posts that belong to a triangle
+    std::array<glm::dvec3, gpu::meshlets_per_page>
+        directions_{};  // of the meshlets' horizon cones, page frame
+};
+
+void Draft::measure_heights() {
+    std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
+    std::int32_t highest = std::numeric_limits<std::int32_t>::min();
+    for (int row = 0; row < posts; ++row) {
+        for (int column = 0; column < posts; ++column) {
+            if (!drawable(row, column)) continue;
+            lowest = std::min(lowest, steps(row, column));
+            highest = std::max(highest, steps(row, column));
+        }
+    }
+    if (lowest > highest) lowest = highest = 0;
+    summary_.lowest_h_m = lowest * height_step_m;
+    summary_.highest_h_m = highest * height_step_m;
+    summary_.origin.h_m = std::round(0.5 * (summary_.lowest_h_m + summary_.highest_h_m));
+}
+
+void Draft::place_origin() {
+    // A coarse page may be far larger than what the region has of it.
+    const auto end = [&](const LevelAxis& axis, int first) {
+        return axis.level == 0 ? first + quads : axis.region_post(std::min(first + quads, axis.quads));
+    };
+    const LevelGrid& level = posts_.level();
+    const double lat_deg = 0.5 * (grid_.lat.at_deg(post_beyond(level.row, posts_.first_row())) +
+                                  grid_.lat.at_deg(end(level.row, posts_.first_row())));
+    middle_lon_deg_ = 0.5 * (grid_.lon.at_deg(post_beyond(level.column, posts_.first_column())) +
+                             grid_.lon.at_deg(end(level.column, posts_.first_column())));
+    // A coarse page may hang over a pole; its origin stays on this side.
+    summary_.origin.lat_deg = std::clamp(lat_deg, -90.0, 90.0);
+    summary_.origin.lon_deg = normalised_lon_deg(middle_lon_deg_);
+    set_page_frame(summary_);
+    rho0_m_ = cylinder_rho_m(summary_.origin);
+    z0_m_ = summary_.origin_ecef.m.z;
+}
+
+void Draft::fill_block() {
+    set_spacing(grid_, summary_.origin, block_);
+    std::copy(heights_.steps.begin(), heights_.steps.end(), std::begin(block_.heights));
+}
+
+void Draft::place_posts() {
+    position_m_.assign(static_cast<std::size_t>(posts) * posts, glm::dvec3(0.0));
+    drawn_.assign(position_m_.size(), false);
+    std::array<double, gpu::page_posts> V{};
+    std::array<double, gpu::page_posts> W{};
+    for (int j = 0; j < posts; ++j) {
+        const double turn_deg =
+            grid_.lon.at_deg(post_beyond(posts_.level().column, posts_.first_column() + j)) - middle_lon_deg_;
+        const double half_sine = sine_cosine_deg(0.5 * turn_deg).sine;
+        V[static_cast<std::size_t>(j)] = 2.0 * half_sine * half_sine;
+        W[static_cast<std::size_t>(j)] = sine_cosine_deg(turn_deg).sine;
+    }
+    for (int i = 0; i < posts; ++i) {
+        const double lat_deg = row_lat_deg(grid_, post_beyond(posts_.level().row, posts_.first_row() + i));
+        const SineCosine lat = sine_cosine_deg(lat_deg);
+        const double normal_m = prime_vertical_radius_m(lat_deg);
+        for (int j = 0; j < posts; ++j) {
+            if (!drawable(i, j)) continue;
+            const double h_m = steps(i, j) * height_step_m;
+            const double r = (normal_m + h_m) * lat.cosine;
+            position_m_[at(i, j)] = {r - rho0_m_ - r * V[static_cast<std::size_t>(j)],
+                                     r * W[static_cast<std::size_t>(j)],
+                                     (normal_m * (1.0 - wgs84_e2) + h_m) * lat.sine - z0_m_};
+        }
+    }
+}
+
+// Scaled space turned as the page's frame is (the two equatorial radii are equal, so scaling and turning
+// commute).
+glm::dvec3 Draft::scaled(const glm::dvec3& position_m) const {
+    return (position_m + glm::dvec3(rho0_m_, 0.0, z0_m_)) / shape_.occluder.radii_m;
+}
+
+// Marks the posts of a meshlet that belong to a triangle; number of triangles.
+int Draft::mark_triangles(int number) {
+    const int first_row = number / meshlets_per_side * meshlet_quads;
+    const int first_column = number % meshlets_per_side * meshlet_quads;
+    int triangles = 0;
+    for (int row = first_row; row < first_row + meshlet_quads; ++row) {
+        for (int column = first_column; column < first_column + meshlet_quads; ++column) {
+            if (!drawable(row, column) || !drawable(row + 1, column + 1)) continue;
+            for (const int side : {0, 1}) {
+                if (!drawable(row + 1 - side, column + side)) continue;
+                ++triangles;
+                drawn_[at(row, column)] = drawn_[at(row + 1, column + 1)] = true;
+                drawn_[at(row + 1 - side, column + side)] = true;
+            }
+        }
+    }
+    return triangles;
+}
+
+struct Sphere {
+    glm::vec3 centre;
+    float radius;
+};
+// Around points, with the centre already rounded to float. Slack for the rounding of the points themselves
+// when the GPU places them in float.
+Sphere sphere_around(std::span<const glm::dvec3> points) {
+    glm::dvec3 low = points[0];
+    glm::dvec3 high = points[0];
+    for (const glm::dvec3& point : points) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    const glm::vec3 centre(0.5 * (low + high));
+    double square = 0.0;
+    double size = 0.0;
+    for (const glm::dvec3& point : points) {
+        const glm::dvec3 offset = point - glm::dvec3(centre);
+        square = std::max(square, glm::dot(offset, offset));
+        size = std::max(size, glm::dot(point, point));
+    }
+    const double radius = std::sqrt(square) + 1.0e-3 + 4.0e-7 * std::sqrt(size);
+    return {centre, std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity())};
+}
+
+void Draft::bound_meshlet(int number) {
+    gpu::MeshletBounds& bounds = block_.meshlets[number];
+    bounds = {gpu::vec3(0.0F), -1.0F, gpu::vec3(0.0F), 0.0F, 0.0F, -1.0F};
+    // A post may belong to a neighbour's triangle alone: keeping it costs a little and loses nothing.
+    const int triangles = mark_triangles(number);
+    if (triangles == 0) return;
+    summary_.triangles += static_cast<std::uint32_t>(triangles);
+    ++summary_.meshlets;
+    std::array<glm::dvec3, gpu::meshlet_vertices> points;
+    std::array<glm::dvec3, gpu::meshlet_vertices> points_scaled;
+    std::size_t count = 0;
+    const int first_row = number / meshlets_per_side * meshlet_quads;
+    const int first_column = number % meshlets_per_side * meshlet_quads;
+    for (int row = first_row; row <= first_row + meshlet_quads; ++row) {
+        for (int column = first_column; column <= first_column + meshlet_quads; ++column) {
+            if (!drawn_[at(row, column)]) continue;
+            points[count] = position_m_[at(row, column)];
+            points_scaled[count] = scaled(points[count]);
+            ++count;
+        }
+    }
+    const Sphere sphere = sphere_around(std::span(points).first(count));
+    const HorizonCone cone = horizon_cone_scaled(std::span(points_scaled).first(count));
+    bounds.centre = sphere.centre;
+    bounds.radius = sphere.radius;
+    bounds.lod_radius = sphere.radius;
+    bounds.horizon_angle_rad =
+        std::nextafter(static_cast<float>(cone.angle_rad), std::numeric_limits<float>::infinity());
+    directions_[static_cast<std::size_t>(number)] = cone.direction;
+}
+
+void Draft::bound_meshlets() {
+    for (int number = 0; number < static_cast<int>(gpu::meshlets_per_page); ++number) bound_meshlet(number);
+}
+
+void Draft::bound_page() {
+    std::vector<glm::dvec3> points;
+    for (std::size_t i = 0; i < position_m_.size(); ++i) {
+        if (drawn_[i]) points.push_back(position_m_[i]);
+    }
+    if (points.empty()) return;
+    const Sphere sphere = sphere_around(points);
+    summary_.centre_m = glm::dvec3(sphere.centre);
+    summary_.radius_m = sphere.radius;
+    for (glm::dvec3& point : points) point = scaled(point);
+    const HorizonCone cone = horizon_cone_scaled(points);
+    summary_.horizon = {summary_.ecef_from_page * cone.direction, cone.angle_rad};
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+        if (block_.meshlets[i].radius < 0.0F) continue;
+        block_.meshlets[i].horizon_offset =
+            gpu::vec3(summary_.ecef_from_page * (directions_[i] - cone.direction));
+    }
+}
+
+}  // namespace
+
+std::int64_t post_beyond(const LevelAxis& axis, int post) {
+    return post <= axis.quads ? axis.region_post(post) : std::int64_t{post} << axis.level;
+}
+
+void set_spacing(const PostGrid& grid, const Geodetic& origin, gpu::PageBlock& block) {
+    block.row_spacing_m = static_cast<float>((meridian_radius_m(origin.lat_deg) + origin.h_m) *
+                                             radians_from_deg(grid.lat.spacing_deg()).rad);
+    block.column_spacing_m = static_cast<float>((prime_vertical_radius_m(origin.lat_deg) + origin.h_m) *
+                                                radians_from_deg(grid.lon.spacing_deg()).rad);
+}
+
+void set_page_frame(PageSummary& summary) {
+    const SineCosine lat = sine_cosine_deg(summary.origin.lat_deg);
+    const SineCosine lon = sine_cosine_deg(summary.origin.lon_deg);
+    const double normal_m = prime_vertical_radius_m(summary.origin.lat_deg);
+    const double rho_m = cylinder_rho_m(summary.origin);
+    const double z_m = (normal_m * (1.0 - wgs84_e2) + summary.origin.h_m) * lat.sine;
+    summary.origin_ecef = Ecef{{rho_m * lon.cosine, rho_m * lon.sine, z_m}};
+    summary.ecef_from_page = glm::dmat3(lon.cosine, lon.sine, 0.0, -lon.sine, lon.cosine, 0.0, 0.0, 0.0, 1.0);
+}
+
+PageLayout page_layout(const PostGrid& grid) {
+    return level_grid(grid, 0).pages();
+}
+
+RegionShape region_shape(const HeightField& field, double exaggeration) {
+    assert(exaggeration >= 0.0);
+    const PostGrid& grid = field.grid;
+    const std::vector<float>& N_m = field.undulation.N_m;
+    const double lowest_N_m = N_m.empty() ? 0.0 : *std::min_element(N_m.begin(), N_m.end());
+    double lowest_h_m = 0.0;
+    double diagonal_m = 0.0;
+    for (int row = 0; row < grid.rows(); ++row) {
+        for (int column = 0; column < grid.columns(); ++column) {
+            const float H_m = field.H_at_post_m(row, column);
+            // Most posts cannot be the lowest whatever their undulation.
+            if (is_void(H_m) || static_cast<double>(H_m) * exaggeration + lowest_N_m >= lowest_h_m) continue;
+            lowest_h_m = std::min(lowest_h_m, drawn_h_m(field, row, column, exaggeration));
+        }
+        const double lat_deg = grid.lat.at_deg(row);
+        const double south_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
+        const double east_m = prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine *
+                              radians_from_deg(grid.lon.spacing_deg()).rad;
+        diagonal_m = std::max(diagonal_m, std::hypot(south_m, east_m));
+    }
+    return {occluder_below(lowest_h_m, diagonal_m), exaggeration};
+}
+
+PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, PageIndex index) {
+    assert(heights.rows == grid.rows() && heights.columns == grid.columns());
+    PageHeights page;
+    for_each_post(PagePosts(grid, index), [&](std::size_t i, const std::optional<PageIndex>& post) {
+        page.steps[i] = post ? heights.at(post->row, post->column) : void_height_steps;
+    });
+    return page;
+}
+
+PageElevations page_elevations(const HeightField& field, PageIndex index) {
+    PageElevations page;
+    for_each_post(PagePosts(field.grid, index), [&](std::size_t i, const std::optional<PageIndex>& post) {
+        page.H_m[i] = post ? field.H_at_post_m(post->row, canonical_column(field, post->row, post->column))
+                           : void_height_m;
+    });
+    return page;
+}
+
+PageHeights page_heights(const PostGrid& grid, const UndulationField& undulation, double exaggeration,
+                         const PageElevations& elevations, PageIndex index) {
+    const bool has_N = !undulation.N_m.empty();
+    const PagePosts page_posts(grid, index);
+    PageHeights page;
+    for (int row = -1; row <= posts; ++row) {
+        UndulationField::Between N_row{};
+        for (int column = -1; column <= posts; ++column) {
+            const auto i = static_cast<std::size_t>((row + 1) * stride + column + 1);
+            page.steps[i] = void_height_steps;
+            if (is_void(elevations.H_m[i])) continue;
+            const std::optional<PageIndex> post = page_posts.region_post(row, column);
+            if (!post) continue;
+            N_row = has_N ? undulation.row_between(row_lat_deg(grid, post->row)) : N_row;
+            const double N_m = has_N ? undulation.at_m(N_row, undulation.column_between(canonical_lon_deg(
+                                                                  grid, post->row, post->column)))
+                                     : 0.0;
+            page.steps[i] = height_steps(static_cast<double>(elevations.H_m[i]) * exaggeration + N_m);
+        }
+    }
+    return page;
+}
+
+PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,
+                       PageIndex index, gpu::PageBlock& block) {
+    Draft draft(grid, shape, heights, index, block);
+    return draft.build();
+}
+
+PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
+                       gpu::PageBlock& block) {
+    const PageHeights heights =
+        page_heights(field.grid, field.undulation, shape.exaggeration, page_elevations(field, index), index);
+    return build_page(field.grid, shape, heights, index, block);
+}
+
+}  // namespace oro

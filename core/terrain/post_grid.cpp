@@ -1,0 +1,136 @@
+#include "core/terrain/post_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oro {
+namespace {
+
+// Rounding of an angle may put a place on the edge this many posts beyond it (some 0.1 mm).
+constexpr double edge_slack_posts = 1.0e-6;
+
+// The post number of a longitude on an axis: in the whole turn that falls onto the axis, or the nearest to
+// it.
+double turned_index(const GridAxis& lon, double lon_deg) {
+    const double index = lon.index_at(lon_deg);
+    const double last = lon.count - 1;
+    if (index >= 0.0 && index <= last) return index;
+    const double turn = 360.0 * lon.posts_per_deg;
+    const double inside = index - std::floor(index / turn) * turn;
+    if (inside <= last) return inside;
+    return inside - last <= turn - inside ? inside : inside - turn;
+}
+
+using Between = UndulationField::Between;
+Between between(double index, int count) {
+    const double held = std::clamp(index, 0.0, static_cast<double>(count - 1));
+    const int first = std::min(static_cast<int>(held), std::max(count - 2, 0));
+    return {first, held - first};
+}
+
+// H on the triangles of one cell; u and v in [0, 1] from its north-west post to the south and east.
+std::optional<double> H_in_cell_m(const HeightField& field, int row, int column, double u, double v) {
+    const float north_west = field.H_at_post_m(row, column);
+    const float south_east = field.H_at_post_m(row + 1, column + 1);
+    if (is_void(north_west) || is_void(south_east)) return std::nullopt;
+    const double a = north_west;
+    const double c = south_east;
+    // On the diagonal both triangles give the same; one of them is enough.
+    if (u >= v && !is_void(field.H_at_post_m(row + 1, column))) {
+        const double b = field.H_at_post_m(row + 1, column);
+        return a + u * (b - a) + v * (c - b);
+    }
+    if (v >= u && !is_void(field.H_at_post_m(row, column + 1))) {
+        const double b = field.H_at_post_m(row, column + 1);
+        return a + v * (b - a) + u * (c - b);
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+double PostGrid::column_at(double lon_deg) const {
+    return turned_index(lon, lon_deg);
+}
+
+bool PostGrid::goes_round() const {
+    return std::abs(lon.count - 1 - 360.0 * lon.posts_per_deg) < 0.01;
+}
+
+Between UndulationField::row_between(double lat_deg) const {
+    return between(lat.index_at(lat_deg), lat.count);
+}
+
+Between UndulationField::column_between(double lon_deg) const {
+    return between(turned_index(lon, lon_deg), lon.count);
+}
+
+double UndulationField::at_m(double lat_deg, double lon_deg) const {
+    return N_m.empty() ? 0.0 : at_m(row_between(lat_deg), column_between(lon_deg));
+}
+
+double UndulationField::at_m(const Between& row, const Between& column) const {
+    const std::size_t stride = static_cast<std::size_t>(lon.count);
+    const std::size_t north =
+        static_cast<std::size_t>(row.first) * stride + static_cast<std::size_t>(column.first);
+    const std::size_t south = lat.count > 1 ? north + stride : north;
+    const std::size_t east = lon.count > 1 ? 1 : 0;
+    const double west_share = 1.0 - column.share;
+    const double N_north = west_share * N_m[north] + column.share * N_m[north + east];
+    const double N_south = west_share * N_m[south] + column.share * N_m[south + east];
+    return (1.0 - row.share) * N_north + row.share * N_south;
+}
+
+double HeightField::h_at_post_m(int row, int column) const {
+    return static_cast<double>(H_at_post_m(row, column)) +
+           undulation.at_m(grid.lat.at_deg(row), grid.lon.at_deg(column));
+}
+
+std::optional<double> HeightField::surface_H_m(double lat_deg, double lon_deg) const {
+    double y = grid.lat.index_at(lat_deg);
+    double x = grid.column_at(lon_deg);
+    const double last_row = grid.rows() - 1;
+    const double last_column = grid.columns() - 1;
+    if (!(y >= -edge_slack_posts && y <= last_row + edge_slack_posts)) return std::nullopt;
+    if (!(x >= -edge_slack_posts && x <= last_column + edge_slack_posts)) return std::nullopt;
+    y = std::clamp(y, 0.0, last_row);
+    x = std::clamp(x, 0.0, last_column);
+    const int row = static_cast<int>(y);
+    const int column = static_cast<int>(x);
+    const double u = y - row;
+    const double v = x - column;
+    // A place on the edge of a cell belongs to the cells on both sides: either may have the triangle that
+    // holds it.
+    for (int up = 0; up <= (u == 0.0 ? 1 : 0); ++up) {
+        for (int left = 0; left <= (v == 0.0 ? 1 : 0); ++left) {
+            if (row - up < 0 || row - up > grid.rows() - 2) continue;
+            if (column - left < 0 || column - left > grid.columns() - 2) continue;
+            const auto surface = H_in_cell_m(*this, row - up, column - left, u + up, v + left);
+            if (surface) return surface;
+        }
+    }
+    return std::nullopt;
+}
+
+float HeightField::H_at_m(double lat_deg, double lon_deg) const {
+    const std::optional<double> H = surface_H_m(lat_deg, lon_deg);
+    return H ? static_cast<float>(*H) : void_height_m;
+}
+
+HeightRange height_range(const HeightField& field) {
+    if (field.range) return *field.range;
+    HeightRange range{0.0F, 0.0F, 0};
+    bool any = false;
+    for (const float H_m : field.H_m) {
+        if (is_void(H_m)) {
+            ++range.voids;
+            continue;
+        }
+        range.lowest_m = any ? std::min(range.lowest_m, H_m) : H_m;
+        range.highest_m = any ? std::max(range.highest_m, H_m) : H_m;
+        any = true;
+    }
+    return range;
+}
+
+}  // namespace oro

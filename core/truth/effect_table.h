@@ -1,0 +1,82 @@
+// The effects that make a picture wrong, and what is known of each before any view: the one table from which
+// everything that lists or names them is made.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/earth/world_model.h"
+#include "core/terrain/height_quantization.h"
+
+namespace oro {
+
+// In the order in which tables have them.
+enum class EffectKind {
+    geoid,          // H taken for h, the eye's, too
+    sphere,         // Earth::sphere
+    flat,           // Earth::flat
+    refraction,     // light that goes straight
+    float32_posts,  // Precision::rounded_posts
+    float32_view,   // Precision::naive, its rounded posts included
+    steps_i16,      // heights in 16 bits
+    detail,         // levels at tau
+    steps_f32,      // heights in steps of 2^-11 m
+    placement,      // float32 relative to the eye
+    depth,          // what a depth in float32 resolves
+    pixel_grid,     // corners of triangles on a grid of 1/256 px
+    flat_cells,     // triangles of full resolution are flat, the surface is curved
+    interpolation,  // between posts nobody has measured
+    source,         // what the source says of its own accuracy
+};
+inline constexpr std::size_t effect_kinds = 15;
+
+enum class EffectGroup {
+    model,    // a part of the model that a view may leave out: then the effect is in its picture
+    drawing,  // what drawing itself rounds off
+    data,     // limits of the data: no way of drawing helps
+};
+
+// How anybody knows what an effect really does to a picture.
+enum class EffectMeasure {
+    picture,      // one that has it, held against the full resolution
+    full_detail,  // not by itself: it is in the picture at full detail, with the others that remain there
+    thinned,      // every second post is left out, and is known
+    stated,       // nobody: the source says it of itself
+};
+
+// How a view is to be drawn.
+struct DrawingModel {
+    WorldModel world;
+    bool geoid{true};           // false: N = 0
+    HeightQuantization coding;  // of the heights on the GPU
+    double tau_px{1.0};
+};
+
+// What is known of the world and of the region, besides its posts.
+struct TrueWorld {
+    double refraction_k{usual_refraction_k};
+    std::optional<double> source_le90_m;  // half the height interval that holds 90 % of the source's errors
+    HeightQuantization sixteen;           // what i16 would be for the region
+};
+
+struct EffectFacts {
+    EffectKind kind;
+    EffectGroup group;
+    EffectMeasure measured_by;
+    const char* key;                         // for programs that read JSON
+    const char* name;                        // of the error, for people
+    const char* part;                        // group model: of what is left out, for people; else ""
+    const char* left_out_by;                 // the option that leaves the part out; "" where there is none
+    const char* meaning;                     // of the error, in one sentence
+    std::optional<EffectKind> contained_in;  // the larger effect that does this, too
+    bool (*in_picture)(const DrawingModel& drawing, const TrueWorld& world);
+};
+const std::array<EffectFacts, effect_kinds>& effect_table();
+const EffectFacts& facts_of(EffectKind kind);
+
+// Whether an effect is in a picture that is drawn so, and counts by itself: not the sphere on a flat Earth.
+bool is_in_picture(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world);
+// Whether a picture that is drawn so has the part of the model whose absence is the effect. Group model only.
+bool is_modelled(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world);
+
+}  // namespace oro

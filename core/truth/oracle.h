@@ -1,0 +1,66 @@
+// The oracle: where a sight line meets the true surface, in double precision and without a GPU. Pictures are
+// held against it, and whatever must know what is seen in a direction asks it.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/earth/camera.h"
+#include "core/earth/ellipsoid.h"
+#include "core/earth/world_model.h"
+#include "core/truth/true_surface.h"
+
+namespace oro {
+
+// From where and through what air one looks.
+struct Sight {
+    Ecef eye;
+    Refraction refraction;  // default: straight
+};
+Sight sight_from(const Geodetic& eye, double refraction_k = 0.0);
+
+// Where a sight line meets the surface.
+struct SightHit {
+    Geodetic point;       // h above the ellipsoid
+    double distance_m{};  // from the eye to where the point is seen: along the ray
+    int row{};            // north-west post of its cell
+    int column{};
+    bool south_west{};    // of the cell's two triangles
+    double residual_m{};  // of the root: height of the point above its triangle
+};
+
+// Sight lines from one eye. Safe to ask from several threads.
+class Oracle {
+  public:
+    // `surface` outlives the oracle. Costs a sine and a cosine for each fourth row and column of posts.
+    Oracle(const TrueSurface& surface, const Sight& sight);
+    ~Oracle();
+    Oracle(const Oracle&) = delete;
+    Oracle& operator=(const Oracle&) = delete;
+
+    // First crossing of a sight line (unit ECEF direction at the eye) with the surface, from either side;
+    // nothing when it meets none within reach_m. Exact: the nearest root over all cells, its residual below
+    // 1e-8 m within 1,000 km (1e-4 m at worst, from the Moon's distance and beyond). Touches narrower than
+    // 1 cm over cells of kilometres, or 1e-6 m over cells of metres, may be missed.
+    [[nodiscard]] std::optional<SightHit> first_hit(const glm::dvec3& direction, double reach_m) const;
+
+    // What each pixel of a picture sees at its centre, row by row; shared between `threads`.
+    [[nodiscard]] std::vector<std::optional<SightHit>> cast_picture(const Camera& camera, int threads) const;
+
+  private:
+    class Scenery;
+    class Search;
+    std::unique_ptr<const Scenery> scenery_;
+};
+
+// For one sight line.
+std::optional<SightHit> first_hit(const TrueSurface& surface, const Sight& sight, const glm::dvec3& direction,
+                                  double reach_m);
+
+// Farther than any sight line over the Earth from this height.
+double sight_reach_m(double eye_h_m);
+
+}  // namespace oro

@@ -1,0 +1,79 @@
+#include "core/truth/oracle_scenery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/terrain/drawn_heights.h"
+
+namespace oro {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from) : surface(of), sight(from) {
+    const PostGrid& grid = surface.field().grid;
+    const double lat_deg = 0.5 * (grid.north_deg() + grid.south_deg());
+    const double lon_deg = 0.5 * (grid.west_deg() + grid.east_deg());
+    frame_from_ecef = glm::transpose(ecef_from_enu(lat_deg, lon_deg));
+    constexpr int step = TrueSurface::block_cells;
+    for (int row = 0; row - step < grid.rows() - 1; row += step) {
+        const double at_deg = row_lat_deg(grid, std::min(row, grid.rows() - 1));
+        const SineCosine angle = sine_cosine_deg(at_deg);
+        rows.push_back({prime_vertical_radius_m(at_deg), angle.cosine, angle.sine});
+    }
+    for (int column = 0; column - step < grid.columns() - 1; column += step)
+        columns.push_back(sine_cosine_deg(grid.lon.at_deg(std::min(column, grid.columns() - 1))));
+}
+
+glm::dvec3 Oracle::Scenery::seen(int row, int column, double h_m) const {
+    const RowPlace& place = rows[static_cast<std::size_t>(row)];
+    const SineCosine& lon = columns[static_cast<std::size_t>(column)];
+    const double rho_m = (place.normal_m + h_m) * place.cosine;
+    const glm::dvec3 ecef(rho_m * lon.cosine, rho_m * lon.sine,
+                          (place.normal_m * (1.0 - wgs84_e2) + h_m) * place.sine);
+    return frame_from_ecef * sight.refraction.apparent_m(ecef - sight.eye.m);
+}
+
+bool Oracle::Scenery::box(const TrueSurface::Block& block, glm::dvec3& low, glm::dvec3& high) const {
+    const TrueSurface::Layer layer = surface.layer(block);
+    if (layer.empty()) return false;
+    const int north = block.row << block.level, west = block.column << block.level;
+    const int south = std::min(((block.row + 1) << block.level), static_cast<int>(rows.size()) - 1);
+    const int east = std::min(((block.column + 1) << block.level), static_cast<int>(columns.size()) - 1);
+    low = glm::dvec3(infinite);
+    high = glm::dvec3(-infinite);
+    for (const int row : {north, south}) {
+        for (const int column : {west, east}) {
+            for (const double h_m : {layer.lowest_h_m, layer.highest_h_m}) {
+                const glm::dvec3 corner = seen(row, column, h_m);
+                low = glm::min(low, corner);
+                high = glm::max(high, corner);
+            }
+        }
+    }
+    // Between its corners a patch bulges by at most an eighth of its angles squared times their radii (along
+    // the parallel its own, or near a pole every line would meet every patch); refraction, a parabola, by
+    // another eighth.
+    const PostGrid& grid = surface.field().grid;
+    const double cells = TrueSurface::block_cells;
+    const double tall = radians_from_deg((south - north) * cells * grid.lat.spacing_deg()).rad;
+    const double wide = radians_from_deg((east - west) * cells * grid.lon.spacing_deg()).rad;
+    const double radius_m = 1.02 * (wgs84_a_m + std::max(0.0, layer.highest_h_m));
+    // The cosine of a latitude changes by at most its angle.
+    const double cosine = std::min(1.0, std::max(rows[static_cast<std::size_t>(north)].cosine,
+                                                 rows[static_cast<std::size_t>(south)].cosine) +
+                                            tall);
+    const glm::dvec3 across = high - low;
+    const double pad_m = (tall * tall + wide * wide * cosine) / 8.0 * radius_m * 1.1 +
+                         std::abs(sight.refraction.curvature_per_m()) * glm::dot(across, across) / 8.0 +
+                         1.0e-3;
+    low -= pad_m;
+    high += pad_m;
+    return true;
+}
+
+}  // namespace oro

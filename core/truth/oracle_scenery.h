@@ -1,0 +1,37 @@
+// What the oracle's sight lines go through. Within core.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/truth/oracle.h"
+
+namespace oro {
+
+// What all sight lines of a picture share: the surface in a frame whose z is up in the middle of the region,
+// so that boxes along its axes lie close around the ground.
+class Oracle::Scenery {
+  public:
+    // A row's posts are at ((N + h) cos lat cos lon, (N + h) cos lat sin lon, (N (1 - e2) + h) sin lat).
+    struct RowPlace {
+        double normal_m;
+        double cosine;
+        double sine;
+    };
+
+    Scenery(const TrueSurface& surface, const Sight& sight);
+
+    const TrueSurface& surface;
+    const Sight sight;
+    glm::dmat3 frame_from_ecef;
+    std::vector<RowPlace> rows;  // of the grid, each block_cells-th and the last
+    std::vector<SineCosine> columns;
+
+    // Where a point of the grid is seen from the eye, in the frame.
+    [[nodiscard]] glm::dvec3 seen(int row, int column, double h_m) const;
+    // Corners of a box around all of a block that can be seen; false when there is nothing in it.
+    [[nodiscard]] bool box(const TrueSurface::Block& block, glm::dvec3& low, glm::dvec3& high) const;
+};
+
+}  // namespace oro

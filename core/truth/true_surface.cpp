@@ -1,0 +1,232 @@
+#include "core/truth/true_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "core/terrain/drawn_heights.h"
+#include "core/terrain/triangle_heights.h"
+
+namespace oro {
+namespace {
+
+constexpr int chunk_level = 5;                                        // of whole chunks
+constexpr int chunk_cells = TrueSurface::block_cells << chunk_level;  // 128
+
+using Layer = TrueSurface::Layer;
+constexpr Layer no_layer{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+Layer joined(const Layer& a, const Layer& b) {
+    return {std::min(a.lowest_h_m, b.lowest_h_m), std::max(a.highest_h_m, b.highest_h_m)};
+}
+
+int divided_up(int count, int by) {
+    return (count + by - 1) / by;
+}
+
+}  // namespace
+
+// Layers of its blocks, level by level from the finest, row by row; in float, rounded outwards.
+struct TrueSurface::Chunk {
+    struct FloatLayer {
+        float lowest{std::numeric_limits<float>::infinity()};
+        float highest{-std::numeric_limits<float>::infinity()};
+    };
+    std::array<std::vector<FloatLayer>, chunk_level + 1> levels;
+
+    static FloatLayer around(const Layer& layer) {
+        if (layer.empty()) return {};
+        constexpr float far = std::numeric_limits<float>::infinity();
+        return {std::nextafter(static_cast<float>(layer.lowest_h_m), -far),
+                std::nextafter(static_cast<float>(layer.highest_h_m), far)};
+    }
+    [[nodiscard]] Layer at(int level, int row, int column) const {
+        const int side = 1 << (chunk_level - level);
+        const FloatLayer& layer =
+            levels[static_cast<std::size_t>(level)][static_cast<std::size_t>(row * side + column)];
+        return {static_cast<double>(layer.lowest), static_cast<double>(layer.highest)};
+    }
+    void put(int level, const Layer& layer) {
+        levels[static_cast<std::size_t>(level)].push_back(around(layer));
+    }
+};
+
+TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int threads)
+    : field_(field), exaggeration_(exaggeration) {
+    const PostGrid& grid = field.grid;
+    if (!field.undulation.N_m.empty()) {
+        for (int row = 0; row < grid.rows(); ++row)
+            N_rows_.push_back(field.undulation.row_between(row_lat_deg(grid, row)));
+        for (int column = 0; column < grid.columns(); ++column)
+            N_columns_.push_back(field.undulation.column_between(grid.lon.at_deg(column)));
+        const auto [lowest, highest] =
+            std::minmax_element(field.undulation.N_m.begin(), field.undulation.N_m.end());
+        N_range_m_ = {static_cast<double>(*lowest), static_cast<double>(*highest)};
+    }
+    if (grid.rows() < 2 || grid.columns() < 2) return;
+    const int down = divided_up(grid.rows() - 1, chunk_cells),
+              across = divided_up(grid.columns() - 1, chunk_cells);
+    levels_ = chunk_level + 1;
+    while ((std::max(down, across) - 1) >> (levels_ - 1 - chunk_level) > 0) ++levels_;
+    chunks_ =
+        std::vector<std::atomic<Chunk*>>(static_cast<std::size_t>(down) * static_cast<std::size_t>(across));
+    measure_above(threads);
+}
+
+TrueSurface::~TrueSurface() {
+    for (const std::atomic<Chunk*>& chunk : chunks_) delete chunk.load();
+}
+
+std::pair<int, int> TrueSurface::blocks(int level) const {
+    const int cells = block_cells << level;
+    return {divided_up(field_.grid.rows() - 1, cells), divided_up(field_.grid.columns() - 1, cells)};
+}
+
+std::optional<double> TrueSurface::post_h_m(int row, int column) const {
+    const PostGrid& grid = field_.grid;
+    float H_m = field_.H_at_post_m(row, column);
+    if (is_void(H_m)) return std::nullopt;
+    if (row == 0 || row == grid.rows() - 1 || column == grid.columns() - 1) {
+        column = canonical_column(field_, row, column);
+        H_m = field_.H_at_post_m(row, column);
+    }
+    const double H = static_cast<double>(H_m) * exaggeration_;
+    if (N_rows_.empty()) return H;
+    return H + field_.undulation.at_m(N_rows_[static_cast<std::size_t>(row)],
+                                      N_columns_[static_cast<std::size_t>(column)]);
+}
+
+std::optional<double> TrueSurface::h_m(double lat_deg, double lon_deg) const {
+    return h_on_grid_m(
+        field_.grid, [this](int row, int column) { return post_h_m(row, column); }, lat_deg, lon_deg);
+}
+
+// From the posts' H and the range of N alone: quick, and wide enough.
+Layer TrueSurface::scanned_layer(int chunk_row, int chunk_column) const {
+    const PostGrid& grid = field_.grid;
+    const int last_row = std::min((chunk_row + 1) * chunk_cells, grid.rows() - 1);
+    const int last_column = std::min((chunk_column + 1) * chunk_cells, grid.columns() - 1);
+    float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
+    for (int row = chunk_row * chunk_cells; row <= last_row; ++row) {
+        const float* const posts =
+            field_.H_m.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns());
+        for (int column = chunk_column * chunk_cells; column <= last_column; ++column) {
+            if (is_void(posts[column])) continue;
+            lowest = std::min(lowest, posts[column]);
+            highest = std::max(highest, posts[column]);
+        }
+    }
+    // Posts that are one point are as high as one of them, which may be another chunk's.
+    const auto take = [&](int row, int column) {
+        if (is_void(field_.H_at_post_m(row, column))) return false;
+        const float H_m = field_.H_at_post_m(row, canonical_column(field_, row, column));
+        lowest = std::min(lowest, H_m);
+        highest = std::max(highest, H_m);
+        return true;
+    };
+    for (const int row : {0, grid.rows() - 1}) {
+        if (row < chunk_row * chunk_cells || row > last_row) continue;
+        int column = chunk_column * chunk_cells;
+        while (column <= last_column && !take(row, column)) ++column;
+    }
+    for (int row = chunk_row * chunk_cells; last_column == grid.columns() - 1 && row <= last_row; ++row)
+        take(row, last_column);
+    if (lowest > highest) return no_layer;
+    return {static_cast<double>(lowest) * exaggeration_, static_cast<double>(highest) * exaggeration_};
+}
+
+void TrueSurface::measure_above(int threads) {
+    const auto [down, across] = blocks(chunk_level);
+    std::vector<Layer> chunks(chunks_.size());
+    const HeightRange range = field_.posts ? height_range(field_) : HeightRange{};
+    const int columns = across;
+    in_parallel(down, threads, [&](int row) {
+        for (int column = 0; column < columns; ++column) {
+            Layer layer{range.lowest_m * exaggeration_, range.highest_m * exaggeration_};
+            if (!field_.posts) layer = scanned_layer(row, column);
+            constexpr double slack_m = 1.0e-3;
+            layer.lowest_h_m += N_range_m_.lowest_h_m - slack_m;
+            layer.highest_h_m += N_range_m_.highest_h_m + slack_m;
+            chunks[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>(column)] = layer;
+        }
+    });
+    above_.push_back(std::move(chunks));
+    for (int level = chunk_level + 1; level < levels_; ++level) {
+        const auto [rows_below, columns_below] = blocks(level - 1);
+        const auto [rows, columns_here] = blocks(level);
+        std::vector<Layer> layers(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns_here),
+                                  no_layer);
+        for (int row = 0; row < rows_below; ++row) {
+            for (int column = 0; column < columns_below; ++column) {
+                Layer& layer =
+                    layers[static_cast<std::size_t>(row / 2) * static_cast<std::size_t>(columns_here) +
+                           static_cast<std::size_t>(column / 2)];
+                layer = joined(
+                    layer,
+                    above_.back()[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_below) +
+                                  static_cast<std::size_t>(column)]);
+            }
+        }
+        above_.push_back(std::move(layers));
+    }
+}
+
+TrueSurface::Chunk* TrueSurface::new_chunk(int chunk_row, int chunk_column) const {
+    const PostGrid& grid = field_.grid;
+    auto* chunk = new Chunk;
+    constexpr int side = 1 << chunk_level;
+    for (int i = 0; i < side * side; ++i) {
+        const int first_row = chunk_row * chunk_cells + i / side * block_cells;
+        const int first_column = chunk_column * chunk_cells + i % side * block_cells;
+        Layer layer = no_layer;
+        for (int row = first_row; row <= std::min(first_row + block_cells, grid.rows() - 1); ++row) {
+            for (int column = first_column;
+                 column <= std::min(first_column + block_cells, grid.columns() - 1); ++column) {
+                if (const std::optional<double> h = post_h_m(row, column)) layer = joined(layer, {*h, *h});
+            }
+        }
+        // No cell of the grid begins there.
+        const bool beyond = first_row >= grid.rows() - 1 || first_column >= grid.columns() - 1;
+        chunk->put(0, beyond ? no_layer : layer);
+    }
+    for (int level = 1; level <= chunk_level; ++level) {
+        const int here = 1 << (chunk_level - level);
+        for (int i = 0; i < here * here; ++i) {
+            const int row = 2 * (i / here), column = 2 * (i % here);
+            chunk->put(level, joined(joined(chunk->at(level - 1, row, column),
+                                            chunk->at(level - 1, row, column + 1)),
+                                     joined(chunk->at(level - 1, row + 1, column),
+                                            chunk->at(level - 1, row + 1, column + 1))));
+        }
+    }
+    return chunk;
+}
+
+const TrueSurface::Chunk& TrueSurface::chunk(int row, int column) const {
+    const int across = blocks(chunk_level).second;
+    std::atomic<Chunk*>& place = chunks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across) +
+                                         static_cast<std::size_t>(column)];
+    if (const Chunk* const there = place.load(std::memory_order_acquire)) return *there;
+    Chunk* const made = new_chunk(row, column);
+    Chunk* none = nullptr;
+    if (place.compare_exchange_strong(none, made, std::memory_order_acq_rel)) return *made;
+    delete made;  // another thread was faster
+    return *none;
+}
+
+Layer TrueSurface::layer(const Block& block) const {
+    if (block.level < chunk_level) {
+        const int in_chunk = chunk_level - block.level, mask = (1 << in_chunk) - 1;
+        return chunk(block.row >> in_chunk, block.column >> in_chunk)
+            .at(block.level, block.row & mask, block.column & mask);
+    }
+    const int across = blocks(block.level).second;
+    return above_[static_cast<std::size_t>(block.level - chunk_level)]
+                 [static_cast<std::size_t>(block.row) * static_cast<std::size_t>(across) +
+                  static_cast<std::size_t>(block.column)];
+}
+
+}  // namespace oro

@@ -1,0 +1,76 @@
+// The surface that a picture is measured against, in double precision: no levels, no rounding to steps, no
+// GPU.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/earth/ellipsoid.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+// The full-resolution surface of a height field: each post at (latitude, longitude, H * exaggeration + N) on
+// WGS84, each cell two triangles split from its north-west to its south-east post, h linear over each in
+// latitude and longitude (so a triangle is as curved as the ellipsoid). Safe to ask from several threads.
+class TrueSurface {
+  public:
+    // `field` outlives the surface. Reads every post once where they are in memory, shared between `threads`;
+    // posts of a file are read when they are asked for. Keeps 0.7 byte for each post that was looked at.
+    TrueSurface(const HeightField& field, double exaggeration, int threads);
+    ~TrueSurface();
+    TrueSurface(const TrueSurface&) = delete;
+    TrueSurface& operator=(const TrueSurface&) = delete;
+
+    // Height of the surface above the ellipsoid at a place; nothing outside the region and on triangles with
+    // a void post. Error: rounding, below 1e-8 m for slopes up to 45 degrees.
+    [[nodiscard]] std::optional<double> h_m(double lat_deg, double lon_deg) const;
+
+    // Height above the ellipsoid of a post; nothing where it is void. Posts that are one point (a meridian's
+    // two columns, a pole) have one height.
+    [[nodiscard]] std::optional<double> post_h_m(int row, int column) const;
+
+    // Heights between which a part of the surface lies; lowest > highest where there is none.
+    struct Layer {
+        double lowest_h_m;
+        double highest_h_m;
+        [[nodiscard]] bool empty() const { return lowest_h_m > highest_h_m; }
+    };
+    // A square of cells, 4 * 2^level along each side, fewer where the grid ends. Numbered from the
+    // north-west.
+    struct Block {
+        int level;
+        int row;
+        int column;
+    };
+    static constexpr int block_cells = 4;
+    // Levels of blocks; the last has one block. 0 when there is no cell.
+    [[nodiscard]] int levels() const { return levels_; }
+    [[nodiscard]] Layer layer(const Block& block) const;
+    // Number of blocks of a level, (rows, columns).
+    [[nodiscard]] std::pair<int, int> blocks(int level) const;
+
+    [[nodiscard]] const HeightField& field() const { return field_; }
+    [[nodiscard]] double exaggeration() const { return exaggeration_; }
+
+  private:
+    struct Chunk;  // what is known of 128 x 128 cells, once they were looked at
+    [[nodiscard]] const Chunk& chunk(int row, int column) const;
+    [[nodiscard]] Chunk* new_chunk(int row, int column) const;
+    [[nodiscard]] Layer scanned_layer(int chunk_row, int chunk_column) const;
+    void measure_above(int threads);
+
+    const HeightField& field_;
+    double exaggeration_;
+    int levels_{0};
+    Layer N_range_m_{0.0, 0.0};
+    std::vector<UndulationField::Between> N_rows_;
+    std::vector<UndulationField::Between> N_columns_;
+    std::vector<std::vector<Layer>> above_;  // of the chunks' level and those above it
+    mutable std::vector<std::atomic<Chunk*>> chunks_;
+};
+
+}  // namespace oro

@@ -1,0 +1,317 @@
+#include "geo/files/archive_entries.h"
+
+#include <cpl_vsi.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <system_error>
+
+#include "geo/files/letter_case.h"
+#include "geo/sources/raster_library.h"
+
+namespace oro {
+namespace {
+
+using Bytes = std::span<const unsigned char>;
+
+struct CloseFile {
+    void operator()(VSILFILE* file) const { VSIFCloseL(file); }
+};
+using File = std::unique_ptr<VSILFILE, CloseFile>;
+
+// Little-endian, as zip has it.
+std::uint64_t number_at(Bytes bytes, std::size_t place, std::size_t length) {
+    std::uint64_t number = 0;
+    for (std::size_t i = length; i-- > 0;) number = number << 8U | bytes[place + i];
+    return number;
+}
+
+std::string text_at(Bytes bytes, std::size_t place, std::size_t length) {
+    return {reinterpret_cast<const char*>(bytes.data()) + place, length};
+}
+
+// As GDAL names an entry.
+std::string plain_name(std::string name) {
+    std::ranges::replace(name, '\\', '/');
+    while (name.starts_with("./")) name.erase(0, 2);
+    return name;
+}
+
+struct Archive {
+    File file;
+    std::string shown;
+    std::uint64_t size{};
+
+    [[nodiscard]] Error fault(const std::string& what) const {
+        return {ErrorKind::failed, shown, "cannot be read as an archive: " + what};
+    }
+    // Exactly these bytes, or an error.
+    [[nodiscard]] Result<std::vector<unsigned char>> read(std::uint64_t place, std::uint64_t length) const {
+        std::vector<unsigned char> bytes(length);
+        errno = 0;
+        if (VSIFSeekL(file.get(), place, SEEK_SET) != 0 ||
+            VSIFReadL(bytes.data(), 1, length, file.get()) != length)
+            return fault(errno != 0 ? std::generic_category().message(errno)
+                                    : "it ends at byte " + std::to_string(VSIFTellL(file.get())));
+        return bytes;
+    }
+};
+
+Result<Archive> open_archive(const std::string& path, const std::string& shown) {
+    errno = 0;
+    Archive archive{File(VSIFOpenL(path.c_str(), "rb")), shown};
+    if (!archive.file) {
+        const int reason = errno;
+        return Error{ErrorKind::failed, shown,
+                     "cannot be opened: " + (reason != 0 ? std::generic_category().message(reason)
+                                                         : std::string("it is damaged"))};
+    }
+    return archive;
+}
+
+// ---- zip: PKWARE's APPNOTE 6.3, sections 4.3.12 to 4.3.16
+
+constexpr std::uint64_t end_bytes = 22, end_zip64_bytes = 56, locator_bytes = 20, entry_bytes = 46;
+constexpr std::uint64_t in_zip64_16 = 0xffff, in_zip64_32 = 0xffffffff;
+
+struct ZipDirectory {
+    std::uint64_t entries{};
+    std::uint64_t bytes{};
+    std::uint64_t offset{};
+    std::uint64_t end{};  // the byte after the directory
+};
+
+// Where the record at the end of a zip starts within its last bytes.
+std::optional<std::size_t> end_record(Bytes tail) {
+    for (std::size_t i = tail.size() >= end_bytes ? tail.size() - end_bytes + 1 : 0; i-- > 0;) {
+        if (number_at(tail, i, 4) == 0x06054b50 && i + end_bytes + number_at(tail, i + 20, 2) <= tail.size())
+            return i;
+    }
+    return std::nullopt;
+}
+
+Result<ZipDirectory> zip_directory(const Archive& archive) {
+    const std::uint64_t length = std::min<std::uint64_t>(archive.size, end_bytes + 0xffff);
+    const std::uint64_t start = archive.size - length;
+    ORO_TRY(const std::vector<unsigned char> tail, archive.read(start, length));
+    const auto at = end_record(tail);
+    if (!at) return archive.fault("it is no .zip, or its end is missing");
+    const std::uint64_t end = start + *at;
+    ZipDirectory found{number_at(tail, *at + 10, 2), number_at(tail, *at + 12, 4),
+                       number_at(tail, *at + 16, 4), end};
+    const bool zip64 =
+        found.entries == in_zip64_16 || found.bytes == in_zip64_32 || found.offset == in_zip64_32;
+    if (zip64 && *at >= locator_bytes && number_at(tail, *at - locator_bytes, 4) == 0x07064b50) {
+        const std::uint64_t place = number_at(tail, *at - locator_bytes + 8, 8);
+        if (place > end || end - place < end_zip64_bytes + locator_bytes)
+            return archive.fault("its end is damaged");
+        ORO_TRY(const std::vector<unsigned char> record, archive.read(place, end_zip64_bytes));
+        if (number_at(record, 0, 4) != 0x06064b50) return archive.fault("its end is damaged");
+        found = {number_at(record, 32, 8), number_at(record, 40, 8), number_at(record, 48, 8), place};
+    }
+    // What stands before the archive (a program that unpacks it) moves all places by as much.
+    if (found.bytes > found.end || found.offset > found.end - found.bytes)
+        return archive.fault("a part of it is missing: its list of files should start at byte " +
+                             std::to_string(found.offset));
+    return found;
+}
+
+// The unpacked size of an entry too large for 32 bits.
+std::uint64_t zip64_size(Bytes extra, std::uint64_t otherwise) {
+    for (std::size_t i = 0; i + 4 <= extra.size();) {
+        const std::uint64_t length = number_at(extra, i + 2, 2);
+        if (number_at(extra, i, 2) == 1 && length >= 8 && i + 12 <= extra.size())
+            return number_at(extra, i + 4, 8);
+        i += 4 + length;
+    }
+    return otherwise;
+}
+
+Error too_many(const Archive& archive, std::uint64_t entries) {
+    return archive.fault("it has " + (entries > 0 ? std::to_string(entries) : "more") +
+                         " entries, and the limit is " + std::to_string(most_archive_entries) +
+                         "; unpack it and name the files");
+}
+
+Result<std::vector<ArchiveEntry>> zip_entries(const Archive& archive) {
+    ORO_TRY(const ZipDirectory directory, zip_directory(archive));
+    if (directory.entries > most_archive_entries) return too_many(archive, directory.entries);
+    if (directory.entries == 0) return archive.fault("it is empty");
+    ORO_TRY(const std::vector<unsigned char> list,
+            archive.read(directory.end - directory.bytes, directory.bytes));
+    std::vector<ArchiveEntry> entries;
+    std::size_t at = 0;
+    for (std::uint64_t i = 0; i < directory.entries; ++i) {
+        const auto damaged = [&] {
+            return archive.fault("its list of files is damaged at entry " + std::to_string(i + 1) + " of " +
+                                 std::to_string(directory.entries));
+        };
+        if (list.size() - at < entry_bytes || number_at(list, at, 4) != 0x02014b50) return damaged();
+        const std::uint64_t name = number_at(list, at + 28, 2), extra = number_at(list, at + 30, 2);
+        const std::uint64_t all = entry_bytes + name + extra + number_at(list, at + 32, 2);
+        if (list.size() - at < all) return damaged();
+        ArchiveEntry entry{plain_name(text_at(list, at + entry_bytes, name)), number_at(list, at + 24, 4)};
+        if (entry.bytes == in_zip64_32)
+            entry.bytes = zip64_size(Bytes(list).subspan(at + entry_bytes + name, extra), entry.bytes);
+        if (!entry.name.ends_with('/')) entries.push_back(std::move(entry));
+        at += all;
+    }
+    return entries;
+}
+
+// ---- tar: POSIX ustar and pax, with GNU's long names and large numbers
+
+constexpr std::uint64_t tar_block = 512;
+
+std::string tar_text(Bytes header, std::size_t place, std::size_t length) {
+    const std::string text = text_at(header, place, length);
+    return text.substr(0, std::min(text.find('\0'), text.size()));
+}
+
+std::optional<std::uint64_t> tar_number(Bytes header, std::size_t place, std::size_t length) {
+    std::uint64_t number = 0;
+    if ((header[place] & 0x80U) != 0) {  // base 256
+        for (std::size_t i = 1; i < length; ++i) number = number << 8U | header[place + i];
+        return number;
+    }
+    for (std::size_t i = 0; i < length; ++i) {
+        const unsigned char c = header[place + i];
+        if (c == ' ' || c == '\0') continue;
+        if (c < '0' || c > '7') return std::nullopt;
+        number = number << 3U | (c - std::uint64_t{'0'});
+    }
+    return number;
+}
+
+bool tar_sum_holds(Bytes header) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < tar_block; ++i) sum += i >= 148 && i < 156 ? ' ' : header[i];
+    return tar_number(header, 148, 8) == sum;
+}
+
+// What "path=" says in pax records of the form "LENGTH path=NAME\n".
+std::string pax_path(std::string_view records) {
+    for (std::size_t at = 0; at < records.size();) {
+        const std::size_t end = std::min(records.find('\n', at), records.size());
+        const std::string_view line = records.substr(at, end - at);
+        const std::size_t key = line.find(" path=");
+        if (key != std::string_view::npos && key <= 10) return std::string(line.substr(key + 6));
+        at = end + 1;
+    }
+    return "";
+}
+
+class TarWalk {
+  public:
+    explicit TarWalk(const Archive& archive) : archive_(archive) {}
+
+    Result<std::vector<ArchiveEntry>> entries() {
+        std::vector<ArchiveEntry> found;
+        std::uint64_t headers = 0;
+        for (;;) {
+            ORO_TRY(const std::vector<unsigned char> header, next(tar_block));
+            if (std::ranges::all_of(header, [](unsigned char c) { return c == 0; })) break;
+            if (!tar_sum_holds(header)) return archive_.fault("it is no .tar, or damaged " + here());
+            const auto size = tar_number(header, 124, 12);
+            if (!size) return archive_.fault("it is damaged " + here());
+            if (++headers > most_archive_entries) return too_many(archive_, 0);
+            const auto type = static_cast<char>(header[156]);
+            if (type == 'L' || type == 'x') {
+                if (*size > (1U << 20U)) return archive_.fault("it is damaged " + here());
+                ORO_TRY(const std::vector<unsigned char> said, next(*size));
+                long_name_ =
+                    type == 'x' ? pax_path(text_at(said, 0, said.size())) : tar_text(said, 0, said.size());
+                ORO_CHECK(skip(padding(*size)));
+                continue;
+            }
+            if (type == '0' || type == '\0' || type == '7')
+                found.push_back({plain_name(long_name_.empty() ? name_of(header) : long_name_), *size});
+            long_name_.clear();
+            ORO_CHECK(skip(*size + padding(*size)));
+        }
+        if (headers == 0) return archive_.fault("it is empty");
+        // To the end, where the checksum of a packed one is compared.
+        return skip_to_end().ok() ? Result<std::vector<ArchiveEntry>>(std::move(found))
+                                  : archive_.fault(said_.last("its packing is damaged"));
+    }
+
+  private:
+    static std::uint64_t padding(std::uint64_t size) { return (tar_block - size % tar_block) % tar_block; }
+    [[nodiscard]] std::string here() const { return "at byte " + std::to_string(at_); }
+
+    static std::string name_of(Bytes header) {
+        const std::string name = tar_text(header, 0, 100);
+        const std::string prefix =
+            text_at(header, 257, 5) == "ustar" && header[262] == 0 ? tar_text(header, 345, 155) : "";
+        return prefix.empty() ? name : prefix + "/" + name;
+    }
+
+    Error ends(int reason) const {
+        if (reason != 0) return archive_.fault(std::generic_category().message(reason));
+        return archive_.fault(said_.last("it ends early, " + here()));
+    }
+
+    Result<std::vector<unsigned char>> next(std::uint64_t length) {
+        std::vector<unsigned char> bytes(length);
+        errno = 0;
+        const std::size_t got = VSIFReadL(bytes.data(), 1, length, archive_.file.get());
+        at_ += got;
+        if (got != length || !said_.last("").empty()) return ends(errno);
+        return bytes;
+    }
+
+    Result<void> skip(std::uint64_t length) {
+        if (at_ + length < at_ || at_ + length > most_unpacked_tar_bytes)
+            return archive_.fault("it unpacks to more than " +
+                                  std::to_string(most_unpacked_tar_bytes >> 30U) +
+                                  " GiB, which is the limit; unpack it and name the files");
+        // Read and not sought: only what has been read is known to be there.
+        while (length > 0) {
+            const std::uint64_t part = std::min<std::uint64_t>(length, 1U << 20U);
+            ORO_TRY(const std::vector<unsigned char> bytes, next(part));
+            length -= part;
+        }
+        return {};
+    }
+
+    Result<void> skip_to_end() {
+        std::vector<unsigned char> rest(1U << 20U);
+        while (VSIFReadL(rest.data(), 1, rest.size(), archive_.file.get()) > 0) {
+        }
+        if (said_.last("").empty()) return {};
+        return ends(0);
+    }
+
+    const Archive& archive_;
+    GdalMessages said_;
+    std::uint64_t at_{};
+    std::string long_name_;
+};
+
+}  // namespace
+
+Result<std::vector<ArchiveEntry>> archive_entries(const std::string& file, const std::string& shown,
+                                                  ArchiveKind kind) {
+    start_gdal();
+    const GdalMessages messages;
+    ORO_TRY(Archive archive, open_archive(file, shown));
+    if (VSIFSeekL(archive.file.get(), 0, SEEK_END) != 0) return archive.fault("its end cannot be found");
+    archive.size = VSIFTellL(archive.file.get());
+    if (archive.size == 0) return archive.fault("it is empty");
+    if (kind == ArchiveKind::zip) return zip_entries(archive);
+    const std::string lower = lower_case(file);
+    if (lower.ends_with(".tgz") || lower.ends_with(".gz")) {
+        ORO_TRY(archive, open_archive("/vsigzip/" + file, shown));
+        return TarWalk(archive).entries();
+    }
+    VSIFSeekL(archive.file.get(), 0, SEEK_SET);
+    return TarWalk(archive).entries();
+}
+
+}  // namespace oro

@@ -1,0 +1,32 @@
+// What lies in a .zip or .tar, read by its own structure: GDAL lists what it can and keeps silent about the
+// rest, so that a cut archive looks like a smaller one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace oro {
+
+// One archive may have so many entries; opening one of them costs GDAL a pass over all.
+inline constexpr std::uint64_t most_archive_entries = 100'000;
+// A packed .tar is unpacked to its end to know what is in it: so far, and no farther.
+inline constexpr std::uint64_t most_unpacked_tar_bytes = std::uint64_t{4} << 30U;
+
+enum class ArchiveKind { zip, tar };
+
+struct ArchiveEntry {
+    std::string name;  // with '/' between folders, as GDAL names it
+    std::uint64_t bytes{};
+};
+
+// Names and unpacked sizes of the files (not folders) in an archive, in its own order. `file` is a real path,
+// `shown` what messages call it. Errors: a file that cannot be opened or read (with the system's reason), one
+// that is no archive, is cut, is empty or has an impossible list, more entries or bytes than the limits
+// above.
+Result<std::vector<ArchiveEntry>> archive_entries(const std::string& file, const std::string& shown,
+                                                  ArchiveKind kind);
+
+}  // namespace oro

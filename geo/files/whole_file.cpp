@@ -1,0 +1,150 @@
+#include "geo/files/whole_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <utility>
+#include <vector>
+
+#include "core/base/file_target.h"
+#include "core/base/open_file.h"
+
+namespace oro {
+namespace {
+
+Error fault(const std::string& path, const std::string& what) {
+    return {ErrorKind::failed, path, what};
+}
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == std::string::npos) return ".";
+    return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+}  // namespace
+
+Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite, Temporary kind) {
+    ignore_size_limit_signal();
+    WholeFile file;
+    file.path_ = path;
+    file.overwrite_ = overwrite;
+    ORO_TRY(const unsigned old_mode, check_target(file.path_, overwrite));
+    const std::string folder = folder_of(file.path_);
+    if (const int why = file.temporary_.make(folder, kind); why != 0) {
+        const std::string reason =
+            why == ENOENT ? "is not there" : "cannot be written in: " + system_reason(why);
+        return fault(path, "the folder " + folder + " " + reason);
+    }
+    // A file that its owner had closed to others stays closed to them when it is replaced.
+    if (old_mode != 0) (void)fchmod(file.temporary_.descriptor(), old_mode);
+    // The lock is the temporary file's, and outlasts the stream.
+    const int descriptor = fcntl(file.temporary_.descriptor(), F_DUPFD_CLOEXEC, 0);
+    if (descriptor >= 0) file.stream_ = fdopen(descriptor, "w+b");
+    if (!file.stream_) {
+        const int why = errno;
+        if (descriptor >= 0) close(descriptor);
+        return fault(path, "cannot be written: " + system_reason(why));
+    }
+    return file;
+}
+
+WholeFile::WholeFile(WholeFile&& other) noexcept
+    : stream_(std::exchange(other.stream_, nullptr)),
+      path_(std::move(other.path_)),
+      temporary_(std::move(other.temporary_)),
+      overwrite_(other.overwrite_) {}
+
+WholeFile& WholeFile::operator=(WholeFile&& other) noexcept {
+    if (this == &other) return *this;
+    abandon();
+    stream_ = std::exchange(other.stream_, nullptr);
+    path_ = std::move(other.path_);
+    temporary_ = std::move(other.temporary_);
+    overwrite_ = other.overwrite_;
+    return *this;
+}
+
+WholeFile::~WholeFile() {
+    abandon();
+}
+
+void WholeFile::abandon() noexcept {
+    if (stream_) std::fclose(std::exchange(stream_, nullptr));
+    temporary_ = TemporaryFile();
+}
+
+Result<void> WholeFile::write(const void* bytes, std::size_t count) {
+    assert(stream_);
+    errno = 0;
+    if (std::fwrite(bytes, 1, count, stream_) == count) return {};
+    return fault(path_, "cannot be written: " + system_reason(errno ? errno : EIO));
+}
+
+Result<void> WholeFile::settle() {
+    assert(stream_);
+    errno = 0;
+    if (!std::ferror(stream_) && std::fflush(stream_) == 0 && fsync(fileno(stream_)) == 0) return {};
+    return fault(path_, "cannot be written: " + system_reason(errno ? errno : EIO));
+}
+
+int WholeFile::take_name() {
+    int why = temporary_.take_temporary_name();
+    // A stream that was flushed and synced has nothing left to lose.
+    if (std::fclose(std::exchange(stream_, nullptr)) != 0 && why == 0) why = errno;
+    if (why == 0) why = take_file_name(temporary_.path(), path_, overwrite_);
+    if (why == 0) temporary_.forget_name();
+    return why;
+}
+
+Result<void> WholeFile::commit() {
+    return commit_together({this});
+}
+
+// A name that was taken is given back to what had it, or was nobody's before.
+void WholeFile::give_back(TemporaryFile& before, bool was_there) {
+    const bool given = before.path().empty() ? !was_there && unlink(path_.c_str()) == 0
+                                             : rename(before.path().c_str(), path_.c_str()) == 0;
+    if (given) before.forget_name();
+}
+
+Result<void> commit_together(std::initializer_list<WholeFile*> files) {
+    const auto failed = [&](const Error& error) {
+        for (WholeFile* file : files) file->abandon();
+        return error;
+    };
+    for (WholeFile* file : files) {
+        if (const auto settled = file->settle(); !settled.ok()) return failed(settled.error());
+    }
+    const NamesHeld held;
+    struct Taken {
+        WholeFile* file;
+        bool was_there;
+        TemporaryFile before;  // what had the name, by a second one
+    };
+    std::vector<Taken> taken;
+    for (WholeFile* file : files) {
+        Taken now{file, access(file->path_.c_str(), F_OK) == 0, {}};
+        if (now.was_there && taken.size() + 1 < files.size()) (void)now.before.keep(file->path_);
+        if (const int why = file->take_name(); why != 0) {
+            for (Taken& other : taken) other.file->give_back(other.before, other.was_there);
+            const bool appeared = why == EEXIST && !file->overwrite_;
+            return failed(fault(file->path_, appeared
+                                                 ? "appeared while it was being written, and is left as it is"
+                                                 : "cannot be written: " + system_reason(why)));
+        }
+        taken.push_back(std::move(now));
+    }
+    return {};
+}
+
+Result<void> write_whole_file(const std::string& path, const std::string& text, bool overwrite) {
+    ORO_TRY(WholeFile file, WholeFile::create(path, overwrite));
+    ORO_CHECK(file.write(text.data(), text.size()));
+    return file.commit();
+}
+
+}  // namespace oro

@@ -1,0 +1,58 @@
+// Files that are written whole or not at all.
+#pragma once
+
+#include <cstdio>
+#include <initializer_list>
+#include <string>
+
+#include "core/base/result.h"
+#include "geo/files/temporary_file.h"
+
+namespace oro {
+
+// A file without a name, or under a temporary one, in the same folder, which takes its real name on commit().
+// Destroyed without commit, it is removed and whatever had the name before is untouched.
+class WholeFile {
+  public:
+    // Errors: unwritable folder, a folder of that name, an existing file when overwrite is false.
+    static Result<WholeFile> create(const std::string& path, bool overwrite,
+                                    Temporary kind = Temporary::nameless);
+    WholeFile(WholeFile&& other) noexcept;
+    WholeFile& operator=(WholeFile&& other) noexcept;
+    WholeFile(const WholeFile&) = delete;
+    WholeFile& operator=(const WholeFile&) = delete;
+    ~WholeFile();
+
+    [[nodiscard]] std::FILE* stream() const { return stream_; }
+    // Appends; reports the system's reason (a full disk, a file size limit).
+    Result<void> write(const void* bytes, std::size_t count);
+    // Puts what was written so far on the disk, so that of commit() only the renaming is left: for files that
+    // must appear together.
+    Result<void> settle();
+    // Flushes, syncs, closes and renames over the real name (fails, when overwrite is false and the name was
+    // taken since).
+    Result<void> commit();
+
+  private:
+    WholeFile() = default;
+    friend Result<void> commit_together(std::initializer_list<WholeFile*> files);
+    void abandon() noexcept;
+    // What is left of commit() when all is on the disk. 0, or the system's error number.
+    int take_name();
+    void give_back(TemporaryFile& before, bool was_there);
+
+    std::FILE* stream_{nullptr};
+    std::string path_;
+    TemporaryFile temporary_;
+    bool overwrite_{false};
+};
+
+// commit() of files that belong together: all have their names after it, or none has: what had them before
+// has them again. Only a power cut between two renamings, which take no time, leaves some; the last file is
+// the one that matters.
+Result<void> commit_together(std::initializer_list<WholeFile*> files);
+
+// Writes a whole text file in one go.
+Result<void> write_whole_file(const std::string& path, const std::string& text, bool overwrite);
+
+}  // namespace oro

@@ -1,0 +1,25 @@
+// The view inside a picture, from any source of bytes: not for use outside picture*.cpp and its fuzzer.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/base/result.h"
+
+namespace oro {
+
+// Bytes by offset: a file, or a test's memory.
+class PictureBytes {
+  public:
+    virtual ~PictureBytes() = default;
+    [[nodiscard]] virtual std::uint64_t size() const = 0;
+    // All `count` bytes from `offset`, or false.
+    virtual bool read(std::uint64_t offset, void* to, std::size_t count) = 0;
+};
+
+// As read_view_json; `path` is named in errors. Never reads outside [0, size()), and takes at most 64 MiB of
+// XMP.
+Result<std::string> find_view_json(PictureBytes& bytes, const std::string& path);
+
+}  // namespace oro

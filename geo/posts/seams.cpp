@@ -1,0 +1,132 @@
+#include "geo/posts/seams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+namespace oro {
+namespace {
+
+std::string_view file_name(std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string_view::npos ? path : path.substr(slash + 1);
+}
+
+}  // namespace
+
+std::vector<std::size_t> by_precedence(std::span<const Precedence> sources) {
+    // Spacings are compared in classes, so that the order stays one: each class starts at its finest member.
+    std::vector<std::size_t> order(sources.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto spacing = [&](std::size_t i) {
+        return std::sqrt(sources[i].lat_spacing_deg * sources[i].lon_spacing_deg);
+    };
+    std::ranges::sort(order, {}, spacing);
+    std::vector<int> spacing_class(sources.size());
+    double finest = 0.0;
+    int current = 0;
+    for (const std::size_t i : order) {
+        if (spacing(i) > finest * (1.0 + 1e-6)) {
+            finest = spacing(i);
+            ++current;
+        }
+        spacing_class[i] = current;
+    }
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+        if (spacing_class[a] != spacing_class[b]) return spacing_class[a] < spacing_class[b];
+        const std::string_view name_a = file_name(sources[a].path);
+        const std::string_view name_b = file_name(sources[b].path);
+        if (name_a != name_b) return name_a < name_b;
+        return sources[a].path < sources[b].path;
+    });
+    return order;
+}
+
+std::vector<std::size_t> by_precedence(std::span<const Source> sources) {
+    std::vector<Precedence> ranks;
+    for (const Source& source : sources)
+        ranks.push_back({source.lat_spacing_deg, source.lon_spacing_deg, source.report.path});
+    return by_precedence(ranks);
+}
+
+JoinedSurface::JoinedSurface(const PostGrid& grid)
+    : grid_(grid), heights_(grid.post_count(), void_height_m), marks_(grid.post_count(), 0) {}
+
+std::uint64_t JoinedSurface::lay(int row, int first_column, std::span<const float> heights,
+                                 std::span<const unsigned char> inside, bool own_posts,
+                                 SeamReport& of_source) {
+    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
+                              static_cast<std::size_t>(first_column);
+    std::uint64_t lent = 0;
+    for (std::size_t c = 0; c < heights.size(); ++c) {
+        if (!inside[c]) continue;
+        const std::size_t post = start + c;
+        unsigned char& marks = marks_[post];
+        const bool covered_before = (marks & covered_mark) != 0;
+        marks |= covered_mark;
+        if (is_void(heights[c])) continue;
+        if (is_void(heights_[post])) {
+            heights_[post] = heights[c];
+            lent += covered_before;
+            if (own_posts) marks |= own_mark;
+            continue;
+        }
+        if (!own_posts || !(marks & own_mark)) continue;
+        if (!(marks & shared_mark)) ++seams_.shared_posts;
+        marks |= shared_mark;
+        const double difference =
+            std::abs(static_cast<double>(heights[c]) - static_cast<double>(heights_[post]));
+        ++of_source.shared_posts;
+        of_source.disagreeing_posts += difference > 0.0;
+        of_source.largest_difference_m = std::max(of_source.largest_difference_m, difference);
+        if (difference > 0.0 && !(marks & disagreeing_mark)) {
+            ++seams_.disagreeing_posts;
+            marks |= disagreeing_mark;
+        }
+        seams_.largest_difference_m = std::max(seams_.largest_difference_m, difference);
+    }
+    return lent;
+}
+
+void JoinedSurface::lay_later(int row, int first_column, std::span<const float> heights) {
+    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
+                              static_cast<std::size_t>(first_column);
+    for (std::size_t c = 0; c < heights.size(); ++c) {
+        if (!is_void(heights[c])) later_.push_back({start + c, heights[c]});
+    }
+}
+
+void JoinedSurface::unite_pole(int row) {
+    const auto columns = static_cast<std::size_t>(grid_.columns());
+    const std::span<float> posts(heights_.data() + static_cast<std::size_t>(row) * columns, columns);
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const float height : posts) {
+        if (is_void(height)) continue;
+        sum += static_cast<double>(height);
+        ++count;
+    }
+    if (count == 0) return;
+    std::ranges::fill(posts, static_cast<float>(sum / static_cast<double>(count)));
+}
+
+void JoinedSurface::finish() {
+    for (const Later& later : later_) {
+        if (is_void(heights_[later.post])) heights_[later.post] = later.height;
+    }
+    later_ = {};
+    const auto columns = static_cast<std::size_t>(grid_.columns());
+    if (grid_.columns() > 1 && std::abs(grid_.east_deg() - grid_.west_deg() - 360.0) < 1e-9) {
+        for (std::size_t first = 0; first < heights_.size(); first += columns) {
+            float& west = heights_[first];
+            float& east = heights_[first + columns - 1];
+            if (is_void(west)) west = east;
+            east = west;
+        }
+    }
+    if (grid_.north_deg() >= 90.0) unite_pole(0);
+    if (grid_.south_deg() <= -90.0) unite_pole(grid_.rows() - 1);
+}
+
+}  // namespace oro

@@ -1,0 +1,20 @@
+// Filling posts that have no height.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "geo/posts/seams.h"
+
+namespace oro {
+
+inline constexpr const char* void_method_holes = "holes";
+inline constexpr const char* void_method_filled = "filled by inverse-distance interpolation (GDALFillNodata)";
+
+// Fills the void posts that sources cover from posts up to 100 away; says how many. What no source covers
+// stays a hole.
+Result<std::uint64_t> fill_voids(JoinedSurface& surface, const PostGrid& grid);
+
+}  // namespace oro

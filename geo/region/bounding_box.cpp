@@ -1,0 +1,96 @@
+// Bounding boxes as people write them: four numbers, or names of whole-degree tiles.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "geo/region/region.h"
+#include "geo/sources/hgt_source.h"
+
+namespace oro {
+namespace {
+
+// The text as it can stand in one line.
+std::string quoted(std::string_view text) {
+    std::string result = "'";
+    for (const char c : text) result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+    return result + "'";
+}
+
+Error usage(const std::string& text, const std::string& what) {
+    return Error{ErrorKind::usage, "bounding box " + quoted(text), what};
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    return text;
+}
+
+bool parse_number(std::string_view text, double& number) {
+    text = trimmed(text);
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return fault == std::errc{} && end == text.data() + text.size() && !text.empty();
+}
+
+Result<std::array<double, 4>> four_numbers(const std::string& text) {
+    std::array<double, 4> numbers{};
+    std::string_view rest = text;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t comma = rest.find(',');
+        if ((comma == std::string_view::npos) != (i == 3))
+            return usage(text, "needs four numbers in degrees: west,south,east,north");
+        const std::string_view part = rest.substr(0, comma);
+        if (!parse_number(part, numbers[i]))
+            return usage(text, quoted(trimmed(part)) + " is no number; needs west,south,east,north");
+        if (!std::isfinite(numbers[i])) return usage(text, quoted(trimmed(part)) + " is not a finite number");
+        rest = i == 3 ? std::string_view{} : rest.substr(comma + 1);
+    }
+    return numbers;
+}
+
+}  // namespace
+
+Result<BoundingBox> parse_bounding_box(const std::string& text) {
+    ORO_TRY(const auto numbers, four_numbers(text));
+    const BoundingBox box{numbers[0], numbers[1], numbers[2], numbers[3]};
+    for (const double lat_deg : {box.south_deg, box.north_deg}) {
+        if (std::abs(lat_deg) > 90.0)
+            return usage(text, "a latitude is beyond 90 degrees; the order is west,south,east,north");
+    }
+    for (const double lon_deg : {box.west_deg, box.east_deg}) {
+        if (std::abs(lon_deg) > 180.0)
+            return usage(text,
+                         "a longitude is beyond 180 degrees; a box over the antimeridian has west > east");
+    }
+    if (box.south_deg >= box.north_deg)
+        return usage(text, "south must lie below north; the order is west,south,east,north");
+    const double width_deg = box.east_deg - box.west_deg;
+    if (width_deg == 0.0 || width_deg == -360.0) return usage(text, "the box has no width");
+    return box;
+}
+
+Result<BoundingBox> parse_tile_range(const std::string& text) {
+    const auto fault = [&](const std::string& what) {
+        return Error{ErrorKind::usage, "tile " + quoted(text), what};
+    };
+    const std::size_t colon = text.find(':');
+    const auto first = parse_tile_name(std::string_view(text).substr(0, colon));
+    const auto last =
+        colon == std::string::npos ? first : parse_tile_name(std::string_view(text).substr(colon + 1));
+    if (!first || !last)
+        return fault("is no tile name such as N46E008, nor a range of them such as N46E006:N47E010");
+    double west = first->lon_deg;
+    double east = last->lon_deg;
+    // Corners may come in any order; only a range of more than half a turn means the short way over the
+    // antimeridian.
+    if (west > east && west - east < 180.0) std::swap(west, east);
+    const double east_edge = east + 1.0;
+    return BoundingBox{west, std::min<double>(first->lat_deg, last->lat_deg),
+                       west > east && east_edge > 180.0 ? east_edge - 360.0 : east_edge,
+                       std::max<double>(first->lat_deg, last->lat_deg) + 1.0};
+}
+
+}  // namespace oro

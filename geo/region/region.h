@@ -1,0 +1,110 @@
+// From paths and a bounding box to one surface: which sources there are, what they say of themselves, and the
+// height field that they make together.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/baked/region_file.h"
+#include "core/base/result.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+// Degrees; west > east crosses the antimeridian. All finite, latitudes in [-90, 90], longitudes in [-180,
+// 180].
+struct BoundingBox {
+    double west_deg{};
+    double south_deg{};
+    double east_deg{};
+    double north_deg{};
+};
+
+// "west,south,east,north". Usage errors for anything else: not four numbers, not finite, out of range, south
+// >= north, no width.
+Result<BoundingBox> parse_bounding_box(const std::string& text);
+// "N46E008", or "N46E006:N47E010" for the box of both corner cells with all between.
+Result<BoundingBox> parse_tile_range(const std::string& text);
+
+struct RegionRequest {
+    std::vector<std::string>
+        paths;  // files, folders (recursive), .zip, .gz, VRT: what GDAL or the .hgt reader opens; or one .oro
+    std::optional<BoundingBox> box;  // nothing: all that the sources cover
+    bool strict_datum{false};        // refuse instead of letting another geoid stand in
+    bool fill_voids{
+        false};  // fill void posts from their neighbours (GDALFillNodata) instead of leaving holes
+    std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
+};
+
+// Where sources of one spacing meet or overlap. Rule: the finer spacing wins; among equals the first in the
+// byte order of file names.
+struct SeamReport {
+    std::uint64_t shared_posts{};
+    std::uint64_t disagreeing_posts{};
+    double largest_difference_m{};
+};
+
+// What a source says of itself and what was found in it.
+struct SourceReport {
+    std::string path;            // as found, e.g. tiles.zip/N46E008.hgt
+    std::string format;          // "SRTM .hgt", "GTiff", ...
+    std::string crs;             // e.g. "EPSG:4326 WGS 84"
+    std::string vertical_datum;  // e.g. "EGM96 height (assumed: .hgt states none)"
+    std::string height_unit;     // "m"
+    std::string posts_are;       // "points" or "cell centres (area)"
+    std::string attribution;     // "" when unknown
+    int rows{};
+    int columns{};
+    double lat_spacing_deg{};
+    double lon_spacing_deg{};
+    double spacing_m{};  // north-south, metres
+    BoundingBox box;     // of the posts
+    double lowest_m{};   // of posts with a height inside the region, H in metres
+    double highest_m{};
+    std::uint64_t voids{};
+    std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
+    std::string placement;        // "posts copied", "cubic resampling from EPSG:2056", ...
+    SeamReport seams;             // with the sources that win over it: its posts that one of them has, too
+    std::vector<std::string> files;  // of this machine that it is made of: the archive it is in, all that a
+                                     // VRT names; unknown ({}) in a baked region
+};
+
+struct Region {
+    HeightField field;
+    // The baked region that the field is, whole; null when it comes from other sources or is a part of one.
+    std::shared_ptr<const RegionFile> file;
+    std::vector<SourceReport> sources;  // those that the region uses
+    SeamReport seams;
+    std::string geoid;               // "EGM96 (egm96_15.gtx)": what N in the field is
+    UndulationField geoid_left_out;  // N that the field had, where a view goes without it
+    std::vector<std::string>
+        missing_cells;           // whole-degree cells of the region without any source, e.g. "N45E008"
+    std::uint64_t voids{};       // posts of the region without a height, for whatever reason; of these:
+    std::uint64_t outside{};     // beyond the rims of all sources, in cells that one touches
+    std::uint64_t in_missing{};  // in missing_cells
+    std::uint64_t filled{};      // void posts filled
+    std::string void_method;     // "holes" or "filled by inverse-distance interpolation (GDALFillNodata)"
+    // Void in the source that covers them: what --fill-voids is for.
+    [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }
+    std::vector<std::string> notes;  // what a user must know, one line each (a geoid that stands in, ...)
+};
+
+// Told how far reading is, 0..1, from the calling thread.
+using Progress = std::function<void(double share, const std::string& what)>;
+
+// Of a request whose sources are well, but too many posts together: what each says of itself, by its name and
+// header alone (no post is read, and what is told of heights and seams is empty). Empty for any other
+// request. Errors: as open_region's for each file.
+Result<std::vector<SourceReport>> sources_too_large(const RegionRequest& request);
+
+// Reads a region, or opens a baked one. Errors: a path that is not there or unreadable, a source that is
+// damaged (file, place, value, reason), no data in the region (ErrorKind::no_data), a datum that cannot be
+// honoured with strict_datum, a baked region beside other paths or with an option that was decided when it
+// was baked (ErrorKind::usage).
+Result<Region> open_region(const RegionRequest& request, const Progress& progress = {});
+
+}  // namespace oro

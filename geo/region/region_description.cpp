@@ -1,0 +1,209 @@
+#include "geo/region/region_description.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/base/json_bounds.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::int64_t description_format = 1;
+// A source has some 30 values; more than 100,000 of them do not fit into the longest description.
+constexpr JsonBounds bounds{.most_values = 5'000'000, .most_bytes = std::numeric_limits<std::size_t>::max()};
+
+ordered_json seams_text(const SeamReport& seams) {
+    return {{"shared_posts", seams.shared_posts},
+            {"disagreeing_posts", seams.disagreeing_posts},
+            {"largest_difference_m", seams.largest_difference_m}};
+}
+
+ordered_json source_text(const SourceReport& s) {
+    return {{"path", s.path},
+            {"format", s.format},
+            {"crs", s.crs},
+            {"vertical_datum", s.vertical_datum},
+            {"height_unit", s.height_unit},
+            {"posts_are", s.posts_are},
+            {"attribution", s.attribution},
+            {"rows", s.rows},
+            {"columns", s.columns},
+            {"lat_spacing_deg", s.lat_spacing_deg},
+            {"lon_spacing_deg", s.lon_spacing_deg},
+            {"spacing_m", s.spacing_m},
+            {"box_deg", {s.box.west_deg, s.box.south_deg, s.box.east_deg, s.box.north_deg}},
+            {"lowest_m", s.lowest_m},
+            {"highest_m", s.highest_m},
+            {"voids", s.voids},
+            {"implausible", s.implausible},
+            {"placement", s.placement},
+            {"seams", seams_text(s.seams)}};
+}
+
+// What is wrong in a description; thrown and caught within this file.
+struct Fault {
+    std::string what;
+};
+
+// A value of a description, and where in it: "sources[3].box_deg".
+class Field {
+  public:
+    Field(const json& value, std::string name) : value_(value), name_(std::move(name)) {}
+
+    [[nodiscard]] Field operator[](const char* name) const {
+        const std::string full = name_.empty() ? name : name_ + "." + name;
+        if (!value_.is_object()) throw Fault{full + ": there is no object that could hold it"};
+        const auto found = value_.find(name);
+        if (found == value_.end()) throw Fault{full + " is missing"};
+        return {*found, full};
+    }
+    [[nodiscard]] bool has(const char* name) const { return value_.is_object() && value_.contains(name); }
+    [[nodiscard]] std::vector<Field> elements() const {
+        require(value_.is_array(), "a list");
+        std::vector<Field> all;
+        for (std::size_t i = 0; i < value_.size(); ++i)
+            all.emplace_back(value_[i], name_ + "[" + std::to_string(i) + "]");
+        return all;
+    }
+    [[nodiscard]] std::string text() const {
+        require(value_.is_string(), "text");
+        auto text = value_.get<std::string>();
+        if (text.find('\0') != std::string::npos) throw Fault{name_ + " holds a zero byte"};
+        return text;
+    }
+    [[nodiscard]] std::vector<std::string> texts() const {
+        std::vector<std::string> all;
+        for (const Field& element : elements()) all.push_back(element.text());
+        return all;
+    }
+    [[nodiscard]] double number() const {
+        require(value_.is_number(), "a number");
+        const auto number = value_.get<double>();
+        require(std::isfinite(number), "a finite number");
+        return number;
+    }
+    [[nodiscard]] std::uint64_t count() const {
+        require(value_.is_number_unsigned(), "a whole number from 0 on");
+        return value_.get<std::uint64_t>();
+    }
+    [[nodiscard]] int side() const {
+        const std::uint64_t number = count();
+        require(number <= std::uint64_t{std::numeric_limits<int>::max()}, "at most 2^31 - 1");
+        return static_cast<int>(number);
+    }
+
+  private:
+    void require(bool fine, const char* expected) const {
+        if (!fine) throw Fault{name_ + " must be " + expected + ", and is " + one_line(said())};
+    }
+    [[nodiscard]] std::string said() const { return value_.is_number() ? value_.dump() : value_.type_name(); }
+
+    const json& value_;
+    std::string name_;
+};
+
+BoundingBox box_of(const Field& field) {
+    const std::vector<Field> corners = field.elements();
+    if (corners.size() != 4)
+        throw Fault{"a box must have 4 numbers, and has " + std::to_string(corners.size())};
+    return {corners[0].number(), corners[1].number(), corners[2].number(), corners[3].number()};
+}
+
+SeamReport seams_of(const Field& field) {
+    return {field["shared_posts"].count(), field["disagreeing_posts"].count(),
+            field["largest_difference_m"].number()};
+}
+
+SourceReport source_of(const Field& field) {
+    SourceReport s;
+    s.path = field["path"].text();
+    s.format = field["format"].text();
+    s.crs = field["crs"].text();
+    s.vertical_datum = field["vertical_datum"].text();
+    s.height_unit = field["height_unit"].text();
+    s.posts_are = field["posts_are"].text();
+    s.attribution = field["attribution"].text();
+    s.rows = field["rows"].side();
+    s.columns = field["columns"].side();
+    s.lat_spacing_deg = field["lat_spacing_deg"].number();
+    s.lon_spacing_deg = field["lon_spacing_deg"].number();
+    s.spacing_m = field["spacing_m"].number();
+    s.box = box_of(field["box_deg"]);
+    s.lowest_m = field["lowest_m"].number();
+    s.highest_m = field["highest_m"].number();
+    s.voids = field["voids"].count();
+    s.implausible = field["implausible"].count();
+    s.placement = field["placement"].text();
+    s.seams = seams_of(field["seams"]);
+    return s;
+}
+
+json parsed(const std::string& text) {
+    if (auto much = beyond_json_bounds(text, bounds)) throw Fault{std::move(*much)};
+    return json::parse(text);
+}
+
+Region region_of(const Field& field) {
+    const std::uint64_t format = field["orograph_region"].count();
+    if (format != description_format)
+        throw Fault{"its format is " + std::to_string(format) + ", this program reads " +
+                    std::to_string(description_format)};
+    Region region;
+    for (const Field& source : field["sources"].elements()) region.sources.push_back(source_of(source));
+    region.seams = seams_of(field["seams"]);
+    region.geoid = field["geoid"].text();
+    region.missing_cells = field["missing_cells"].texts();
+    region.voids = field["voids"].count();
+    // Regions baked earlier do not tell these apart from voids.
+    if (field.has("outside")) region.outside = field["outside"].count();
+    if (field.has("in_missing")) region.in_missing = field["in_missing"].count();
+    if (region.outside > region.voids || region.in_missing > region.voids - region.outside)
+        throw Fault{"it tells of more posts without a source than without a height"};
+    region.filled = field["filled"].count();
+    region.void_method = field["void_method"].text();
+    region.notes = field["notes"].texts();
+    return region;
+}
+
+}  // namespace
+
+std::string region_description(const Region& region) {
+    ordered_json all;
+    all["orograph_region"] = description_format;
+    all["sources"] = ordered_json::array();
+    for (const SourceReport& source : region.sources) all["sources"].push_back(source_text(source));
+    all["seams"] = seams_text(region.seams);
+    all["geoid"] = region.geoid;
+    all["missing_cells"] = region.missing_cells;
+    all["voids"] = region.voids;
+    all["outside"] = region.outside;
+    all["in_missing"] = region.in_missing;
+    all["filled"] = region.filled;
+    all["void_method"] = region.void_method;
+    all["notes"] = region.notes;
+    return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+Result<Region> region_from_description(const std::string& text, const std::string& where) {
+    const auto refused = [&](const std::string& reason) {
+        return Error{ErrorKind::failed, where, "its description cannot be read: " + reason};
+    };
+    try {
+        const json all = parsed(text);
+        return region_of({all, ""});
+    } catch (const Fault& fault) {
+        return refused(fault.what);
+    } catch (const json::exception& fault) {
+        // Less the library's own numbering: "[json.exception.parse_error.101] parse error at line 1, ...".
+        const std::string what = fault.what();
+        const std::size_t bracket = what.find("] ");
+        return refused(bracket == std::string::npos ? what : what.substr(bracket + 2));
+    }
+}
+
+}  // namespace oro

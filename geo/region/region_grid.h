@@ -1,0 +1,46 @@
+// Which part of the world a region is, and the one post grid that its sources meet on.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/terrain/post_grid.h"
+#include "geo/region/region.h"
+#include "geo/sources/source.h"
+
+namespace oro {
+
+// A box whose longitudes have been unwrapped: west in [-180, 180), east in (west, west + 360].
+struct RegionExtent {
+    BoundingBox box;
+    // Bounds that come from what was asked for, not from where the sources end.
+    bool west_asked{}, south_asked{}, east_asked{}, north_asked{};
+};
+
+// The box with its longitudes unwrapped.
+BoundingBox unwrapped(const BoundingBox& box);
+
+// Whole turns by which a span of longitudes must be moved to overlap [west, east] by more than a line.
+std::vector<int> turns_that_meet(const LonSpan& span, double west_deg, double east_deg);
+
+// Lets sources whose cells touch (their posts are a spacing apart) reach over the seam to each other's first
+// posts: a box that lies in between is inside the surface.
+void reach_over_seams(std::span<Source> sources);
+
+// True when the source, with its reach over seams, and the (unwrapped) box share more than a line.
+bool meets(const Source& source, const BoundingBox& box);
+
+// Where the asked box and the sources overlap; without a box the narrowest one that holds them all. Nothing
+// when they do not meet.
+std::optional<RegionExtent> region_extent(std::span<const Source> sources,
+                                          const std::optional<BoundingBox>& asked);
+
+// The grid over an extent. Spacing: per axis that of the finest source. Alignment: the finest source on a
+// grid of WGS84 degrees, so that its posts are the grid's (a finer spacing is then a whole part of that
+// source's); otherwise posts at whole parts of a degree. The poles are never passed. Error: more posts than
+// this machine's memory holds.
+Result<PostGrid> region_grid(std::span<const Source> sources, const RegionExtent& extent);
+
+}  // namespace oro

@@ -1,0 +1,247 @@
+#include "geo/sources/hgt_source.h"
+
+#include <cpl_vsi.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include "core/earth/ellipsoid.h"
+#include "geo/files/guarded_files.h"
+#include "geo/files/letter_case.h"
+#include "geo/sources/raster_library.h"
+#include "geo/sources/raster_parts.h"
+
+namespace oro {
+namespace {
+
+constexpr std::int16_t hgt_void = -32768;
+
+struct CloseFile {
+    void operator()(VSILFILE* file) const { VSIFCloseL(file); }
+};
+using File = std::unique_ptr<VSILFILE, CloseFile>;
+
+char lower(char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+// Digits only, all of them.
+std::optional<int> whole_number(std::string_view digits) {
+    int number = 0;
+    for (const char c : digits) {
+        if (c < '0' || c > '9') return std::nullopt;
+        number = number * 10 + (c - '0');
+    }
+    return number;
+}
+
+int stated_arc_seconds(std::string_view text) {
+    const std::string name = lower_case(text);
+    for (const char* product : {"srtmgl1", "srtm1"}) {
+        if (name.find(product) != std::string::npos) return 1;
+    }
+    for (const char* product : {"srtmgl3", "srtm3"}) {
+        if (name.find(product) != std::string::npos) return 3;
+    }
+    return 0;
+}
+
+// Bytes in the file once unpacked. For gzip that is what its trailer says (RFC 1952, ISIZE), modulo 2^32.
+Result<std::uint64_t> unpacked_size(const SourcePath& path) {
+    const Error fault{ErrorKind::failed, path.shown, "cannot be read"};
+    constexpr std::string_view gzip = "/vsigzip/";
+    if (path.file.starts_with(gzip)) {
+        const File file(VSIFOpenL(path.file.c_str() + gzip.size(), "rb"));
+        std::array<unsigned char, 4> size{};
+        std::array<unsigned char, 2> magic{};
+        if (!file || VSIFSeekL(file.get(), 0, SEEK_END) != 0 || VSIFTellL(file.get()) < 18)
+            return Error{ErrorKind::failed, path.shown, "is no gzip file: it ends early"};
+        VSIFSeekL(file.get(), 0, SEEK_SET);
+        if (VSIFReadL(magic.data(), 1, 2, file.get()) != 2 || magic[0] != 0x1f || magic[1] != 0x8b)
+            return Error{ErrorKind::failed, path.shown, "is no gzip file"};
+        VSIFSeekL(file.get(), 0, SEEK_END);
+        VSIFSeekL(file.get(), VSIFTellL(file.get()) - 4, SEEK_SET);
+        if (VSIFReadL(size.data(), 1, 4, file.get()) != 4) return fault;
+        return std::uint64_t{size[0]} | std::uint64_t{size[1]} << 8 | std::uint64_t{size[2]} << 16 |
+               std::uint64_t{size[3]} << 24;
+    }
+    VSIStatBufL status;
+    if (VSIStatExL(path.file.c_str(), &status,
+                   VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG | VSI_STAT_SIZE_FLAG) != 0)
+        return fault;
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
+Error wrong_size(const SourcePath& path, std::uint64_t bytes) {
+    if (bytes == 0) return Error{ErrorKind::failed, path.shown, "is empty"};
+    return Error{ErrorKind::failed, path.shown,
+                 "has " + std::to_string(bytes) +
+                     " bytes; a .hgt tile has 2884802 (SRTM3, 1201 x 1201 posts) or 25934402 (SRTM1, 3601 x "
+                     "3601 posts): it is "
+                     "truncated or of another kind"};
+}
+
+// Reads a packed tile to its end, where its checksum is compared: a changed byte often unpacks without
+// complaint into wrong heights. Not a byte farther: what a .gz says of its size may be a lie.
+Result<void> check_packing(VSILFILE* file, std::uint64_t bytes_left, const GdalMessages& messages,
+                           const std::string& shown) {
+    std::array<unsigned char, 65536> rest{};
+    std::uint64_t got = 0;
+    while (got <= bytes_left) {
+        const std::uint64_t wanted = std::min<std::uint64_t>(rest.size(), bytes_left + 1 - got);
+        const std::size_t more = VSIFReadL(rest.data(), 1, wanted, file);
+        if (more == 0) break;
+        got += more;
+    }
+    if (got > bytes_left)
+        return Error{ErrorKind::failed, shown, "unpacks to more bytes than the tile that it says it holds"};
+    const std::string said = messages.last("");
+    if (said.empty()) return {};
+    return Error{ErrorKind::failed, shown, "its packing is damaged: " + said};
+}
+
+std::string srtm_attribution(const SourcePath& path) {
+    const std::string names = lower_case(path.name + " " + path.archive);
+    if (names.find("srtmgl1") != std::string::npos) return "NASA SRTM v3 (SRTMGL1), public domain";
+    if (names.find("srtmgl3") != std::string::npos) return "NASA SRTM v3 (SRTMGL3), public domain";
+    return "";
+}
+
+}  // namespace
+
+std::string tile_name(int lat_deg, int lon_deg) {
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "%c%02d%c%03d", lat_deg < 0 ? 'S' : 'N', std::abs(lat_deg),
+                  lon_deg < 0 ? 'W' : 'E', std::abs(lon_deg));
+    return name.data();
+}
+
+std::optional<TileName> parse_tile_name(std::string_view text) {
+    if (text.size() != 7) return std::nullopt;
+    const char north = lower(text[0]);
+    const char east = lower(text[3]);
+    const auto lat = whole_number(text.substr(1, 2));
+    const auto lon = whole_number(text.substr(4, 3));
+    if (!lat || !lon || (north != 'n' && north != 's') || (east != 'e' && east != 'w')) return std::nullopt;
+    const TileName tile{north == 's' ? -*lat : *lat, east == 'w' ? -*lon : *lon};
+    if (tile.lat_deg < -90 || tile.lat_deg > 89 || tile.lon_deg < -180 || tile.lon_deg > 179)
+        return std::nullopt;
+    return tile;
+}
+
+std::optional<HgtName> parse_hgt_name(std::string_view file_name) {
+    if (file_name.size() < 11 || lower_case(file_name.substr(file_name.size() - 4)) != ".hgt")
+        return std::nullopt;
+    const auto tile = parse_tile_name(file_name.substr(0, 7));
+    const std::string_view rest = file_name.substr(7);
+    if (!tile || (rest[0] != '.' && rest[0] != '_' && rest[0] != '-')) return std::nullopt;
+    return HgtName{*tile, stated_arc_seconds(rest)};
+}
+
+std::optional<int> hgt_posts_of_size(std::uint64_t bytes) {
+    if (bytes == 2 * 1201 * 1201) return 1201;
+    if (bytes == 2 * 3601 * 3601) return 3601;
+    return std::nullopt;
+}
+
+Result<HgtName> name_of_hgt(const SourcePath& path) {
+    auto name = parse_hgt_name(path.name);
+    if (!name)
+        return Error{ErrorKind::failed, path.shown,
+                     "the name of a .hgt tile says where it lies, as in N46E008.hgt or N46E008.SRTMGL3.hgt; "
+                     "this one does not"};
+    if (name->arc_seconds == 0) name->arc_seconds = stated_arc_seconds(path.archive);
+    return *name;
+}
+
+Result<Source> inspect_hgt(const SourcePath& path) {
+    ORO_TRY(const HgtName name, name_of_hgt(path));
+    GdalMessages messages;
+    ORO_TRY(const std::uint64_t bytes, unpacked_size(path));
+    const auto posts = hgt_posts_of_size(bytes);
+    if (!posts) return wrong_size(path, bytes);
+    const int arc_seconds = 3600 / (*posts - 1);
+    if (name.arc_seconds != 0 && name.arc_seconds != arc_seconds)
+        return Error{ErrorKind::failed, path.shown,
+                     "the name says " + std::to_string(name.arc_seconds) + " arc-second posts, but its " +
+                         std::to_string(bytes) + " bytes are a tile of " + std::to_string(arc_seconds) +
+                         " arc-second posts"};
+    const double per_deg = *posts - 1;
+    const double lat = name.tile.lat_deg;
+    const double lon = name.tile.lon_deg;
+    Source source;
+    source.kind = SourceKind::hgt;
+    source.file = path.file;
+    source.named = path.named;
+    source.lon = {lon, lon + 1.0};
+    source.south_deg = lat;
+    source.north_deg = lat + 1.0;
+    source.lat_spacing_deg = source.lon_spacing_deg = 1.0 / per_deg;
+    source.on_degrees = true;
+    source.lat_axis = {per_deg, lat + 1.0, -1, *posts};
+    source.lon_axis = {per_deg, lon, +1, *posts};
+    SourceReport& report = source.report;
+    report.path = path.shown;
+    report.files = {local_file_of(path.file)};
+    report.format = arc_seconds == 1 ? "SRTM1 .hgt" : "SRTM3 .hgt";
+    report.crs = "EPSG:4326 WGS 84";
+    report.vertical_datum = "EGM96 height (assumed: .hgt states none)";
+    report.height_unit = "m";
+    report.posts_are = "points";
+    report.attribution = srtm_attribution(path);
+    report.rows = report.columns = *posts;
+    report.lat_spacing_deg = report.lon_spacing_deg = 1.0 / per_deg;
+    report.spacing_m = radians_from_deg(1.0 / per_deg).rad * meridian_radius_m(lat + 0.5);
+    report.box = {lon, lat, lon + 1.0, lat + 1.0};
+    return source;
+}
+
+Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
+    const auto side = static_cast<std::size_t>(source.lat_axis.count);
+    const GdalMessages messages;
+    const FileWatch watch(reading_limit_s + 1e-6 * static_cast<double>(side) * static_cast<double>(side));
+    errno = 0;
+    const File file(VSIFOpenL(source.file.c_str(), "rb"));
+    if (!file) {
+        const std::string reason = std::generic_category().message(errno != 0 ? errno : ENOENT);
+        return Error{ErrorKind::failed, source.report.path, "cannot be opened: " + messages.last(reason)};
+    }
+    PostBlock block;
+    block.window = window;
+    block.height_m.reserve(static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns));
+    std::vector<unsigned char> row(2 * side);
+    VSIFSeekL(file.get(), static_cast<vsi_l_offset>(window.row) * row.size(), SEEK_SET);
+    for (int r = 0; r < window.rows; ++r) {
+        const std::size_t got = VSIFReadL(row.data(), 1, row.size(), file.get());
+        if (got != row.size())
+            return Error{ErrorKind::failed, source.report.path,
+                         !watch.fault().empty()
+                             ? watch.fault()
+                             : "ends in post row " + std::to_string(window.row + r) + " of " +
+                                   std::to_string(side) + ": " +
+                                   messages.last("the file is truncated or its packing is damaged")};
+        for (int c = window.column; c < window.column + window.columns; ++c) {
+            const std::size_t byte = 2 * static_cast<std::size_t>(c);
+            const auto value = static_cast<std::int16_t>(row[byte] << 8 | row[byte + 1]);
+            const bool empty = value == hgt_void;
+            const bool implausible = !empty && (value < lowest_plausible_m || value > highest_plausible_m);
+            block.voids += empty || implausible;
+            block.implausible += implausible;
+            block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(value));
+        }
+    }
+    const std::uint64_t bytes_left = row.size() * (side - static_cast<std::size_t>(window.row + window.rows));
+    if (source.file.starts_with("/vsi"))
+        ORO_CHECK(check_packing(file.get(), bytes_left, messages, source.report.path));
+    if (!watch.fault().empty()) return Error{ErrorKind::failed, source.report.path, watch.fault()};
+    return block;
+}
+
+}  // namespace oro

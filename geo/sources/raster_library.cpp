@@ -1,0 +1,138 @@
+#include "geo/sources/raster_library.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <gdal_frmts.h>
+#include <gdal_priv.h>
+
+#include <array>
+#include <vector>
+
+#include "geo/files/guarded_files.h"
+#include "geo/sources/library_faults.h"
+
+namespace oro {
+namespace {
+
+struct Trusted {
+    const char* driver;
+    const char* name;  // for people; null for those that are not spoken of
+    void (*enter)();   // puts it on GDAL's list
+};
+// GTX is for the grids of geoids.
+constexpr std::array trusted{Trusted{"VRT", "VRT", GDALRegister_VRT},
+                             Trusted{"GTiff", "GeoTIFF", GDALRegister_GTiff},
+                             Trusted{"JP2OpenJPEG", "JPEG 2000", GDALRegister_JP2OpenJPEG},
+                             Trusted{"DTED", "DTED", GDALRegister_DTED},
+                             Trusted{"USGSDEM", "USGS DEM", GDALRegister_USGSDEM},
+                             Trusted{"HFA", "Erdas Imagine", GDALRegister_HFA},
+                             Trusted{"AAIGrid", "Esri ASCII grid", GDALRegister_AAIGrid},
+                             Trusted{"BT", "Binary Terrain", GDALRegister_BT},
+                             Trusted{"GSAG", "Golden Software grid", GDALRegister_GSAG},
+                             Trusted{"GSBG", nullptr, GDALRegister_GSBG},
+                             Trusted{"GS7BG", nullptr, GDALRegister_GS7BG},
+                             Trusted{"GTX", nullptr, GDALRegister_GTX}};
+
+// What is said while nobody listens stays unsaid: errors are told by whoever asked, in one line.
+void CPL_STDCALL say_nothing(CPLErr severity, CPLErrorNum number, const char*) {
+    note_gdal_message(severity == CE_Fatal, number == CPLE_OutOfMemory);
+}
+
+std::string in_one_line(std::string text) {
+    for (char& c : text) {
+        if (c == '\n' || c == '\r') c = ' ';
+    }
+    return text;
+}
+
+void set_options() {
+    // GDAL would write FILE.gz.properties beside a compressed file it has measured.
+    CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
+    // Otherwise GeoTIFF 1.0 files lose the vertical datum that they state.
+    CPLSetConfigOption("GTIFF_REPORT_COMPD_CS", "YES");
+    // Sidecar files are asked for by name: listing a folder of thousands of tiles for each of them takes
+    // minutes.
+    CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE");
+    // A VRT may carry programs.
+    CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
+    OSRSetPROJEnableNetwork(0);
+}
+
+}  // namespace
+
+void start_gdal() {
+    // Not std::call_once: what is thrown through it (there is no memory) must find glibc's unwinder, which is
+    // loaded then, and aborts where that fails.
+    static const bool is_started = [] {
+        CPLSetErrorHandler(say_nothing);
+        set_options();
+        for (const Trusted& format : trusted) format.enter();
+        // For rasters over our own memory. Opened by name it would read memory at any address.
+        GDALRegister_MEM();
+        if (auto* const memory = static_cast<GDALDriver*>(GDALGetDriverByName("MEM"))) {
+            memory->pfnOpen = nullptr;
+            memory->pfnIdentify = nullptr;
+        }
+        guard_files();
+        return true;
+    }();
+    (void)is_started;
+}
+
+const char* const* trusted_drivers() {
+    static const std::vector<const char*> names = [] {
+        std::vector<const char*> list;
+        for (const Trusted& format : trusted) list.push_back(format.driver);
+        list.push_back(nullptr);
+        return list;
+    }();
+    return names.data();
+}
+
+std::string trusted_formats() {
+    std::string names;
+    for (const Trusted& format : trusted) {
+        if (format.name != nullptr) names += (names.empty() ? "" : ", ") + std::string(format.name);
+    }
+    return names;
+}
+
+GdalMessages::GdalMessages() {
+    CPLPushErrorHandlerEx(&GdalMessages::take, this);
+}
+
+GdalMessages::~GdalMessages() {
+    CPLPopErrorHandler();
+    CPLErrorReset();
+}
+
+void CPL_STDCALL GdalMessages::take(CPLErr severity, CPLErrorNum number, const char* message) {
+    note_gdal_message(severity == CE_Fatal, number == CPLE_OutOfMemory);
+    if (message == nullptr) return;
+    auto& messages = *static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
+    if (severity >= CE_Failure) messages.text_ = message;
+    if (severity == CE_Warning && messages.warning_.empty()) messages.warning_ = message;
+}
+
+std::string GdalMessages::last(const std::string& otherwise) const {
+    return text_.empty() ? otherwise : in_one_line(text_);
+}
+
+std::string GdalMessages::warning() const {
+    return in_one_line(warning_);
+}
+
+SpatialReference wgs84_degrees() {
+    SpatialReference reference(OSRNewSpatialReference(nullptr));
+    OSRImportFromEPSG(reference.get(), 4326);
+    OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    return reference;
+}
+
+SpatialReference spatial_reference(const std::string& wkt) {
+    SpatialReference reference(OSRNewSpatialReference(wkt.c_str()));
+    if (reference) OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    return reference;
+}
+
+}  // namespace oro

@@ -1,0 +1,114 @@
+// Stored values to heights in metres: no-data, masks, scale and unit.
+#include <cpl_error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "geo/files/guarded_files.h"
+#include "geo/sources/hgt_source.h"
+#include "geo/sources/raster_library.h"
+#include "geo/sources/raster_source.h"
+
+namespace oro {
+namespace {
+
+// What a band declares as "no height here".
+class NoData {
+  public:
+    explicit NoData(GDALRasterBandH band) {
+        int declared = 0;
+        const double value = GDALGetRasterNoDataValue(band, &declared);
+        if (!declared) return;
+        value_ = value;
+        // A float band cannot hold every double: -9999.006 is stored, and must be compared, as a float.
+        single_ = GDALGetRasterDataType(band) == GDT_Float32;
+    }
+    [[nodiscard]] bool holds(double value) const {
+        if (!std::isfinite(value)) return true;
+        if (!value_) return false;
+        return single_ ? static_cast<float>(value) == static_cast<float>(*value_) : value == *value_;
+    }
+
+  private:
+    std::optional<double> value_;
+    bool single_{false};
+};
+
+// Masks of their own (bands, sidecars, alpha); no-data values are looked at directly.
+GDALRasterBandH mask_of(GDALRasterBandH band) {
+    const int flags = GDALGetMaskFlags(band);
+    const bool own =
+        (flags & (GMF_PER_DATASET | GMF_ALPHA)) != 0 && (flags & (GMF_NODATA | GMF_ALL_VALID)) == 0;
+    return own ? GDALGetMaskBand(band) : nullptr;
+}
+
+// True when a window of values could be read; it is given up when the watch's time is spent.
+bool read_values(GDALRasterBandH band, const PostWindow& window, void* to, GDALDataType type,
+                 FileWatch& watch) {
+    GDALRasterIOExtraArg more;
+    INIT_RASTERIO_EXTRA_ARG(more);
+    more.pfnProgress = [](double, const char*, void* data) -> int {
+        return static_cast<FileWatch*>(data)->spent() ? FALSE : TRUE;
+    };
+    more.pProgressData = &watch;
+    return GDALRasterIOEx(band, GF_Read, window.column, window.row, window.columns, window.rows, to,
+                          window.columns, window.rows, type, 0, 0, &more) == CE_None;
+}
+
+}  // namespace
+
+Result<PostBlock> read_raster(const Source& source, const PostWindow& window) {
+    const GdalMessages messages;
+    FileWatch watch(reading_limit_s + 1e-6 * window.rows * static_cast<double>(window.columns));
+    const Dataset dataset(GDALOpenEx(source.file.c_str(),
+                                     GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                     trusted_drivers(), nullptr, nullptr));
+    const auto fault = [&](const std::string& what) {
+        return Error{ErrorKind::failed, source.report.path,
+                     watch.fault().empty() ? what + messages.last("the file is damaged") : watch.fault()};
+    };
+    if (!dataset) return fault("cannot be opened: ");
+    const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+    const GDALRasterBandH mask = mask_of(band);
+    const NoData no_data(band);
+    const auto columns = static_cast<std::size_t>(window.columns);
+    // Whole rows of the file's own blocks at a time, so that each block is unpacked once.
+    int block_columns = 0;
+    int block_rows = 0;
+    GDALGetBlockSize(band, &block_columns, &block_rows);
+    const int step = std::clamp(block_rows, 1, 1024);
+    std::vector<double> values(columns * static_cast<std::size_t>(step));
+    std::vector<unsigned char> valid(mask ? values.size() : 0);
+    PostBlock block;
+    block.window = window;
+    block.height_m.reserve(columns * static_cast<std::size_t>(window.rows));
+    for (int r = 0; r < window.rows; r += step) {
+        const int rows = std::min(step, window.rows - r);
+        const int row = window.row + r;
+        const PostWindow part{row, window.column, rows, window.columns};
+        if (!read_values(band, part, values.data(), GDT_Float64, watch))
+            return fault("cannot be read near row " + std::to_string(row) + ": ");
+        if (mask && !read_values(mask, part, valid.data(), GDT_Byte, watch))
+            return fault("its mask cannot be read near row " + std::to_string(row) + ": ");
+        // Some drivers go on after a failure.
+        if (!watch.fault().empty() || !messages.last("").empty())
+            return fault("cannot be read near row " + std::to_string(row) + ": ");
+        for (std::size_t i = 0; i < columns * static_cast<std::size_t>(rows); ++i) {
+            const bool empty = no_data.holds(values[i]) || (mask && valid[i] == 0);
+            const double height_m = values[i] * source.scale_m + source.offset_m;
+            const bool implausible =
+                !empty && !(height_m >= lowest_plausible_m && height_m <= highest_plausible_m);
+            block.voids += empty || implausible;
+            block.implausible += implausible;
+            block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(height_m));
+        }
+    }
+    return block;
+}
+
+Result<PostBlock> read_posts(const Source& source, const PostWindow& window) {
+    return source.kind == SourceKind::hgt ? read_hgt(source, window) : read_raster(source, window);
+}
+
+}  // namespace oro

@@ -1,0 +1,276 @@
+#include "geo/sources/raster_source.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "geo/datum/vertical_datum.h"
+#include "geo/files/foreign_text.h"
+#include "geo/files/guarded_files.h"
+#include "geo/files/letter_case.h"
+#include "geo/sources/raster_library.h"
+#include "geo/sources/raster_parts.h"
+#include "geo/sources/raster_place.h"
+
+namespace oro {
+namespace {
+
+std::string text_of(const char* text) {
+    return text ? foreign_text(text) : "";
+}
+
+// A reason why these bands are no elevation, or "".
+std::string not_elevation(GDALDatasetH dataset) {
+    const int bands = GDALGetRasterCount(dataset);
+    if (bands == 0) return "holds no raster of its own (a container of several?): name the one to open";
+    const bool alpha =
+        bands == 2 && GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, 2)) == GCI_AlphaBand;
+    if (bands > 1 && !alpha)
+        return "has " + std::to_string(bands) + " bands: an image, no elevation (which has one)";
+    const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
+    if (GDALGetRasterColorTable(band) || GDALGetRasterColorInterpretation(band) == GCI_PaletteIndex)
+        return "has a colour palette: an image, no elevation";
+    if (GDALDataTypeIsComplex(GDALGetRasterDataType(band))) return "holds complex numbers, no elevation";
+    return "";
+}
+
+Result<SpatialReference> crs_of(GDALDatasetH dataset) {
+    const OGRSpatialReferenceH stated = GDALGetSpatialRef(dataset);
+    const auto fault = [](const std::string& what) { return Error{ErrorKind::failed, "", what}; };
+    if (!stated) {
+        return fault(GDALGetGCPCount(dataset) > 0
+                         ? "is placed by ground control points only; warp it first (gdalwarp)"
+                         : "states no coordinate reference system, so where it lies is unknown; give it one "
+                           "(gdal_edit.py -a_srs)");
+    }
+    if (text_of(OSRGetName(stated)).empty())
+        return fault("its coordinate reference system is unknown to PROJ");
+    if (OSRIsLocal(stated) || (!OSRIsGeographic(stated) && !OSRIsProjected(stated)))
+        return fault("its coordinate reference system (" + text_of(OSRGetName(stated)) +
+                     ") is tied to no place on the Earth");
+    SpatialReference crs(OSRClone(stated));
+    OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    return crs;
+}
+
+std::string wkt_of(OGRSpatialReferenceH crs) {
+    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+    char* text = nullptr;
+    OSRExportToWktEx(crs, &text, options);
+    std::string wkt = text ? text : "";
+    CPLFree(text);
+    return wkt;
+}
+
+std::string crs_name(OGRSpatialReferenceH crs) {
+    const char* const authority = OSRGetAuthorityName(crs, nullptr);
+    const char* const code = OSRGetAuthorityCode(crs, nullptr);
+    const std::string name = text_of(OSRGetName(crs));
+    return authority && code ? std::string(authority) + ":" + code + " " + name : name;
+}
+
+// What heights refer to: by the CRS, by DTED metadata, or assumed.
+StatedDatum read_vertical(Source& source, GDALDatasetH dataset, OGRSpatialReferenceH crs) {
+    if (OSRIsCompound(crs) || OSRGetAxesCount(crs) == 3) {
+        source.vertical_crs = wkt_of(crs);
+        if (auto datum = stated_datum(source.vertical_crs)) {
+            source.report.vertical_datum = datum->name;
+            return *datum;
+        }
+        // Kept: who asks for it later is told that it cannot be read.
+        source.report.vertical_datum =
+            "EGM96 height (assumed: PROJ cannot read what the CRS states of heights)";
+        return {};
+    }
+    const std::string dted = text_of(GDALGetMetadataItem(dataset, "DTED_VerticalDatum", nullptr));
+    if (dted == "E96" || dted == "E08") {
+        source.vertical_crs = dted == "E96" ? "EPSG:4326+5773" : "EPSG:4326+3855";
+        source.report.vertical_datum =
+            (dted == "E96" ? "EGM96 height (DTED metadata: " : "EGM2008 height (DTED metadata: ") + dted +
+            ")";
+    } else {
+        source.report.vertical_datum = "EGM96 height (assumed: the file states none)";
+    }
+    return {};
+}
+
+Result<void> read_unit(Source& source, GDALRasterBandH band, const StatedDatum& datum,
+                       const std::string& override_unit) {
+    const std::string stated = text_of(GDALGetRasterUnitType(band));
+    double metres = 1.0;
+    if (!override_unit.empty()) {
+        const auto factor = metres_in(override_unit);
+        if (!factor)
+            return Error{ErrorKind::usage, "height unit '" + override_unit + "'",
+                         "is none of m, ft, us-ft, cm"};
+        metres = *factor;
+        source.report.height_unit = override_unit + " (as told)";
+    } else if (!stated.empty()) {
+        const auto factor = metres_in(stated);
+        if (!factor)
+            return Error{
+                ErrorKind::failed, "",
+                "gives its heights in '" + stated + "', which is no known unit of height (m, ft, us-ft, cm)"};
+        metres = *factor;
+        source.report.height_unit = stated;
+    } else if (!source.vertical_crs.empty() && std::abs(datum.metres_per_unit) != 1.0) {
+        metres = std::abs(datum.metres_per_unit);
+        source.report.height_unit = std::abs(metres - 0.3048) < 1e-9   ? "ft"
+                                    : std::abs(metres - 0.3048) < 1e-5 ? "us-ft"
+                                                                       : std::to_string(metres) + " m";
+    } else {
+        source.report.height_unit = source.vertical_crs.empty() ? "m (assumed)" : "m";
+    }
+    if (datum.metres_per_unit < 0.0) metres = -metres;  // depths
+    int scaled = 0, shifted = 0;
+    const double scale = GDALGetRasterScale(band, &scaled);
+    const double offset = GDALGetRasterOffset(band, &shifted);
+    source.scale_m = (scaled && scale != 0.0 ? scale : 1.0) * metres;
+    source.offset_m = (shifted ? offset : 0.0) * metres;
+    return {};
+}
+
+std::string attribution_of(GDALDatasetH dataset) {
+    std::string text;
+    for (const char* item :
+         {"TIFFTAG_COPYRIGHT", "TIFFTAG_ARTIST", "ATTRIBUTION", "attribution", "LICENSE"}) {
+        const std::string value = text_of(GDALGetMetadataItem(dataset, item, nullptr));
+        if (!value.empty() && text.find(value) == std::string::npos)
+            text += (text.empty() ? "" : "; ") + value;
+    }
+    return text;
+}
+
+struct Opened {
+    Dataset dataset;  // null when it is no raster that is read here
+    Error unfit;      // then
+    RasterParts parts;
+};
+
+// True when a file that cannot be opened is damaged, rather than something else: by its name or first bytes.
+bool should_open(const SourcePath& path) {
+    const std::string name = lower_case(path.name);
+    for (const char* ending : {".tif", ".tiff", ".gtiff", ".jp2", ".vrt", ".dt0", ".dt1", ".dt2"}) {
+        if (name.ends_with(ending)) return true;
+    }
+    return GDALIdentifyDriverEx(path.file.c_str(), GDAL_OF_RASTER, trusted_drivers(), nullptr) != nullptr;
+}
+
+Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages) {
+    Opened opened;
+    ORO_TRY(opened.parts, parts_of_raster(path.file));
+    opened.dataset.reset(GDALOpenEx(path.file.c_str(),
+                                    GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                    trusted_drivers(), nullptr, nullptr));
+    if (!opened.dataset) {
+        if (should_open(path))
+            return Error{ErrorKind::failed, "",
+                         "is no raster that GDAL can open: " + messages.last("unknown format")};
+        opened.unfit = {ErrorKind::failed, "",
+                        "is no raster of a format that is trusted to tell when it is cut (" +
+                            trusted_formats() + "); gdal_translate makes a GeoTIFF of others"};
+        return opened;
+    }
+    const CPLStringList listed(GDALGetFileList(opened.dataset.get()));
+    for (int i = 0; i < listed.size(); ++i) {
+        const std::string file = local_file_of(listed[i]);
+        if (std::ranges::find(opened.parts.files, file) == opened.parts.files.end())
+            opened.parts.files.push_back(file);
+    }
+    return opened;
+}
+
+// What an opened raster says of itself; an error without its name where it is no source.
+Result<Source> described(const SourcePath& path, const Dataset& dataset, const std::string& height_unit) {
+    const auto fault = [&](const std::string& what) { return Error{ErrorKind::failed, "", what}; };
+    if (const std::string why = not_elevation(dataset.get()); !why.empty()) return fault(why);
+    std::array<double, 6> cell{};
+    ORO_TRY(const SpatialReference crs, crs_of(dataset.get()));
+    if (GDALGetGeoTransform(dataset.get(), cell.data()) != CE_None)
+        return fault("states no georeference: where its posts lie is unknown");
+    Source source;
+    source.kind = SourceKind::raster;
+    source.file = path.file;
+    source.named = path.named;
+    source.report.path = path.shown;
+    source.report.format = text_of(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get())));
+    source.report.rows = GDALGetRasterYSize(dataset.get());
+    source.report.columns = GDALGetRasterXSize(dataset.get());
+    if (source.report.rows < 2 || source.report.columns < 2) return fault("has fewer than 2 x 2 posts");
+    const StatedDatum datum = read_vertical(source, dataset.get(), crs.get());
+    ORO_CHECK(read_unit(source, GDALGetRasterBand(dataset.get(), 1), datum, height_unit));
+    // GDAL's map is for the corners of cells, whatever AREA_OR_POINT says (it has moved "point" files by half
+    // a cell); a post is a cell's centre.
+    source.crs_from_post = {cell[0] + 0.5 * (cell[1] + cell[2]), cell[1], cell[2],
+                            cell[3] + 0.5 * (cell[4] + cell[5]), cell[4], cell[5]};
+    const bool points =
+        lower_case(text_of(GDALGetMetadataItem(dataset.get(), "AREA_OR_POINT", nullptr))) == "point";
+    source.report.posts_are = points ? "points" : "cell centres (area)";
+    source.report.attribution = attribution_of(dataset.get());
+    const SpatialReference horizontal(OSRClone(crs.get()));
+    if (OSRIsCompound(horizontal.get())) OSRStripVertical(horizontal.get());
+    if (OSRGetAxesCount(horizontal.get()) == 3) OSRDemoteTo2D(horizontal.get(), nullptr);
+    OSRSetAxisMappingStrategy(horizontal.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    source.report.crs = crs_name(horizontal.get());
+    source.crs_wkt = wkt_of(horizontal.get());
+    ORO_CHECK(place_on_earth(source, horizontal.get()));
+    return source;
+}
+
+}  // namespace
+
+std::optional<double> metres_in(const std::string& unit) {
+    constexpr double foot = 0.3048;
+    constexpr double us_survey_foot = 1200.0 / 3937.0;
+    const std::string name = lower_case(unit);
+    const auto is = [&](std::initializer_list<std::string_view> names) {
+        return std::ranges::find(names, name) != names.end();
+    };
+    if (is({"m", "metre", "metres", "meter", "meters"})) return 1.0;
+    if (is({"ft", "foot", "feet", "international foot", "ift"})) return foot;
+    if (is({"us-ft", "us_ft", "usft", "ftus", "us survey foot", "us survey feet", "us foot", "foot_us",
+            "survey foot"}))
+        return us_survey_foot;
+    if (is({"cm", "centimetre", "centimetres", "centimeter", "centimeters"})) return 0.01;
+    if (is({"dm", "decimetre", "decimetres", "decimeter", "decimeters"})) return 0.1;
+    if (is({"mm", "millimetre", "millimetres", "millimeter", "millimeters"})) return 0.001;
+    return std::nullopt;
+}
+
+Result<Finding> inspect_raster(const SourcePath& path, const std::string& height_unit) {
+    start_gdal();
+    const GdalMessages messages;
+    const FileWatch watch(opening_limit_s);
+    const auto named = [&](Error error) {
+        error.where = error.where.empty() ? path.shown : path.shown + ": " + error.where;
+        return error;
+    };
+    const auto opened = open_source(path, messages);
+    if (!watch.fault().empty()) return named({ErrorKind::failed, "", watch.fault()});
+    if (!opened) return named(opened.error());
+    Finding finding;
+    if (!opened->dataset) {
+        finding.unfit = named(opened->unfit);
+        return finding;
+    }
+    auto source = described(path, opened->dataset, height_unit);
+    if (!watch.fault().empty()) return named({ErrorKind::failed, "", watch.fault()});
+    if (!source) {
+        finding.unfit = named(source.error());
+        if (finding.unfit.kind == ErrorKind::usage) return finding.unfit;
+        return finding;
+    }
+    finding.source = std::move(*source);
+    finding.source->report.files = opened->parts.files;
+    for (const std::string& doubt : opened->parts.doubts) finding.doubts.push_back(path.shown + ": " + doubt);
+    if (const std::string warning = messages.warning(); !warning.empty())
+        finding.doubts.push_back(path.shown + ": GDAL warns: " + warning);
+    return finding;
+}
+
+}  // namespace oro

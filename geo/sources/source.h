@@ -1,0 +1,105 @@
+// What the parts of the region reader know of one source, and its posts once they are read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "geo/region/region.h"
+
+namespace oro {
+
+// Longitudes from west to east without a jump: west in [-180, 180), east in [west, west + 360].
+struct LonSpan {
+    double west_deg{};
+    double east_deg{};
+};
+
+// Posts of a source along one axis, when they lie on a grid of WGS84 degrees: post i is at start + direction
+// * i / posts_per_deg.
+struct SourceAxis {
+    double posts_per_deg{};
+    double start_deg{};
+    int direction{1};
+    int count{};
+
+    [[nodiscard]] double at_deg(double i) const { return start_deg + direction * i / posts_per_deg; }
+    [[nodiscard]] double index_at(double angle_deg) const {
+        return (angle_deg - start_deg) * posts_per_deg * direction;
+    }
+};
+
+enum class SourceKind { hgt, raster };
+
+// How far a source's surface goes on beyond its own last posts, to the first ones of a neighbour: 0 where it
+// ends there.
+struct SeamReach {
+    double west_deg{};
+    double south_deg{};
+    double east_deg{};
+    double north_deg{};
+};
+
+struct Source {
+    SourceKind kind{SourceKind::raster};
+    std::string file;  // as GDAL's virtual file system opens it
+    bool named{};      // by the user, not found in a folder
+    SourceReport report;
+    LonSpan lon;  // of the posts
+    double south_deg{};
+    double north_deg{};
+    SeamReach reach;     // set by reach_over_seams
+    bool projected{};    // spacing is even in metres rather than degrees
+    bool full_circle{};  // the posts go round the Earth: east of the last one comes the first
+    double lat_spacing_deg{};
+    double lon_spacing_deg{};  // at the source's middle
+
+    // Sources whose posts are a grid of WGS84 degrees.
+    bool on_degrees{};
+    SourceAxis lat_axis;
+    SourceAxis lon_axis;
+    // All others: the horizontal CRS, and the affine map from post numbers to it: x = m[0] + m[1] column +
+    // m[2] row, y = m[3] + m[4] column + m[5] row.
+    std::string crs_wkt;
+    std::array<double, 6> crs_from_post{};
+
+    // From a stored value to metres, upwards: value * scale_m + offset_m.
+    double scale_m{1.0};
+    double offset_m{0.0};
+    // The full CRS when it states what heights refer to, as WKT2; "EPSG:5773"-like code when metadata states
+    // it; or nothing.
+    std::string vertical_crs;
+};
+
+// A rectangle of a source's posts.
+struct PostWindow {
+    int row{};
+    int column{};
+    int rows{};
+    int columns{};
+};
+
+// Posts as read: metres in the source's own vertical datum, void_height_m where there is none.
+struct PostBlock {
+    PostWindow window;
+    std::vector<float> height_m;
+    std::uint64_t voids{};        // those among them without a height
+    std::uint64_t implausible{};  // those of the voids whose stored height no terrain has
+
+    [[nodiscard]] float at(int row, int column) const {
+        return height_m[static_cast<std::size_t>(row - window.row) *
+                            static_cast<std::size_t>(window.columns) +
+                        static_cast<std::size_t>(column - window.column)];
+    }
+};
+
+// Heights that no terrain has: below the deepest trench or above the highest mountain.
+inline constexpr double lowest_plausible_m = -12000.0;
+inline constexpr double highest_plausible_m = 9000.0;
+
+// Reads a window of a source's posts. Errors: a file that has changed, is damaged or ends early.
+Result<PostBlock> read_posts(const Source& source, const PostWindow& window);
+
+}  // namespace oro

@@ -1,0 +1,169 @@
+#include "render/device/device_report.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace oro {
+namespace {
+
+std::string type_name(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "software";
+        default:
+            return "other";
+    }
+}
+
+// What a device has cannot be told where asking fails: that is no lack.
+Result<bool> has_extension(VkPhysicalDevice physical, const char* wanted) {
+    std::uint32_t count = 0;
+    ORO_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr));
+    std::vector<VkExtensionProperties> all(count);
+    ORO_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, all.data()));
+    return std::any_of(all.begin(), all.end(), [&](const VkExtensionProperties& e) {
+        return std::strcmp(e.extensionName, wanted) == 0;
+    });
+}
+
+std::string version_name(std::uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+void describe_properties(VkPhysicalDevice physical, DeviceReport& report) {
+    VkPhysicalDeviceMeshShaderPropertiesEXT mesh{};
+    mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT;
+    VkPhysicalDeviceVulkan12Properties vulkan12{};
+    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES;
+    VkPhysicalDeviceVulkan11Properties vulkan11{};
+    vulkan11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    vulkan11.pNext = &vulkan12;
+    properties.pNext = &vulkan11;
+    if (report.mesh_shader) vulkan12.pNext = &mesh;
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+    report.name = properties.properties.deviceName;
+    report.type = type_name(properties.properties.deviceType);
+    report.driver = std::string(vulkan12.driverName) + " " + vulkan12.driverInfo;
+    report.api = version_name(properties.properties.apiVersion);
+    report.subgroup_size = vulkan11.subgroupSize;
+    report.max_picture_side_px =
+        std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight,
+                  limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]});
+    report.mesh = {mesh.maxPreferredTaskWorkGroupInvocations,
+                   mesh.maxPreferredMeshWorkGroupInvocations,
+                   mesh.maxTaskWorkGroupInvocations,
+                   mesh.maxMeshWorkGroupInvocations,
+                   mesh.maxMeshOutputVertices,
+                   mesh.maxMeshOutputPrimitives,
+                   mesh.maxTaskWorkGroupTotalCount};
+}
+
+Result<void> describe_lacks(VkPhysicalDevice physical, const GpuOptions& options, DeviceReport& report) {
+    VkPhysicalDeviceMeshShaderFeaturesEXT mesh{};
+    mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
+    VkPhysicalDeviceVulkan13Features vulkan13{};
+    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    VkPhysicalDeviceVulkan12Features vulkan12{};
+    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &vulkan12;
+    vulkan12.pNext = &vulkan13;
+    if (report.mesh_shader) vulkan13.pNext = &mesh;
+    vkGetPhysicalDeviceFeatures2(physical, &features);
+    if (!vulkan12.bufferDeviceAddress) report.lacks.emplace_back("bufferDeviceAddress");
+    if (!vulkan12.scalarBlockLayout) report.lacks.emplace_back("scalarBlockLayout");
+    if (!vulkan13.synchronization2) report.lacks.emplace_back("synchronization2");
+    if (!vulkan13.dynamicRendering) report.lacks.emplace_back("dynamicRendering");
+    if (!vulkan13.maintenance4) report.lacks.emplace_back("maintenance4");
+    report.mesh_shader = report.mesh_shader && mesh.meshShader && mesh.taskShader;
+    report.compute_raster =
+        !options.without_compute_raster && features.features.shaderInt64 && vulkan12.shaderBufferInt64Atomics;
+    if (!report.mesh_shader && !report.compute_raster)
+        report.lacks.emplace_back("VK_EXT_mesh_shader and 64-bit atomics (one of them is needed)");
+    if (!graphics_queue_family(physical))
+        report.lacks.emplace_back("a queue for graphics and compute with timestamps");
+    if (!options.presents) return {};
+    ORO_TRY(const bool presents, has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME));
+    if (!presents) report.lacks.emplace_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    return {};
+}
+
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice physical) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    return families;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> graphics_queue_family(VkPhysicalDevice physical) {
+    const std::vector<VkQueueFamilyProperties> families = queue_families(physical);
+    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
+        if ((families[i].queueFlags & wanted) == wanted && families[i].timestampValidBits > 0) return i;
+    }
+    return std::nullopt;
+}
+
+std::uint64_t timestamp_mask(VkPhysicalDevice physical, std::uint32_t queue_family) {
+    const std::uint32_t bits = queue_families(physical)[queue_family].timestampValidBits;
+    return bits >= 64 ? UINT64_MAX : (std::uint64_t{1} << bits) - 1;
+}
+
+Result<DeviceReport> describe_device(VkPhysicalDevice physical, const GpuOptions& options) {
+    DeviceReport report;
+    VkPhysicalDeviceProperties plain{};
+    vkGetPhysicalDeviceProperties(physical, &plain);
+    report.name = plain.deviceName;
+    report.kind = plain.deviceType;
+    report.type = type_name(plain.deviceType);
+    report.api = version_name(plain.apiVersion);
+    VkPhysicalDeviceMemoryProperties memory{};
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+        if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
+            report.memory_bytes = std::max<std::uint64_t>(report.memory_bytes, memory.memoryHeaps[i].size);
+    }
+    if (plain.apiVersion < VK_API_VERSION_1_3) {
+        report.lacks.emplace_back("Vulkan 1.3");
+        return report;
+    }
+    if (!options.without_mesh_shader) {
+        ORO_TRY(report.mesh_shader, has_extension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME));
+    }
+    describe_properties(physical, report);
+    ORO_CHECK(describe_lacks(physical, options, report));
+    return report;
+}
+
+Result<RasterPath> raster_path_for(const std::string& request, const DeviceReport& device) {
+    const bool wants_mesh = request == "mesh" || (request == "auto" && device.mesh_shader);
+    if (wants_mesh ? device.mesh_shader : device.compute_raster)
+        return wants_mesh ? RasterPath::mesh : RasterPath::compute;
+    return Error{
+        ErrorKind::no_device, "--pipeline " + request,
+        device.name +
+            (wants_mesh
+                 ? " has no VK_EXT_mesh_shader; --pipeline compute draws without it, or get a current driver"
+                 : " has no 64-bit atomics in buffers; --pipeline mesh draws without them")};
+}
+
+std::string name_of(RasterPath path) {
+    return path == RasterPath::mesh ? "mesh" : "compute";
+}
+
+}  // namespace oro

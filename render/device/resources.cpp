@@ -1,0 +1,211 @@
+#include "render/device/resources.h"
+
+namespace oro {
+namespace {
+
+Result<OwnedMemory> allocate(const Gpu& gpu, const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted,
+                             bool addressed, const std::string& name, bool* full = nullptr) {
+    // Cached host memory reads faster; coherent is enough when there is none. Device-local is a wish, not a
+    // need.
+    std::optional<std::uint32_t> type = gpu.memory_type(needs.memoryTypeBits, wanted);
+    if (!type)
+        type = gpu.memory_type(needs.memoryTypeBits, wanted & ~static_cast<VkMemoryPropertyFlags>(
+                                                                  VK_MEMORY_PROPERTY_HOST_CACHED_BIT |
+                                                                  VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT));
+    if (!type) return Error{ErrorKind::failed, gpu.report().name, "has no memory type for " + name};
+    VkMemoryAllocateFlagsInfo flags{};
+    flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+    VkMemoryAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    info.pNext = addressed ? &flags : nullptr;
+    info.allocationSize = needs.size;
+    info.memoryTypeIndex = *type;
+    VkDeviceMemory memory{};
+    const VkResult made = vkAllocateMemory(gpu.device(), &info, nullptr, &memory);
+    if (full) *full = made == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (made != VK_SUCCESS)
+        return Error{ErrorKind::failed, gpu.report().name,
+                     "has no room for " + std::to_string((needs.size + 1023) >> 10U) + " KiB of " + name +
+                         ": vkAllocateMemory gave " + vulkan_reason(made)};
+    gpu.name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
+    return OwnedMemory(gpu.device(), memory);
+}
+
+VkMemoryPropertyFlags properties_of(BufferPlace place) {
+    constexpr VkMemoryPropertyFlags host =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    switch (place) {
+        case BufferPlace::upload:
+            return host;
+        case BufferPlace::readback:
+            return host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+        case BufferPlace::device:
+            break;
+    }
+    return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+}
+
+}  // namespace
+
+Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage, BufferPlace place,
+                             const std::string& name, bool* full) {
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = size;
+    info.usage = usage;
+    VkBuffer handle{};
+    ORO_VK(vkCreateBuffer(gpu.device(), &info, nullptr, &handle));
+    Buffer buffer;
+    buffer.handle = OwnedBuffer(gpu.device(), handle);
+    buffer.size = size;
+    gpu.name(VK_OBJECT_TYPE_BUFFER, handle, name);
+    VkMemoryRequirements needs{};
+    vkGetBufferMemoryRequirements(gpu.device(), handle, &needs);
+    const bool addressed = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
+    ORO_TRY(buffer.memory, allocate(gpu, needs, properties_of(place), addressed, name, full));
+    ORO_VK(vkBindBufferMemory(gpu.device(), handle, buffer.memory.get(), 0));
+    if (place != BufferPlace::device) {
+        void* mapped = nullptr;
+        ORO_VK(vkMapMemory(gpu.device(), buffer.memory.get(), 0, VK_WHOLE_SIZE, 0, &mapped));
+        buffer.mapped = static_cast<std::byte*>(mapped);
+    }
+    if (addressed) {
+        VkBufferDeviceAddressInfo address{};
+        address.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+        address.buffer = handle;
+        buffer.address = vkGetBufferDeviceAddress(gpu.device(), &address);
+    }
+    return buffer;
+}
+
+Result<Image> create_image(const Gpu& gpu, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
+                           VkImageAspectFlags aspect, const std::string& name) {
+    VkImageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = format;
+    info.extent = {extent.width, extent.height, 1};
+    info.mipLevels = info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = usage;
+    VkImage handle{};
+    ORO_VK(vkCreateImage(gpu.device(), &info, nullptr, &handle));
+    Image image;
+    image.handle = OwnedImage(gpu.device(), handle);
+    image.format = format;
+    image.extent = extent;
+    gpu.name(VK_OBJECT_TYPE_IMAGE, handle, name);
+    VkMemoryRequirements needs{};
+    vkGetImageMemoryRequirements(gpu.device(), handle, &needs);
+    ORO_TRY(image.memory, allocate(gpu, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false, name));
+    ORO_VK(vkBindImageMemory(gpu.device(), handle, image.memory.get(), 0));
+    VkImageViewCreateInfo view{};
+    view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    view.image = handle;
+    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view.format = format;
+    view.subresourceRange = {aspect, 0, 1, 0, 1};
+    VkImageView view_handle{};
+    ORO_VK(vkCreateImageView(gpu.device(), &view, nullptr, &view_handle));
+    image.view = OwnedImageView(gpu.device(), view_handle);
+    gpu.name(VK_OBJECT_TYPE_IMAGE_VIEW, view_handle, name);
+    return image;
+}
+
+Result<Commands> Commands::create(const Gpu& gpu, const std::string& name) {
+    Commands commands;
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = gpu.queue_family();
+    VkCommandPool pool_handle{};
+    ORO_VK(vkCreateCommandPool(gpu.device(), &pool, nullptr, &pool_handle));
+    commands.pool_ = OwnedCommandPool(gpu.device(), pool_handle);
+    gpu.name(VK_OBJECT_TYPE_COMMAND_POOL, pool_handle, name);
+    VkCommandBufferAllocateInfo buffer{};
+    buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    buffer.commandPool = pool_handle;
+    buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    buffer.commandBufferCount = 1;
+    ORO_VK(vkAllocateCommandBuffers(gpu.device(), &buffer, &commands.buffer_));
+    gpu.name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands.buffer_, name);
+    VkFenceCreateInfo fence{};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    VkFence fence_handle{};
+    ORO_VK(vkCreateFence(gpu.device(), &fence, nullptr, &fence_handle));
+    commands.fence_ = OwnedFence(gpu.device(), fence_handle);
+    gpu.name(VK_OBJECT_TYPE_FENCE, fence_handle, name);
+    return commands;
+}
+
+Result<VkCommandBuffer> Commands::begin() {
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    ORO_VK(vkBeginCommandBuffer(buffer_, &info));
+    return buffer_;
+}
+
+Result<void> Commands::run(const Gpu& gpu, const std::function<void(VkCommandBuffer)>& record) {
+    ORO_TRY(VkCommandBuffer buffer, begin());
+    record(buffer);
+    ORO_VK(vkEndCommandBuffer(buffer));
+    VkCommandBufferSubmitInfo submitted{};
+    submitted.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+    submitted.commandBuffer = buffer;
+    VkSubmitInfo2 submit{};
+    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+    submit.commandBufferInfoCount = 1;
+    submit.pCommandBufferInfos = &submitted;
+    VkFence fence = fence_.get();
+    ORO_VK(vkQueueSubmit2(gpu.queue(), 1, &submit, fence));
+    return wait_for(gpu, fence);
+}
+
+Result<void> wait_for(const Gpu& gpu, VkFence fence) {
+    const VkResult waited = vkWaitForFences(gpu.device(), 1, &fence, VK_TRUE, UINT64_MAX);
+    // A wait can fail while the work goes on, and whoever hears of it destroys what the work uses.
+    if (waited != VK_SUCCESS) vkDeviceWaitIdle(gpu.device());
+    ORO_CHECK(vulkan_checked(waited, "vkWaitForFences("));
+    ORO_VK(vkResetFences(gpu.device(), 1, &fence));
+    return {};
+}
+
+void memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 from, VkAccessFlags2 written,
+                    VkPipelineStageFlags2 to, VkAccessFlags2 read) {
+    VkMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    barrier.srcStageMask = from;
+    barrier.srcAccessMask = written;
+    barrier.dstStageMask = to;
+    barrier.dstAccessMask = read;
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, ImageUse from,
+                   ImageUse to) {
+    VkImageMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+    barrier.srcStageMask = from.stage;
+    barrier.srcAccessMask = from.access;
+    barrier.dstStageMask = to.stage;
+    barrier.dstAccessMask = to.access;
+    barrier.oldLayout = from.layout;
+    barrier.newLayout = to.layout;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image;
+    barrier.subresourceRange = {aspect, 0, 1, 0, 1};
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.imageMemoryBarrierCount = 1;
+    info.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+}  // namespace oro

@@ -1,0 +1,97 @@
+#include "render/frame/compute_raster.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace oro {
+namespace {
+
+constexpr VkBufferUsageFlags listed =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+
+void wait_for_lists(VkCommandBuffer commands) {
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                       VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
+}
+
+}  // namespace
+
+Result<ComputeRaster> ComputeRaster::create(const Gpu& gpu, VkExtent2D extent) {
+    ComputeRaster raster(gpu);
+    ORO_TRY(raster.lists_,
+            create_buffer(gpu, sizeof(gpu::RasterLists),
+                          listed | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                          BufferPlace::device, "raster lists"));
+    ORO_TRY(raster.clips_, create_buffer(gpu, gpu::clips_max * sizeof(std::uint32_t), listed,
+                                         BufferPlace::device, "clip list"));
+    ORO_TRY(raster.large_, create_buffer(gpu, gpu::large_max * sizeof(gpu::LargeTriangle), listed,
+                                         BufferPlace::device, "large triangles"));
+    ORO_TRY(raster.tasks_, create_buffer(gpu, gpu::tasks_max * sizeof(gpu::LargeTask), listed,
+                                         BufferPlace::device, "large tasks"));
+    ORO_CHECK(raster.resize(extent));
+    return raster;
+}
+
+Result<void> ComputeRaster::resize(VkExtent2D extent) {
+    ORO_TRY(visibility_,
+            create_buffer(*gpu_, VkDeviceSize{8} * extent.width * extent.height,
+                          listed | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                          BufferPlace::device, "visibility"));
+    return {};
+}
+
+Result<void> ComputeRaster::reserve_pages(std::size_t count) {
+    if (count <= page_capacity_) return {};
+    const std::size_t capacity = std::max(count, 2 * page_capacity_);
+    ORO_TRY(meshlets_, create_buffer(*gpu_, capacity * gpu::meshlets_per_page * sizeof(std::uint32_t), listed,
+                                     BufferPlace::device, "meshlet list"));
+    page_capacity_ = capacity;
+    return {};
+}
+
+void ComputeRaster::address(gpu::FrameConstants& constants) const {
+    constants.visibility = address_words(visibility_.address);
+    constants.lists = address_words(lists_.address);
+    constants.meshlet_list = address_words(meshlets_.address);
+    constants.clip_list = address_words(clips_.address);
+    constants.large_list = address_words(large_.address);
+    constants.task_list = address_words(tasks_.address);
+}
+
+void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan) const {
+    const VkDeviceSize used = VkDeviceSize{8} * plan.constants.width_px * plan.constants.height_px;
+    vkCmdFillBuffer(commands, visibility_.handle.get(), 0, used, 0);
+    // One group along y and z even where there are none along x: an indirect dispatch of nothing.
+    gpu::RasterLists empty{};
+    empty.meshlet_groups[1] = empty.meshlet_groups[2] = 1;
+    empty.clip_groups[1] = empty.clip_groups[2] = 1;
+    empty.task_groups[1] = empty.task_groups[2] = 1;
+    vkCmdUpdateBuffer(commands, lists_.handle.get(), 0, sizeof(empty), &empty);
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+                   VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan,
+                           VkBuffer choice) const {
+    record_clear(commands, plan);
+    const auto bind = [&](const OwnedPipeline& pipeline) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+    };
+    bind(pipelines.cull);
+    vkCmdDispatchIndirect(commands, choice, offsetof(gpu::LivePages, cull_groups));
+    wait_for_lists(commands);
+    bind(pipelines.raster);
+    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, meshlet_groups));
+    wait_for_lists(commands);
+    bind(pipelines.raster_clip);
+    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, clip_groups));
+    wait_for_lists(commands);
+    bind(pipelines.raster_large);
+    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, task_groups));
+    wait_for_lists(commands);
+}
+
+}  // namespace oro

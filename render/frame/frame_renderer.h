@@ -1,0 +1,111 @@
+// One frame: pages to ids and depth, ids to colours. The same path for pictures, the window and benchmarks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/frame/frame_plan.h"
+#include "render/device/resources.h"
+#include "render/frame/compute_raster.h"
+#include "render/frame/pipelines.h"
+
+namespace oro {
+
+// What a frame did and how long the GPU took for it.
+struct FrameReport {
+    gpu::FrameCounts counts{};
+    std::uint64_t task_groups{};  // mesh path
+    std::uint64_t pages{};        // of the frame, parents of drawn ones included
+    double choose_s{};            // GPU timestamps: levels chosen
+    double raster_s{};            // from pages to triangle ids, by either path
+    double shade_s{};             // the shading pass
+    [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
+};
+
+struct FrameRendererOptions {
+    VkExtent2D extent{};           // largest tile, at most the device's limit
+    bool several_samples{false};   // will be asked for sample_count > 1
+    bool record_positions{false};  // mesh path only
+    bool record_view{false};       // with record_positions: positions in view coordinates, as they are drawn
+    bool keep_depths{false};       // for read_depths()
+    bool shades{true};             // false: for times alone, there is nothing to be read
+    RasterPath path{RasterPath::mesh};
+};
+
+class FrameRenderer {
+  public:
+    static Result<FrameRenderer> create(const Gpu& gpu, const FrameRendererOptions& options);
+
+    // Takes another size of picture (waits for nothing: draw() has waited).
+    Result<void> resize(VkExtent2D extent);
+
+    // Draws one sample of a plan (its tile is within the extent, its pages are on the GPU) and waits for it.
+    // With sample_count > 1 the picture is complete after the last sample_index. Same plan, pages and style:
+    // same bytes, on one driver.
+    Result<FrameReport> draw(FramePlan plan, const gpu::FrameStyle& style, std::uint32_t sample_index = 0,
+                             std::uint32_t sample_count = 1);
+
+    // The picture's top left width x height pixels as RGBA rows, sRGB.
+    Result<std::vector<std::uint8_t>> read_picture(std::uint32_t width, std::uint32_t height);
+    // Triangle ids of the last frame, which was that large (for tests and picking).
+    Result<std::vector<std::uint32_t>> read_ids(std::uint32_t width, std::uint32_t height);
+    // With keep_depths: reversed depth of each of its pixels at the centre, from the triangle seen there; 0
+    // for the background.
+    Result<std::vector<float>> read_depths(std::uint32_t width, std::uint32_t height);
+    // Of each page of the last frame, 256 x 4 bits: the edges (shaders/choose/levels.glsl) of the nodes that
+    // were drawn.
+    Result<std::vector<std::uint32_t>> read_edges(std::size_t pages);
+    // ... and 256 bits: the nodes that may stand for what they cover.
+    Result<std::vector<std::uint32_t>> read_accepted(std::size_t pages);
+    // With record_positions: of every page of the last frame, 129 x 129 positions relative to the eye, in its
+    // meridian frame (with record_view in view coordinates), as the mesh shader placed them (those of void
+    // posts, and of posts that are not drawn, mean nothing).
+    [[nodiscard]] std::vector<gpu::vec3> recorded() const;
+
+    [[nodiscard]] const Image& picture() const { return picture_; }
+    [[nodiscard]] VkExtent2D extent() const { return options_.extent; }
+
+  private:
+    explicit FrameRenderer(const Gpu& gpu) : gpu_(&gpu) {}
+    Result<void> create_images();
+    Result<void> create_set();
+    Result<void> reserve(const FramePlan& plan);
+    Result<void> upload(FramePlan& plan, const gpu::FrameStyle& style, std::uint32_t sample_index,
+                        std::uint32_t sample_count);
+    void bind_constants() const;
+    void address_choice(gpu::FrameConstants& constants) const;
+    Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
+                                                  std::size_t count);
+    void record(VkCommandBuffer commands, const FramePlan& plan) const;
+    Result<std::vector<std::uint32_t>> read_visibility_words(std::uint32_t width, std::uint32_t height,
+                                                             std::size_t word);
+    void record_upload(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_choice(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_shade(VkCommandBuffer commands, const FramePlan& plan) const;
+    Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect,
+                                              ImageUse last_use, std::uint32_t width, std::uint32_t height);
+
+    const Gpu* gpu_;
+    FrameRendererOptions options_;
+    Pipelines pipelines_;
+    std::optional<ComputeRaster> compute_;
+    Commands commands_;
+    Image ids_, depth_, sum_, picture_;
+    OwnedDescriptorPool pool_;
+    VkDescriptorSet set_{VK_NULL_HANDLE};
+    OwnedQueryPool timestamps_;
+    Buffer staging_;     // constants, then pages, then rows and columns
+    Buffer frame_data_;  // the same on the device
+    Buffer choice_;      // what the choice of levels hands on, see address_choice()
+    Buffer depths_;
+    Buffer counts_;       // on the device
+    Buffer counts_read_;  // for the host
+    Buffer recorded_;
+    std::size_t page_capacity_{};
+    std::uint32_t last_width_px_{};
+};
+
+}  // namespace oro

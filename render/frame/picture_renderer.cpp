@@ -1,0 +1,116 @@
+#include "render/frame/picture_renderer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace oro {
+namespace {
+
+constexpr int preferred_tile_px = 4096;
+
+// What a tile draws: counted once, not for each sample.
+void add_counts(PictureReport& sum, const FrameReport& part) {
+    sum.meshlets_beyond_frustum += part.counts.meshlets_beyond_frustum;
+    sum.meshlets_beyond_horizon += part.counts.meshlets_beyond_horizon;
+    sum.mesh_groups += part.counts.mesh_groups;
+    sum.meshlets_drawn += part.counts.meshlets_drawn;
+    sum.triangles_drawn += part.counts.triangles_drawn;
+    sum.pages_drawn += part.counts.pages_live;
+}
+
+// Draws one tile, all its samples; its pixels stay in the renderer. Counts are those of the first sample.
+Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
+                       const PictureOptions& options, Tile tile, FrameRenderer& renderer,
+                       PictureReport& report) {
+    for (int i = 0; i < options.samples; ++i) {
+        tile.sample_px = sample_place(i, options.samples);
+        ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px, options.model));
+        report.settled = report.settled && plan.missing.empty();
+        if (i == 0) {
+            report.pages_beyond_frustum += plan.pages_beyond_frustum;
+            report.pages_beyond_horizon += plan.pages_beyond_horizon;
+        }
+        ORO_TRY(const FrameReport drawn, renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),
+                                                       static_cast<std::uint32_t>(options.samples)));
+        if (i == 0) add_counts(report, drawn);
+        report.choose_s += drawn.choose_s;
+        report.raster_s += drawn.raster_s;
+        report.shade_s += drawn.shade_s;
+    }
+    ++report.tiles;
+    return {};
+}
+
+void copy_rgb(const std::vector<std::uint8_t>& rgba, const Tile& tile, int picture_width,
+              std::vector<std::uint8_t>& band) {
+    for (int y = 0; y < tile.height_px; ++y) {
+        const std::uint8_t* from = rgba.data() + std::size_t{4} * static_cast<std::size_t>(y) *
+                                                     static_cast<std::size_t>(tile.width_px);
+        std::uint8_t* to =
+            band.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_width) +
+                               static_cast<std::size_t>(tile.x_px));
+        for (int x = 0; x < tile.width_px; ++x, from += 4, to += 3) std::copy_n(from, 3, to);
+    }
+}
+
+}  // namespace
+
+VkExtent2D tile_extent(const Gpu& gpu, const Camera& camera, int largest_tile_px) {
+    int side = static_cast<int>(std::min<std::uint32_t>(gpu.report().max_picture_side_px, preferred_tile_px));
+    if (largest_tile_px > 0) side = std::min(side, largest_tile_px);
+    return {static_cast<std::uint32_t>(std::min(camera.width_px, side)),
+            static_cast<std::uint32_t>(std::min(camera.height_px, side))};
+}
+
+glm::dvec2 sample_place(int index, int count) {
+    if (count == 1) return {0.5, 0.5};
+    constexpr double plastic = 1.32471795724474602596;
+    const auto at = [&](double step) {
+        double whole = 0.0;
+        return std::modf(0.5 + step * static_cast<double>(index + 1), &whole);
+    };
+    return {at(1.0 / plastic), at(1.0 / (plastic * plastic))};
+}
+
+Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera& camera,
+                                     const gpu::FrameStyle& style, const PictureOptions& options,
+                                     const RowSink& sink, const RenderProgress& progress) {
+    assert(camera.width_px > 0 && camera.height_px > 0 && options.samples > 0);
+    FrameRendererOptions renderer_options;
+    renderer_options.extent = tile_extent(gpu, camera, options.largest_tile_px);
+    const int tile_width = static_cast<int>(renderer_options.extent.width);
+    const int tile_height = static_cast<int>(renderer_options.extent.height);
+    renderer_options.several_samples = options.samples > 1;
+    renderer_options.path = options.path;
+    ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
+
+    PictureReport report;
+    report.path = options.path;
+    std::vector<std::uint8_t> band(std::size_t{3} * static_cast<std::size_t>(camera.width_px) *
+                                   static_cast<std::size_t>(tile_height));
+    for (int y = 0; y < camera.height_px; y += tile_height) {
+        const int rows = std::min(tile_height, camera.height_px - y);
+        for (int x = 0; x < camera.width_px; x += tile_width) {
+            Tile tile;
+            tile.x_px = x;
+            tile.y_px = y;
+            tile.width_px = std::min(tile_width, camera.width_px - x);
+            tile.height_px = rows;
+            ORO_CHECK(draw_tile(scene, camera, style, options, tile, renderer, report));
+            ORO_TRY(const std::vector<std::uint8_t> rgba,
+                    renderer.read_picture(static_cast<std::uint32_t>(tile.width_px),
+                                          static_cast<std::uint32_t>(rows)));
+            copy_rgb(rgba, tile, camera.width_px, band);
+        }
+        const std::size_t row_bytes = std::size_t{3} * static_cast<std::size_t>(camera.width_px);
+        for (int i = 0; i < rows; ++i) {
+            ORO_CHECK(sink(std::span<const std::uint8_t>(band).subspan(
+                static_cast<std::size_t>(i) * row_bytes, row_bytes)));
+        }
+        if (progress) progress(static_cast<double>(y + rows) / camera.height_px);
+    }
+    return report;
+}
+
+}  // namespace oro

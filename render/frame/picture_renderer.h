@@ -1,0 +1,58 @@
+// Pictures of any size: drawn in tiles that the device can hold, handed on row by row.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "core/earth/camera.h"
+#include "render/frame/frame_renderer.h"
+#include "render/scene/scene.h"
+
+namespace oro {
+
+struct PictureOptions {
+    int samples{1};          // per pixel, 1..64, each at a place of its own
+    int largest_tile_px{0};  // 0: chosen from the device; tests make it small
+    RasterPath path{RasterPath::mesh};
+    double tau_px{1.0};  // 0: full resolution
+    WorldModel model{};
+};
+
+// What it took to draw a picture: times are sums over its tiles and samples, counts those of the first sample
+// of each tile.
+struct PictureReport {
+    std::uint64_t meshlets_drawn{};
+    std::uint64_t meshlets_beyond_frustum{};
+    std::uint64_t meshlets_beyond_horizon{};
+    std::uint64_t mesh_groups{};
+    std::uint64_t triangles_drawn{};
+    std::uint64_t pages_drawn{};  // with a meshlet of the right level
+    bool settled{true};           // all that tau asks for was there
+    double choose_s{};            // GPU timestamps, all samples
+    double raster_s{};
+    double shade_s{};
+    std::uint64_t pages_beyond_frustum{};
+    std::uint64_t pages_beyond_horizon{};
+    int tiles{};
+    RasterPath path{RasterPath::mesh};
+};
+
+// Takes the next row of the picture, width * 3 bytes of sRGB.
+using RowSink = std::function<Result<void>(std::span<const std::uint8_t> rgb)>;
+
+// Draws what the camera sees and hands it on from the top row down. Errors: those of the device and of the
+// sink.
+Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera& camera,
+                                     const gpu::FrameStyle& style, const PictureOptions& options,
+                                     const RowSink& sink, const RenderProgress& progress = {});
+
+// Largest tile that a picture of the camera's size is drawn in. largest_tile_px: 0, or less than the device
+// can hold.
+VkExtent2D tile_extent(const Gpu& gpu, const Camera& camera, int largest_tile_px);
+
+// Where sample i of n goes through its pixel: the centre for n = 1, else a low-discrepancy pattern.
+// Source: M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018 (R2 sequence).
+glm::dvec2 sample_place(int index, int count);
+
+}  // namespace oro

@@ -1,0 +1,228 @@
+#include "render/frame/pipelines.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <span>
+
+#include "shaders/shared.h"
+#include "spirv/accept_comp.h"
+#include "spirv/cull_comp.h"
+#include "spirv/live_pages_comp.h"
+#include "spirv/raster_clip_comp.h"
+#include "spirv/raster_comp.h"
+#include "spirv/raster_large_comp.h"
+#include "spirv/shade_comp.h"
+#include "spirv/terrain_frag.h"
+#include "spirv/terrain_mesh.h"
+#include "spirv/terrain_mesh_two.h"
+#include "spirv/terrain_task.h"
+
+namespace oro {
+namespace {
+
+Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t> words, const char* name) {
+    VkShaderModuleCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    info.codeSize = words.size_bytes();
+    info.pCode = words.data();
+    VkShaderModule handle{};
+    ORO_VK(vkCreateShaderModule(gpu.device(), &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_SHADER_MODULE, handle, name);
+    return OwnedShader(gpu.device(), handle);
+}
+
+Result<void> create_layouts(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
+    std::array<VkDescriptorSetLayoutBinding, 4> bindings{};
+    for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i].binding = i;
+        bindings[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        bindings[i].descriptorCount = 1;
+        bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+    }
+    bindings[3].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    if (path == RasterPath::mesh)
+        bindings[3].stageFlags |= VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT;
+    VkDescriptorSetLayoutCreateInfo set{};
+    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    set.pBindings = bindings.data();
+    VkDescriptorSetLayout set_handle{};
+    ORO_VK(vkCreateDescriptorSetLayout(gpu.device(), &set, nullptr, &set_handle));
+    pipelines.set = OwnedSetLayout(gpu.device(), set_handle);
+    gpu.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_handle, "frame");
+
+    VkPipelineLayoutCreateInfo layout{};
+    layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    layout.setLayoutCount = 1;
+    layout.pSetLayouts = &set_handle;
+    VkPipelineLayout handle{};
+    ORO_VK(vkCreatePipelineLayout(gpu.device(), &layout, nullptr, &handle));
+    pipelines.layout = OwnedPipelineLayout(gpu.device(), handle);
+    gpu.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, handle, "frame");
+    return {};
+}
+
+VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, const OwnedShader& shader,
+                                      const VkSpecializationInfo* constants) {
+    VkPipelineShaderStageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage = bit;
+    info.module = shader.get();
+    info.pName = "main";
+    info.pSpecializationInfo = constants;
+    return info;
+}
+
+// By constant_id: local size; record_positions; meshlets_per_group.
+struct StageConstants {
+    std::uint32_t local_size;
+    VkBool32 record_positions;
+    std::uint32_t meshlets_per_group;
+};
+constexpr std::array<VkSpecializationMapEntry, 3> stage_constants_map{
+    VkSpecializationMapEntry{0, offsetof(StageConstants, local_size), sizeof(std::uint32_t)},
+    VkSpecializationMapEntry{1, offsetof(StageConstants, record_positions), sizeof(VkBool32)},
+    VkSpecializationMapEntry{2, offsetof(StageConstants, meshlets_per_group), sizeof(std::uint32_t)}};
+
+Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& pipelines,
+                                              StageConstants task_constants, StageConstants mesh_constants) {
+    ORO_TRY(const OwnedShader task, create_shader(gpu, terrain_task_spirv, "terrain.task"));
+    const std::span<const std::uint32_t> mesh_words =
+        mesh_constants.meshlets_per_group == 2 ? std::span<const std::uint32_t>(terrain_mesh_two_spirv)
+                                               : std::span<const std::uint32_t>(terrain_mesh_spirv);
+    ORO_TRY(const OwnedShader mesh, create_shader(gpu, mesh_words, "terrain.mesh"));
+    ORO_TRY(const OwnedShader fragment, create_shader(gpu, terrain_frag_spirv, "terrain.frag"));
+    const VkSpecializationInfo task_info{3, stage_constants_map.data(), sizeof(task_constants),
+                                         &task_constants};
+    const VkSpecializationInfo mesh_info{2, stage_constants_map.data(), sizeof(mesh_constants),
+                                         &mesh_constants};
+    const std::array stages{stage(VK_SHADER_STAGE_TASK_BIT_EXT, task, &task_info),
+                            stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, &mesh_info),
+                            stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
+    VkPipelineViewportStateCreateInfo viewport{};
+    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+    viewport.viewportCount = viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster{};
+    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    raster.cullMode = VK_CULL_MODE_NONE;  // seen from below, the ground still hides what is behind it
+    raster.lineWidth = 1.0F;
+    VkPipelineMultisampleStateCreateInfo samples{};
+    samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
+    depth.depthCompareOp = VK_COMPARE_OP_GREATER;
+    VkPipelineColorBlendAttachmentState attachment{};
+    attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT;
+    VkPipelineColorBlendStateCreateInfo blend{};
+    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    blend.attachmentCount = 1;
+    blend.pAttachments = &attachment;
+    constexpr std::array dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    VkPipelineDynamicStateCreateInfo dynamics{};
+    dynamics.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+    dynamics.dynamicStateCount = static_cast<std::uint32_t>(dynamic.size());
+    dynamics.pDynamicStates = dynamic.data();
+    VkPipelineRenderingCreateInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachmentFormats = &id_format;
+    rendering.depthAttachmentFormat = depth_format;
+
+    VkGraphicsPipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    info.pNext = &rendering;
+    info.stageCount = static_cast<std::uint32_t>(stages.size());
+    info.pStages = stages.data();
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &samples;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend;
+    info.pDynamicState = &dynamics;
+    info.layout = pipelines.layout.get();
+    VkPipeline handle{};
+    ORO_VK(vkCreateGraphicsPipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, "terrain");
+    return OwnedPipeline(gpu.device(), handle);
+}
+
+Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
+                                              std::span<const std::uint32_t> words, const char* name,
+                                              const VkSpecializationInfo* constants = nullptr) {
+    ORO_TRY(const OwnedShader shader, create_shader(gpu, words, name));
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, constants);
+    info.layout = pipelines.layout.get();
+    VkPipeline handle{};
+    ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, name);
+    return OwnedPipeline(gpu.device(), handle);
+}
+
+Result<void> create_mesh_path(const Gpu& gpu, bool record_positions, Pipelines& pipelines) {
+    const MeshShaderLimits& limits = gpu.report().mesh;
+    // A power of two that divides the meshlets of a page.
+    pipelines.meshlets_per_task =
+        std::bit_floor(std::clamp(std::min(limits.preferred_task_invocations, limits.max_task_invocations),
+                                  8U, gpu::meshlets_per_task_max));
+    // Two meshlets where a workgroup has room for them and is as large as one of them has triangles: a small
+    // one has its lanes busy with one (measured on an H200, whose groups are of 32: 8.4 M triangles in 8.3 ms
+    // one by one, 10.2 ms by twos).
+    pipelines.meshlets_per_group = limits.max_output_vertices >= 2 * gpu::meshlet_vertices &&
+                                           limits.max_output_primitives >= 2 * gpu::meshlet_triangles &&
+                                           limits.preferred_mesh_invocations >= gpu::meshlet_triangles
+                                       ? 2
+                                       : 1;
+    const std::uint32_t mesh_size =
+        std::clamp(std::min(limits.preferred_mesh_invocations, limits.max_mesh_invocations), 1U, 128U);
+    const VkBool32 recording = record_positions ? VK_TRUE : VK_FALSE;
+    const std::uint32_t together = pipelines.meshlets_per_group;
+    ORO_TRY(pipelines.terrain,
+            create_terrain_pipeline(gpu, pipelines, {pipelines.meshlets_per_task, recording, together},
+                                    {mesh_size, recording, together}));
+    return {};
+}
+
+Result<void> create_choice(const Gpu& gpu, Pipelines& pipelines) {
+    ORO_TRY(pipelines.accept, create_compute_pipeline(gpu, pipelines, accept_comp_spirv, "accept"));
+    const std::uint32_t task_groups = gpu::meshlets_per_page / pipelines.meshlets_per_task;
+    const VkSpecializationMapEntry entry{1, 0, sizeof(task_groups)};
+    const VkSpecializationInfo constants{1, &entry, sizeof(task_groups), &task_groups};
+    ORO_TRY(pipelines.live_pages,
+            create_compute_pipeline(gpu, pipelines, live_pages_comp_spirv, "live pages", &constants));
+    return {};
+}
+
+Result<void> create_compute_path(const Gpu& gpu, Pipelines& pipelines) {
+    ORO_TRY(pipelines.cull, create_compute_pipeline(gpu, pipelines, cull_comp_spirv, "cull"));
+    ORO_TRY(pipelines.raster, create_compute_pipeline(gpu, pipelines, raster_comp_spirv, "raster"));
+    ORO_TRY(pipelines.raster_clip,
+            create_compute_pipeline(gpu, pipelines, raster_clip_comp_spirv, "raster clip"));
+    ORO_TRY(pipelines.raster_large,
+            create_compute_pipeline(gpu, pipelines, raster_large_comp_spirv, "raster large"));
+    return {};
+}
+
+}  // namespace
+
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions, bool shades) {
+    const bool by_mesh = path == RasterPath::mesh;
+    Pipelines pipelines;
+    ORO_CHECK(create_layouts(gpu, path, pipelines));
+    ORO_CHECK(by_mesh ? create_mesh_path(gpu, record_positions, pipelines)
+                      : create_compute_path(gpu, pipelines));
+    ORO_CHECK(create_choice(gpu, pipelines));
+    if (!shades) return pipelines;
+    const VkBool32 from_compute = by_mesh ? VK_FALSE : VK_TRUE;
+    const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
+    const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};
+    ORO_TRY(pipelines.shade, create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade", &constants));
+    return pipelines;
+}
+
+}  // namespace oro

@@ -1,0 +1,28 @@
+// The programs that a frame runs: rasterise meshlets into ids and depth, shade pixels.
+#pragma once
+
+#include "render/device/gpu.h"
+
+namespace oro {
+
+inline constexpr VkFormat id_format = VK_FORMAT_R32_UINT;
+inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+inline constexpr VkFormat sum_format = VK_FORMAT_R32G32B32A32_SFLOAT;
+inline constexpr VkFormat picture_format_vk = VK_FORMAT_R8G8B8A8_UNORM;
+
+struct Pipelines {
+    OwnedSetLayout set;  // 0 ids, 1 sum, 2 picture: storage images of the shading pass; 3 FrameConstants
+    OwnedPipelineLayout layout;        // that set alone
+    OwnedPipeline accept, live_pages;  // levels chosen, in this order
+    OwnedPipeline terrain;             // mesh path: task, mesh, fragment
+    std::uint32_t meshlets_per_task{1};
+    std::uint32_t meshlets_per_group{1};                    // of a mesh workgroup
+    OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
+    OwnedPipeline shade;                                    // compute, 8 x 8
+};
+
+// Sizes of workgroups follow the device's preferred limits. record_positions: the mesh shader also writes
+// each placed post to FrameConstants.recorded (for tests). Without `shades`, `shade` is left out.
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions, bool shades);
+
+}  // namespace oro

@@ -1,0 +1,75 @@
+// Pages in GPU memory: as many slots as a budget allows, in a few large buffers, reached by device address.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "core/terrain/height_quantization.h"
+#include "core/terrain/page.h"
+#include "render/device/resources.h"
+
+namespace oro {
+
+// A page on its way to the GPU.
+struct LoadedPage {
+    PageIndex index;
+    std::unique_ptr<gpu::PageBlock> block;
+};
+
+// Bytes that a page takes on the GPU.
+std::size_t page_bytes(const HeightQuantization& coding);
+
+// The pages of one region that are on the GPU. What has not been used for longest makes room for what comes.
+class PageStore {
+  public:
+    // At most `capacity` pages, at least 1, and fewer where the device has no room for them; their heights
+    // lie there as `coding` says. Buffers are made when they are needed.
+    static Result<PageStore> create(const Gpu& gpu, std::size_t capacity,
+                                    const HeightQuantization& coding = {});
+
+    // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame.
+    std::uint64_t address(const PageIndex& page);
+    // From here on pages count as used by another frame: those of earlier ones may make room.
+    void begin_frame() { ++frame_; }
+
+    // Sends pages, in their order, until no slot is left that the current frame does not use; number of those
+    // sent. Waits for the GPU. Errors: the device; no room for any page at all.
+    Result<std::size_t> send(std::span<const LoadedPage> pages);
+
+    [[nodiscard]] std::size_t size() const { return slots_of_.size(); }
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+    [[nodiscard]] std::uint64_t bytes() const;  // of the buffers
+    [[nodiscard]] const HeightQuantization& coding() const { return coding_; }
+
+  private:
+    using Key = std::tuple<int, int, int>;  // level, row, column
+    struct Slot {
+        Key page;
+        std::uint64_t used{};  // frame
+    };
+    explicit PageStore(const Gpu& gpu) : gpu_(&gpu) {}
+    Result<bool> find_slot(std::size_t& slot);
+    bool reuse_slot(std::size_t& slot);
+    Result<void> add_chunk(std::size_t first);
+    Result<std::size_t> send_by_batches(std::span<const LoadedPage> pages, std::vector<std::size_t>& batch);
+    Result<void> copy(std::span<const std::size_t> slots);
+    void stage(const gpu::PageBlock& block, std::byte* to) const;
+
+    const Gpu* gpu_;
+    HeightQuantization coding_;
+    std::size_t page_bytes_{sizeof(gpu::PageBlock)};
+    Commands commands_;
+    Buffer staging_;
+    std::vector<Buffer> chunks_;
+    std::size_t capacity_{};
+    bool full_{false};         // the device had no room for more
+    std::vector<Slot> slots_;  // those ever used
+    std::map<Key, std::size_t> slots_of_;
+    std::uint64_t frame_{1};
+};
+
+}  // namespace oro

@@ -1,0 +1,89 @@
+#include "render/scene/scene.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/base/parallel.h"
+
+namespace oro {
+namespace {
+
+constexpr std::uint64_t default_main_bytes = 64'000'000;
+
+Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
+    const std::size_t size = field.N_m.size() * sizeof(float);
+    ORO_TRY(Buffer buffer,
+            create_buffer(gpu, size,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          BufferPlace::upload, "undulation"));
+    std::memcpy(buffer.mapped, field.N_m.data(), size);
+    return buffer;
+}
+
+}  // namespace
+
+Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
+                            HeightStorage heights) {
+    constexpr std::uint64_t most = std::uint64_t{2} << 30U;
+    const std::uint64_t bytes = memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most);
+    ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
+    ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding), coding));
+    Scene scene(std::move(pages), std::move(store));
+    const std::uint64_t under_way = memory.main > 0 ? memory.main : default_main_bytes;
+    scene.stream_ =
+        std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / sizeof(gpu::PageBlock));
+    const UndulationField& undulation = scene.pages_->facts().undulation;
+    if (!undulation.N_m.empty()) {
+        ORO_TRY(scene.undulation_, create_undulation(gpu, undulation));
+    }
+    return scene;
+}
+
+Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau_px,
+                              const WorldModel& model) {
+    store_.begin_frame();
+    full_ = false;
+    ORO_TRY(FramePlan plan, plan_frame(
+                                *pages_, [&](const PageIndex& page) { return store_.address(page); }, camera,
+                                tile, tau_px, model, store_.coding()));
+    plan.constants.undulation.N_m = address_words(undulation_.address);
+    return plan;
+}
+
+Result<std::size_t> Scene::send_ready(bool wait, bool& all) {
+    ORO_TRY(const std::vector<LoadedPage> ready, stream_->take(wait));
+    ORO_TRY(const std::size_t sent, store_.send(ready));
+    bytes_sent_ += sent * page_bytes(store_.coding());
+    all = sent == ready.size();
+    return sent;
+}
+
+Result<bool> Scene::advance(std::span<const PageIndex> missing) {
+    if (full_) return false;
+    stream_->want(missing);
+    bool all = true;
+    ORO_TRY(const std::size_t sent, send_ready(false, all));
+    full_ = !all;
+    if (full_) stream_->want({});
+    return sent > 0;
+}
+
+Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, double tau_px,
+                                      const WorldModel& model) {
+    for (;;) {
+        ORO_TRY(FramePlan frame, plan(camera, tile, tau_px, model));
+        if (frame.missing.empty()) return frame;
+        stream_->want(frame.missing);
+        for (std::size_t sent = 0; sent < frame.missing.size();) {
+            bool all = true;
+            ORO_TRY(const std::size_t some, send_ready(true, all));
+            sent += some;
+            if (all && some > 0) continue;
+            if (all) break;
+            stream_->want({});
+            return plan(camera, tile, tau_px, model);
+        }
+    }
+}
+
+}  // namespace oro

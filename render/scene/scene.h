@@ -1,0 +1,63 @@
+// A region that is being drawn: its pages, and those of them that are on the GPU.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "core/frame/frame_plan.h"
+#include "core/frame/region_pages.h"
+#include "render/scene/page_store.h"
+#include "render/scene/page_stream.h"
+
+namespace oro {
+
+// Told how far a long step is, 0..1.
+using RenderProgress = std::function<void(double share)>;
+
+// How much memory pages may take, bytes.
+struct SceneMemory {
+    std::uint64_t gpu{};   // pages on the GPU; 0: half of what the device has, at most 2 GiB
+    std::uint64_t main{};  // pages on their way there; 0: 64 MB
+};
+
+class Scene {
+  public:
+    // heights: how they are kept on the GPU. Errors: out of memory; a file that cannot be read.
+    static Result<Scene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
+                                const SceneMemory& memory = {}, HeightStorage heights = HeightStorage::f32);
+
+    // What a frame draws with the pages that are on the GPU now.
+    Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px,
+                           const WorldModel& model = {});
+    // Lets the background read what a plan misses, and sends what is ready: true when the next plan may be
+    // better. Does not wait for pages that are not ready; asks for none once the frame's own fill the GPU.
+    // Errors: a page that cannot be read, the device.
+    Result<bool> advance(std::span<const PageIndex> missing);
+    // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
+    // hold, `missing` names the rest.
+    Result<FramePlan> settled_plan(const Camera& camera, const Tile& tile, double tau_px,
+                                   const WorldModel& model = {});
+
+    [[nodiscard]] const RegionPages& pages() const { return *pages_; }
+    [[nodiscard]] PageStore& store() { return store_; }
+    [[nodiscard]] std::uint64_t bytes_sent() const { return bytes_sent_; }
+    // From one height that the GPU can keep to the next; posts are at most half of it from their own.
+    [[nodiscard]] double height_step_m() const { return store_.coding().step_m(); }
+
+  private:
+    Scene(std::unique_ptr<RegionPages> pages, PageStore store)
+        : pages_(std::move(pages)), store_(std::move(store)) {}
+    // Number of pages that there was room for; `all`: for every one that was ready.
+    Result<std::size_t> send_ready(bool wait, bool& all);
+
+    std::unique_ptr<RegionPages> pages_;
+    std::unique_ptr<PageStream> stream_;
+    PageStore store_;
+    Buffer undulation_;
+    std::uint64_t bytes_sent_{};
+    bool full_{false};  // of the last frame's pages
+};
+
+}  // namespace oro

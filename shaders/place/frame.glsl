@@ -1,0 +1,62 @@
+// The buffers of a frame as shaders see them: its constants are a uniform buffer, all else is reached by device address from there.
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#include "shaders/shared.h"
+
+#define ORO_FUNCTION
+#define ORO_PRECISE precise
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer PageBlocks { PageBlock at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FramePages { FramePage at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer RowTable { RowTerms at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ColumnTable { ColumnTerms at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Words { uint at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Floats { float at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Counts { FrameCounts at; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Recorded { vec3 at[]; };
+// The compute rasteriser's visibility buffer as words: x the triangle id, y the bits of the depth.
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer VisibilityWords { uvec2 at[]; };
+
+// The frame's constants, read where they are used: a copy would drag the tint table into every invocation.
+layout(binding = 3, scalar) uniform Frame { FrameConstants frame; };
+#define FRAME frame
+FramePages frame_pages() { return FramePages(FRAME.pages); }
+
+// Triangle ids: page of this frame, meshlet of the page, triangle of the meshlet; 0 is the background.
+uint triangle_id(uint frame_page, uint meshlet, uint triangle) {
+    return ((frame_page * meshlets_per_page + meshlet) * meshlet_triangles + triangle) + 1u;
+}
+
+// The edges (levels.glsl) of a drawn node, by its number in the frame: page * 256 + meshlet.
+uint edges_of(uint node) { return Words(FRAME.edges).at[node / 8u] >> (node % 8u * 4u) & 15u; }
+
+// The number of this workgroup in a dispatch that was folded into rows.
+uint folded(uvec3 group) { return group.y * groups_per_row + group.x; }
+
+// The corner of a meshlet in its page.
+uvec2 first_post(uint meshlet) {
+    return uvec2(meshlet / meshlets_per_side, meshlet % meshlets_per_side) * meshlet_quads;
+}
+
+// The three posts of a meshlet's triangle as (row, column) within the meshlet. Cells are split from their north-west to their
+// south-east post; both triangles run counter-clockwise seen from above.
+void triangle_posts(uint triangle, out uvec2 a, out uvec2 b, out uvec2 c) {
+    uint cell = triangle >> 1u;
+    uvec2 nw = uvec2(cell / meshlet_quads, cell % meshlet_quads);
+    a = nw;
+    if ((triangle & 1u) == 0u) {
+        b = nw + uvec2(1u, 0u);
+        c = nw + uvec2(1u, 1u);
+    } else {
+        b = nw + uvec2(1u, 1u);
+        c = nw + uvec2(0u, 1u);
+    }
+}
+
+// Posts as row << 8 | column: do they span a triangle? Stitching lets posts fall together or into one line.
+bool has_area(uint a, uint b, uint c) {
+    ivec2 to_b = ivec2(int(b >> 8) - int(a >> 8), int(b & 255u) - int(a & 255u));
+    ivec2 to_c = ivec2(int(c >> 8) - int(a >> 8), int(c & 255u) - int(a & 255u));
+    return to_b.x * to_c.y != to_b.y * to_c.x;
+}

@@ -1,0 +1,76 @@
+// Exact placement of posts in float32, relative to the eye. Needs frame.glsl and levels.glsl.
+// Every expression is `precise`: the same post gives the same bits in every workgroup and shader that asks for it, and from every
+// page and level that has it.
+#include "shaders/place/bend.glsl"
+
+// A height of a page by its place among page_heights, in steps of height_step_m; void_height where there is none.
+int stored_height(PageBlocks block, uint place) {
+    if (FRAME.height_bits == 32u) return block.at[0].heights[place];
+    int code = bitfieldExtract(block.at[0].heights[place >> 1u], int(place & 1u) * 16, 16);
+    if (code == void_code) return void_height;
+    return (code << FRAME.height_shift) + FRAME.height_offset;
+}
+
+int post_height(PageBlocks block, uvec2 post) { return stored_height(block, (post.x + 1u) * height_stride + post.y + 1u); }
+
+// Position in the eye's meridian frame; within 1 mm up to 4 km away, and 1 mm and 3.2e-7 of the distance beyond (0.0005 px).
+vec3 place_from_eye(FramePage page, uvec2 post, int height) {
+    RowTerms t = RowTable(FRAME.row_terms).at[page.row_terms + post.x];
+    ColumnTerms u = ColumnTable(FRAME.column_terms).at[page.column_terms + post.y];
+    precise float dh = float(height - FRAME.reference_steps) * height_step_m;
+    precise float r = t.P + dh * t.Q;
+    precise vec3 position;
+    position.x = (t.R + dh * t.C) - r * u.V;
+    position.y = r * u.W;
+    position.z = t.Z + dh * t.S;
+    return position;
+}
+
+vec3 ecef_rounded(vec3 from_eye) {
+    vec2 meridian = FRAME.eye_meridian;
+    precise vec3 turned;
+    turned.x = meridian.x * from_eye.x - meridian.y * from_eye.y;
+    turned.y = meridian.y * from_eye.x + meridian.x * from_eye.y;
+    turned.z = from_eye.z;
+    precise vec3 ecef = FRAME.eye_high + (turned + FRAME.eye_low);
+    return ecef;
+}
+
+// What float32 ECEF makes of a position: rounded to float in ECEF, then relative to the eye without further loss, or as a view matrix
+// in float32 does it.
+vec3 view_by_ecef(vec3 from_eye) {
+    precise vec3 ecef = ecef_rounded(from_eye);
+    precise vec3 view;
+    if (FRAME.placing == placing_naive) view = FRAME.view_from_ecef * ecef + FRAME.view_translation;
+    else view = FRAME.view_from_ecef * ((ecef - FRAME.eye_high) - FRAME.eye_low);
+    return view;
+}
+
+// Position in view coordinates, as it is seen. post: (row, column) within the page.
+vec3 place_in_view(FramePage page, uvec2 post, int height) {
+    vec3 from_eye = place_from_eye(page, post, height);
+    precise vec3 position = FRAME.view_from_eye * from_eye;
+    if (FRAME.placing != placing_relative) position = view_by_ecef(from_eye);
+    if (FRAME.refraction_per_m != 0.0) position = bent(position);
+    return position;
+}
+
+// Reversed depth without a far plane: near is 1, infinity 0.
+vec4 project(vec3 view) {
+    precise vec4 clip;
+    clip.w = -view.z;
+    clip.x = FRAME.projection_scale.x * view.x + FRAME.projection_shift.x * clip.w;
+    clip.y = FRAME.projection_scale.y * view.y + FRAME.projection_shift.y * clip.w;
+    clip.z = FRAME.near_m;
+    return clip;
+}
+
+// The post of a meshlet's vertex (row, column within the meshlet) in its page, after stitching.
+uvec2 vertex_post(FramePage page, uint meshlet, uvec2 vertex, uint edges) {
+    uvec2 corner = first_post(meshlet);
+    if (edges == 0u) return corner + vertex;
+    // Quads of the meshlet: 8, or fewer where the region ends.
+    uvec2 last = uvec2(FRAME.last_row, FRAME.last_column) + (1u << page.level) - 1u;
+    uvec2 quads = min((last >> page.level) - (uvec2(page.first_row, page.first_column) >> page.level) - corner, uvec2(meshlet_quads));
+    return corner + stitched_post(vertex, quads, edges);
+}

@@ -1,0 +1,91 @@
+#version 460
+// Draws a meshlet by compute: places its 81 posts, then one triangle an invocation. Triangles of some size, and those that must be
+// clipped, are handed on.
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/place/frame.glsl"
+#include "shaders/choose/levels.glsl"
+#include "shaders/place/place.glsl"
+#include "shaders/choose/lists.glsl"
+#include "shaders/raster/raster.glsl"
+
+layout(local_size_x = 128) in;  // a triangle an invocation
+
+// Pixels of the largest box that one invocation draws by itself. What is larger goes to other workgroups: near the eye a few
+// meshlets cover most of the picture, and whoever drew them alone would keep all others waiting.
+const int alone_max_px = 64;
+
+shared vec4 posts[meshlet_vertices];  // clip coordinates; w = 0 where void
+shared uint places[meshlet_vertices];  // row << 8 | column in the page, after stitching
+shared uint drawn_count;
+
+uint post_number(uvec2 post) { return post.x * meshlet_posts + post.y; }
+
+// False for a triangle that is not drawn: with a void corner, or that stitching has left without an area.
+bool corners(uint triangle, out vec4 a, out vec4 b, out vec4 c) {
+    uvec2 pa, pb, pc;
+    triangle_posts(triangle, pa, pb, pc);
+    a = posts[post_number(pa)];
+    b = posts[post_number(pb)];
+    c = posts[post_number(pc)];
+    return a.w != 0.0 && b.w != 0.0 && c.w != 0.0 &&
+           has_area(places[post_number(pa)], places[post_number(pb)], places[post_number(pc)]);
+}
+
+void list_clip(uint id) {
+    uint at = atomicAdd(lists().at.clips, 1u);
+    if (at >= clips_max) {
+        atomicAdd(Counts(FRAME.counts).at.triangles_not_clipped, 1u);
+        return;
+    }
+    Words(FRAME.clip_list).at[at] = id;
+    uint groups = at / 64u + 1u;
+    atomicMax(lists().at.clip_groups[0], min(groups, groups_per_row));
+    atomicMax(lists().at.clip_groups[1], (groups + groups_per_row - 1u) / groups_per_row);
+}
+
+// What one invocation does with its triangle.
+void draw_triangle(uint frame_page, uint meshlet, uint triangle) {
+    vec4 a, b, c;
+    if (!corners(triangle, a, b, c)) return;
+    atomicAdd(drawn_count, 1u);
+    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
+    uint id = triangle_id(frame_page, meshlet, triangle);
+    if (!fits_grid(a, b, c)) {
+        list_clip(id);
+        return;
+    }
+    ScreenTriangle t;
+    if (!screen_triangle(a, b, c, id, t)) return;
+    ivec4 box = pixel_box(t);
+    ivec2 size = box.zw - box.xy + 1;
+    if (min(size.x, size.y) <= 0) return;
+    if (fits_near(t) && size.x * size.y <= alone_max_px) {
+        draw_near(t, box, 0u, 1u);
+    } else if (!list_large(t, box)) {
+        draw_far(t, box, 0u, 1u);
+    }
+}
+
+void main() {
+    uint number = folded(gl_WorkGroupID);
+    if (number >= lists().at.meshlets) return;
+    uint listed = Words(FRAME.meshlet_list).at[number];
+    uint frame_page = (listed & 0xfffffffu) / meshlets_per_page, meshlet = listed % meshlets_per_page;
+    uint lane = gl_LocalInvocationIndex;
+    if (lane == 0u) drawn_count = 0u;
+    if (lane < meshlet_vertices) {
+        FramePage page = frame_pages().at[frame_page];
+        PageBlocks block = PageBlocks(page.block);
+        uvec2 post = vertex_post(page, meshlet, uvec2(lane / meshlet_posts, lane % meshlet_posts), listed >> 28);
+        int height = post_height(block, post);
+        bool there = height != void_height;
+        places[lane] = post.x << 8 | post.y;
+        posts[lane] = there ? project(place_in_view(page, post, height)) : vec4(0.0);
+        // A post exactly beside the eye has w = 0, too: moved by less than any float at its distance shows.
+        if (there && posts[lane].w == 0.0) posts[lane].w = -1.0e-30;
+    }
+    barrier();
+    draw_triangle(frame_page, meshlet, lane);
+    barrier();
+    if (lane == 0u) atomicAdd(Counts(FRAME.counts).at.triangles_drawn, drawn_count);
+}

@@ -1,0 +1,28 @@
+#version 460
+// One square of one large triangle a workgroup.
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/place/frame.glsl"
+#include "shaders/choose/lists.glsl"
+#include "shaders/raster/raster.glsl"
+
+layout(local_size_x = 128) in;
+
+void main() {
+    uint number = folded(gl_WorkGroupID);
+    if (number >= min(lists().at.tasks, tasks_max)) return;
+    LargeTask task = LargeTasks(FRAME.task_list).at[number];
+    if (task.triangle == no_triangle) return;
+    LargeTriangle large = LargeTriangles(FRAME.large_list).at[task.triangle];
+    ScreenTriangle t;
+    t.a = ivec2(large.ax, large.ay);
+    t.b = ivec2(large.bx, large.by);
+    t.c = ivec2(large.cx, large.cy);
+    t.depth = vec3(large.az, large.bz, large.cz);
+    t.id = large.id;
+    ivec4 box = pixel_box(t);
+    ivec2 square = ivec2(task.square & 0xffffu, task.square >> 16) * int(large_square_px);
+    box = ivec4(max(box.xy, square), min(box.zw, square + int(large_square_px) - 1));
+    if (box.z < box.x || box.w < box.y) return;
+    if (fits_near(t)) draw_near(t, box, gl_LocalInvocationIndex, 128u);
+    else draw_far(t, box, gl_LocalInvocationIndex, 128u);
+}

@@ -1,0 +1,53 @@
+#version 460
+// Colours each pixel once: turns its triangle id back into a place on the surface, and that into light.
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/place/frame.glsl"
+#include "shaders/choose/levels.glsl"
+#include "shaders/place/place.glsl"
+#include "shaders/shade/surface.glsl"
+#include "shaders/shade/light.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
+// Written by a function: glslang 12.0 does not end on such an assignment in main().
+layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Depths { float at[]; };
+layout(binding = 0, r32ui) uniform readonly uimage2D ids;
+layout(binding = 1, rgba32f) uniform image2D sum;  // of the samples so far, linear light
+layout(binding = 2, rgba8) uniform writeonly image2D picture;  // sRGB-encoded
+
+vec3 srgb_from_linear(vec3 linear) {
+    // Source: IEC 61966-2-1:1999, 5.2.
+    vec3 clamped = clamp(linear, 0.0, 1.0);
+    return mix(12.92 * clamped, 1.055 * pow(clamped, vec3(1.0 / 2.4)) - 0.055, greaterThan(clamped, vec3(0.0031308)));
+}
+
+void keep_depth(ivec2 pixel, float depth) {
+    if (FRAME.depths != uvec2(0u)) Depths(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)] = depth;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return;
+    vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
+    vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
+    uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
+                           : imageLoad(ids, pixel).x;
+    float depth = 0.0;
+    vec3 colour;
+    if (id == 0u) {
+        colour = background(normalize(ray));
+    } else {
+        SurfacePoint point = surface_at(id - 1u, ray);
+        depth = FRAME.near_m / -point.view.z;
+        colour = lit_ground(point);
+    }
+    // From the triangle and the pixel alone, so that both ways of drawing give the same.
+    keep_depth(pixel, depth);
+    if (FRAME.sample_count > 1u) {
+        vec3 total = colour + (FRAME.sample_index == 0u ? vec3(0.0) : imageLoad(sum, pixel).rgb);
+        imageStore(sum, pixel, vec4(total, 1.0));
+        if (FRAME.sample_index + 1u < FRAME.sample_count) return;
+        colour = total / float(FRAME.sample_count);
+    }
+    imageStore(picture, pixel, vec4(srgb_from_linear(colour), 1.0));
+}

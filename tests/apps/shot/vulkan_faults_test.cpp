@@ -1,0 +1,211 @@
+// A GPU that is not as it should be: which device is taken of those that are there, and what is said when its
+// memory is full or it is lost, at each single call of Vulkan.
+#include "tests/apps/shot/vulkan_faults.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/support/test_data.h"
+
+namespace {
+using nlohmann::json;
+using oro::test::expect_refusal;
+using oro::test::FaultyRun;
+using oro::test::Outcome;
+using oro::test::run_with_faults;
+using Words = std::vector<std::string>;
+
+constexpr int failed = 1, no_device = 4;
+constexpr const char* out_of_memory = "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+constexpr const char* lost = "VK_ERROR_DEVICE_LOST";
+
+std::string bundled() {
+    return (oro::test::bundled_data() / "jacksboro.tif").string();
+}
+
+// A picture of 36 pages of terrain at most; 124: it hung.
+Words shot(const Words& more) {
+    Words words{
+        "timeout", "60", OROGRAPH_PROGRAM, "shot", bundled(), "--bbox=-84.25,36.5,-84.2,36.55", "--size",
+        "64x48",   "-q", "--out",          "p.png"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+Words window() {
+    return {OROGRAPH_ON_DISPLAY, "timeout", "60", OROGRAPH_PROGRAM, "view", bundled(), "--size",
+            "160x120",           "-q"};
+}
+
+// The device that draws where the machine has these.
+std::string chosen_of(const std::string& devices, const Words& environment = {}) {
+    const FaultyRun run = run_with_faults(shot({"--json"}), "", devices, environment);
+    EXPECT_EQ(run.outcome.exit_code, 0) << devices << ": " << run.outcome.err;
+    const json said = json::parse(run.outcome.out, nullptr, false);
+    return said.is_object() ? said["device"]["name"].get<std::string>() : "";
+}
+
+TEST(DeviceChoice, TakesTheBestThatCanDraw) {
+    EXPECT_EQ(chosen_of("software S;integrated I;discrete D"), "D");
+    EXPECT_EQ(chosen_of("software S;virtual V;integrated I"), "I");
+    EXPECT_EQ(chosen_of("software S;virtual V"), "V");
+    EXPECT_EQ(chosen_of("discrete A;discrete B"), "A");
+    EXPECT_EQ(chosen_of("software S"), "S");
+    // A better kind that cannot draw is none.
+    EXPECT_EQ(chosen_of("discrete D without mesh_shader,atomics;integrated I"), "I");
+    EXPECT_EQ(chosen_of("discrete D without vulkan13;software S"), "S");
+    EXPECT_EQ(chosen_of("discrete D without timestamps;software S"), "S");
+    EXPECT_EQ(chosen_of("discrete D without addresses;integrated I without mesh_shader,atomics;software S"),
+              "S");
+    // One way of drawing is enough.
+    EXPECT_EQ(chosen_of("discrete D without mesh_shader;integrated I"), "D");
+    EXPECT_EQ(chosen_of("discrete D without atomics;integrated I"), "D");
+    EXPECT_EQ(chosen_of("integrated I;discrete D without swapchain"), "D");
+}
+
+TEST(DeviceChoice, TakesTheOneThatIsNamed) {
+    const std::string devices = "software Slow One;integrated Small;discrete Big";
+    EXPECT_EQ(chosen_of(devices, {"OROGRAPH_DEVICE=Slow"}), "Slow One");
+    EXPECT_EQ(chosen_of(devices, {"OROGRAPH_DEVICE=1"}), "Small");
+    const FaultyRun unknown = run_with_faults(shot({}), "", devices, {"OROGRAPH_DEVICE=Radeon"});
+    expect_refusal(unknown.outcome, no_device, {"OROGRAPH_DEVICE", "no device is called 'Radeon'"});
+    const FaultyRun unable = run_with_faults(
+        shot({}), "", "software S;discrete Big without mesh_shader,atomics", {"OROGRAPH_DEVICE=Big"});
+    expect_refusal(unable.outcome, no_device, {"Big lacks VK_EXT_mesh_shader and 64-bit atomics"});
+}
+
+TEST(DeviceChoice, SaysWhatEachOneLacks) {
+    const FaultyRun none = run_with_faults(shot({}), "", "none");
+    expect_refusal(none.outcome, no_device, {"no driver answers (no device)", "scripts/set-up"});
+    const FaultyRun unable = run_with_faults(
+        shot({}), "", "discrete A without vulkan13;integrated B without addresses,timestamps");
+    expect_refusal(unable.outcome, no_device,
+                   {"A lacks Vulkan 1.3", "B lacks bufferDeviceAddress, a queue for graphics"});
+    const FaultyRun blind = run_with_faults(window(), "", "discrete D without swapchain");
+    expect_refusal(blind.outcome, no_device, {"D lacks VK_KHR_swapchain"});
+    const FaultyRun refused =
+        run_with_faults(shot({}), "vkCreateDevice 1 VK_ERROR_INITIALIZATION_FAILED", "discrete D");
+    expect_refusal(refused.outcome, no_device, {"D: cannot be used", "VK_ERROR_INITIALIZATION_FAILED"});
+}
+
+// Of 64 bits of a timestamp a device may count in fewer, which begin anew; the rest is noise.
+TEST(DeviceChoice, TimesCountValidBitsAlone) {
+    const FaultyRun run = run_with_faults(shot({"--json"}), "", "discrete D without whole_timestamps");
+    ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    const json times = json::parse(run.outcome.out)["times_s"];
+    for (const char* step : {"gpu_choose", "gpu_raster", "gpu_shade"}) {
+        EXPECT_GE(times[step].get<double>(), 0.0) << step;
+        EXPECT_LT(times[step].get<double>(), times["draw_and_write"].get<double>()) << step;
+    }
+}
+
+// What may happen when a call of Vulkan gives an error.
+std::set<std::string> results_of(const std::string& call, bool first) {
+    std::set<std::string> results{out_of_memory};
+    if (first) results.insert("VK_ERROR_OUT_OF_HOST_MEMORY");
+    for (const char* one : {"vkCreateDevice", "vkQueueSubmit2", "vkWaitForFences", "vkGetQueryPoolResults",
+                            "vkAcquireNextImageKHR", "vkQueuePresentKHR", "vkCreateSwapchainKHR"}) {
+        if (call == one) results.insert(lost);
+    }
+    return results;
+}
+
+// One clear line, the right exit code, nothing left behind: neither on the disk nor on the device.
+void expect_told(const FaultyRun& run, const std::string& result) {
+    EXPECT_EQ(run.faults, 1);
+    expect_refusal(run.outcome, failed, {result});
+    EXPECT_EQ(run.files, Words{});
+    EXPECT_EQ(run.messages, Words{});
+}
+
+// Room for fewer pages was asked for and found: the picture is as good as ever.
+bool made_do_with_fewer_pages(const std::string& call, const std::string& result, const FaultyRun& run,
+                              const FaultyRun& good) {
+    return call == "vkAllocateMemory" && result == out_of_memory && run.outcome.exit_code == 0 &&
+           run.calls.at(call) == good.calls.at(call) + 1 && run.files == good.files && run.messages.empty();
+}
+
+class EachCallOfVulkan : public testing::TestWithParam<const char*> {};
+
+TEST_P(EachCallOfVulkan, FailsWithALineAndNothingLeft) {
+    const Words words = shot({"--pipeline", GetParam()});
+    const FaultyRun good = run_with_faults(words, "");
+    ASSERT_EQ(good.outcome.exit_code, 0) << good.outcome.err;
+    EXPECT_EQ(good.messages, Words{});
+    EXPECT_EQ(good.files, Words{"p.png"});
+    EXPECT_GE(good.calls.size(), 25U);
+    int fewer_pages = 0;
+    for (const auto& [call, count] : good.calls) {
+        for (int number = 1; number <= count; ++number) {
+            for (const std::string& result : results_of(call, number == 1)) {
+                const std::string fault = call + " " + std::to_string(number) + " " + result;
+                SCOPED_TRACE(fault);
+                const FaultyRun run = run_with_faults(words, fault);
+                if (made_do_with_fewer_pages(call, result, run, good)) {
+                    ++fewer_pages;
+                } else {
+                    expect_told(run, result);
+                }
+            }
+        }
+    }
+    EXPECT_EQ(fewer_pages, 1);
+}
+INSTANTIATE_TEST_SUITE_P(Pipelines, EachCallOfVulkan, testing::Values("mesh", "compute"),
+                         [](const auto& way) { return std::string(way.param); });
+
+// The budget is a wish: a GPU with less room holds fewer pages, and draws the same picture, or says that it
+// cannot.
+TEST(GpuMemory, FewerPagesAreEnoughWhereTheyAre) {
+    const Words words{"timeout", "60", OROGRAPH_PROGRAM, "shot",  bundled(), "--size", "320x240", "--tau",
+                      "0",       "-q", "--out",          "p.png", "--json"};
+    const FaultyRun good = run_with_faults(words, "");
+    ASSERT_EQ(good.outcome.exit_code, 0) << good.outcome.err;
+    const int pages = json::parse(good.outcome.out)["pages"]["on_gpu"];
+    ASSERT_GT(pages, 16);
+    // The allocation of pages is the first after the renderer's own.
+    int number = 0;
+    for (int i = 1; i <= good.calls.at("vkAllocateMemory") && number == 0; ++i) {
+        const FaultyRun run =
+            run_with_faults(words, "vkAllocateMemory " + std::to_string(i) + " " + out_of_memory);
+        if (run.outcome.exit_code != 0) continue;
+        number = i;
+        const json said = json::parse(run.outcome.out);
+        EXPECT_EQ(said["settled"], true);
+        EXPECT_LT(said["pages"]["bytes_on_gpu"], json::parse(good.outcome.out)["pages"]["bytes_on_gpu"]);
+    }
+    EXPECT_GT(number, 0) << "no allocation was tried again with fewer pages";
+}
+
+// What a window asks of Vulkan beyond a picture, and a device that is lost in its second frame.
+TEST(WindowFaults, EndItWithALine) {
+    const std::string loss = std::string("vkQueuePresentKHR 2 ") + lost;
+    const FaultyRun good = run_with_faults(window(), loss);
+    expect_told(good, lost);
+    for (const char* call :
+         {"vkGetPhysicalDeviceSurfaceSupportKHR", "vkGetPhysicalDeviceSurfaceCapabilitiesKHR",
+          "vkGetPhysicalDeviceSurfaceFormatsKHR", "vkCreateXcbSurfaceKHR", "vkCreateSemaphore",
+          "vkCreateSwapchainKHR", "vkGetSwapchainImagesKHR", "vkAcquireNextImageKHR", "vkQueueSubmit2",
+          "vkWaitForFences", "vkQueuePresentKHR"}) {
+        ASSERT_TRUE(good.calls.contains(call)) << call;
+        for (const std::string& result : results_of(call, false)) {
+            const std::string fault = std::string(call) + " 1 " + result;
+            SCOPED_TRACE(fault);
+            expect_told(run_with_faults(window(), fault), result);
+        }
+    }
+}
+
+TEST(WindowFaults, SuboptimalSwapchainsAreMadeAnew) {
+    for (const char* call : {"vkAcquireNextImageKHR", "vkQueuePresentKHR"}) {
+        const FaultyRun run =
+            run_with_faults(window(), std::string(call) + " 2 VK_SUBOPTIMAL_KHR;vkQueuePresentKHR 3 " + lost);
+        expect_refusal(run.outcome, failed, {lost});
+        EXPECT_EQ(run.faults, 2) << call;
+        EXPECT_EQ(run.calls.at("vkCreateSwapchainKHR"), 2) << call;
+        EXPECT_EQ(run.messages, Words{}) << call;
+    }
+}
+
+}  // namespace

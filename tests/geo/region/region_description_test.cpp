@@ -1,0 +1,223 @@
+// What a baked region says of itself: every field comes back, and what is none is refused in one line.
+#include "geo/region/region_description.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+namespace oro {
+namespace {
+
+using nlohmann::json;
+
+SourceReport unusual_source(const std::string& path) {
+    SourceReport s;
+    s.path = path;
+    s.format = "SRTM .hgt";
+    s.crs = "EPSG:4326 WGS 84";
+    s.vertical_datum = "EGM96 height (assumed: .hgt states none)";
+    s.height_unit = "us-ft";
+    s.posts_are = "cell centres (area)";
+    s.attribution = "© swisstopo, \"quoted\"\nand on a second line";
+    s.rows = 2147483647;
+    s.columns = 1;
+    s.lat_spacing_deg = 1.0 / 1200.0;
+    s.lon_spacing_deg = 0.1;
+    s.spacing_m = 92.472563412345678;
+    s.box = {179.5, -17.123456789012345, 181.25, -16.0};
+    s.lowest_m = -431.25;
+    s.highest_m = 8848.86;
+    s.voids = 18446744073709551615U;
+    s.implausible = 3;
+    s.placement = "cubic resampling from EPSG:2056";
+    s.seams = {1201, 12, 0.30000000000000004};
+    return s;
+}
+
+Region unusual_region() {
+    Region region;
+    region.sources = {unusual_source("Höhen/N46E008.hgt"), unusual_source("b c.zip/N47E008.hgt")};
+    region.seams = {9007199254740993U, 1, 1e-300};
+    region.geoid = "EGM96 (egm96_15.gtx)";
+    region.missing_cells = {"N45E008", "S01W001"};
+    region.voids = 5;
+    region.filled = 7;
+    region.void_method = "holes";
+    region.notes = {"one", ""};
+    return region;
+}
+
+std::string refusal(const std::string& text) {
+    const auto read = region_from_description(text, "region.oro");
+    EXPECT_FALSE(read.ok()) << text.substr(0, 200);
+    if (read.ok()) return "";
+    EXPECT_EQ(read.error().kind, ErrorKind::failed);
+    EXPECT_EQ(read.error().where, "region.oro");
+    EXPECT_EQ(read.error().line().find('\n'), std::string::npos);
+    return read.error().line();
+}
+
+TEST(RegionDescription, ARegionBakedBeforeHolesWereToldApartIsRead) {
+    Region region;
+    region.voids = 30;
+    region.outside = 10;
+    region.in_missing = 5;
+    std::string text = region_description(region);
+    auto read = region_from_description(text, "a.oro");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(read->void_posts(), 15U);
+    for (const std::string part : {"\"outside\":10,", "\"in_missing\":5,"})
+        text.erase(text.find(part), part.size());
+    read = region_from_description(text, "a.oro");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(read->void_posts(), 30U);
+    region.outside = 31;
+    EXPECT_FALSE(region_from_description(region_description(region), "a.oro").ok());
+}
+
+TEST(RegionDescription, EveryFieldComesBack) {
+    const Region region = unusual_region();
+    const std::string text = region_description(region);
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+    const auto read = region_from_description(text, "region.oro");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(region_description(*read), text);
+    ASSERT_EQ(read->sources.size(), 2U);
+    const SourceReport expected = unusual_source("Höhen/N46E008.hgt");
+    const SourceReport& s = read->sources[0];
+    EXPECT_EQ(s.path, expected.path);
+    EXPECT_EQ(s.format, expected.format);
+    EXPECT_EQ(s.crs, expected.crs);
+    EXPECT_EQ(s.vertical_datum, expected.vertical_datum);
+    EXPECT_EQ(s.height_unit, expected.height_unit);
+    EXPECT_EQ(s.posts_are, expected.posts_are);
+    EXPECT_EQ(s.attribution, expected.attribution);
+    EXPECT_EQ(s.rows, expected.rows);
+    EXPECT_EQ(s.columns, expected.columns);
+    EXPECT_EQ(s.lat_spacing_deg, expected.lat_spacing_deg);
+    EXPECT_EQ(s.lon_spacing_deg, expected.lon_spacing_deg);
+    EXPECT_EQ(s.spacing_m, expected.spacing_m);
+    EXPECT_EQ(s.box.west_deg, expected.box.west_deg);
+    EXPECT_EQ(s.box.south_deg, expected.box.south_deg);
+    EXPECT_EQ(s.box.east_deg, expected.box.east_deg);
+    EXPECT_EQ(s.box.north_deg, expected.box.north_deg);
+    EXPECT_EQ(s.lowest_m, expected.lowest_m);
+    EXPECT_EQ(s.highest_m, expected.highest_m);
+    EXPECT_EQ(s.voids, expected.voids);
+    EXPECT_EQ(s.implausible, expected.implausible);
+    EXPECT_EQ(s.placement, expected.placement);
+    EXPECT_EQ(s.seams.shared_posts, expected.seams.shared_posts);
+    EXPECT_EQ(s.seams.disagreeing_posts, expected.seams.disagreeing_posts);
+    EXPECT_EQ(s.seams.largest_difference_m, expected.seams.largest_difference_m);
+    EXPECT_EQ(read->seams.shared_posts, region.seams.shared_posts);
+    EXPECT_EQ(read->seams.largest_difference_m, region.seams.largest_difference_m);
+    EXPECT_EQ(read->geoid, region.geoid);
+    EXPECT_EQ(read->missing_cells, region.missing_cells);
+    EXPECT_EQ(read->voids, region.voids);
+    EXPECT_EQ(read->filled, region.filled);
+    EXPECT_EQ(read->void_method, region.void_method);
+    EXPECT_EQ(read->notes, region.notes);
+}
+
+TEST(RegionDescription, NamesThatAreNoUtf8AreStillText) {
+    Region region = unusual_region();
+    region.sources[0].path = "H\xf6hen.tif";
+    const auto read = region_from_description(region_description(region), "region.oro");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(read->sources[0].path, "H\xef\xbf\xbdhen.tif");  // U+FFFD
+}
+
+// Each field taken away, and each put to a value of another kind, is named in the error.
+TEST(RegionDescription, EveryFieldIsNeededAndOfItsKind) {
+    const json whole = json::parse(region_description(unusual_region()));
+    // Files that were baked before these were counted have none of them, and stay readable.
+    const std::set<std::string> since_then{"in_missing", "outside"};
+    int fields = 0;
+    const auto check_all = [&](const json::json_pointer& object) {
+        for (const auto& [name, value] : whole.at(object).items()) {
+            SCOPED_TRACE(name);
+            ++fields;
+            json without = whole;
+            without.at(object).erase(name);
+            if (since_then.contains(name))
+                EXPECT_TRUE(region_from_description(without.dump(), "region.oro").ok());
+            else
+                EXPECT_NE(refusal(without.dump()).find(name + " is missing"), std::string::npos);
+            json other = whole;
+            other.at(object)[name] = value.is_string() ? json(1) : json("text");
+            EXPECT_NE(refusal(other.dump()).find(name), std::string::npos);
+            other.at(object)[name] = nullptr;
+            EXPECT_NE(refusal(other.dump()).find(name), std::string::npos);
+        }
+    };
+    for (const char* object : {"", "/seams", "/sources/1", "/sources/1/seams"})
+        check_all(json::json_pointer(object));
+    EXPECT_EQ(fields, 11 + 3 + 19 + 3);
+}
+
+TEST(RegionDescription, NumbersOutOfRangeAreRefused) {
+    const json whole = json::parse(region_description(unusual_region()));
+    const auto with = [&](const char* field, const json& value) {
+        json changed = whole;
+        changed[json::json_pointer(field)] = value;
+        return changed.dump();
+    };
+    EXPECT_NE(refusal(with("/voids", -1)).find("voids must be a whole number"), std::string::npos);
+    EXPECT_NE(refusal(with("/voids", 1.5)).find("voids must be a whole number"), std::string::npos);
+    EXPECT_NE(refusal(with("/sources/0/rows", 2147483648U)).find("sources[0].rows must be at most"),
+              std::string::npos);
+    EXPECT_NE(refusal(with("/sources/0/box_deg", json::array({1, 2, 3}))).find("4 numbers"),
+              std::string::npos);
+    EXPECT_NE(refusal(with("/orograph_region", 2)).find("format is 2"), std::string::npos);
+    EXPECT_NE(refusal(with("/geoid", std::string("a\0b", 3))).find("zero byte"), std::string::npos);
+    std::string huge = whole.dump();
+    const std::string spacing = "\"lat_spacing_deg\":";
+    huge.insert(huge.find(spacing) + spacing.size(), "1e999,\"x\":");
+    refusal(huge);
+}
+
+TEST(RegionDescription, WhatIsNoDescriptionIsRefused) {
+    for (const char* text : {"", " ", "{}", "[]", "null", "7", "\"text\"", "{\"orograph_region\":1}",
+                             "{\"a\":", "\xff\xfe", "{\"orograph_region\":1e0}"})
+        refusal(text);
+    const std::string text = region_description(unusual_region());
+    for (std::size_t bytes = 0; bytes < text.size(); ++bytes) refusal(text.substr(0, bytes));
+    refusal(text + "x");
+}
+
+// Texts that would take far more memory than they have bytes.
+TEST(RegionDescription, TextsMadeToExhaustMemoryAreRefused) {
+    constexpr std::size_t much = 20'000'000;
+    EXPECT_NE(refusal(std::string(much, '[')).find("nested deeper"), std::string::npos);
+    std::string wide = "{\"sources\":[1";
+    for (int i = 0; i < 10'000'000; ++i) wide += ",1";
+    EXPECT_NE(refusal(wide + "]}").find("more values"), std::string::npos);
+}
+
+// Bytes of a description changed at random: it is read, or refused in one line.
+TEST(RegionDescription, RandomDamageIsReadOrRefused) {
+    const auto seed = std::random_device{}();
+    std::printf("seed %u\n", seed);
+    std::mt19937 random(seed);
+    const std::string whole = region_description(unusual_region());
+    int refused = 0;
+    for (int i = 0; i < 5000; ++i) {
+        std::string text = whole;
+        for (auto changes = 1 + random() % 3; changes > 0; --changes)
+            text[random() % text.size()] = static_cast<char>(random() % 256);
+        const auto read = region_from_description(text, "region.oro");
+        if (read.ok()) {
+            EXPECT_EQ(read->sources.size(), 2U) << "seed " << seed;
+            continue;
+        }
+        ++refused;
+        EXPECT_EQ(read.error().line().find('\n'), std::string::npos) << "seed " << seed;
+    }
+    EXPECT_GT(refused, 500) << "seed " << seed;
+}
+
+}  // namespace
+}  // namespace oro
