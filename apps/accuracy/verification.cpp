@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "apps/report/figures.h"
+#include "apps/report/json_object.h"
 #include "core/base/parallel.h"
 
 namespace oro {
@@ -11,7 +12,8 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json summary_json(const ErrorSummary& summary) {
-    return {{"max", summary.largest}, {"p9999", summary.p9999}, {"p99", summary.p99}, {"mean", summary.mean}};
+    return json_object("max", summary.largest, "p9999", summary.p9999, "p99", summary.p99, "mean",
+                       summary.mean);
 }
 
 // What is said of some only, where there are any.
@@ -81,11 +83,15 @@ std::string verification_text(const Verification& verification, double tau_px) {
 ordered_json verification_json(const Verification& verification) {
     const InteriorError& interior = verification.interior;
     const SkylineError& skyline = verification.skyline;
-    return {
-        {"interior_m", summary_json(interior.summary_m)}, {"interior_px", summary_json(interior.summary_px)},
-        {"skyline_px", summary_json(skyline.summary_px)}, {"drawn_pixels", interior.drawn},
-        {"pixels_beyond_data", interior.beyond_data},     {"skyline_columns", skyline.summary_px.count},
-        {"skyline_in_one_only", skyline.in_one_only}};
+    ordered_json json = ordered_json::object();
+    json["interior_m"] = summary_json(interior.summary_m);
+    json["interior_px"] = summary_json(interior.summary_px);
+    json["skyline_px"] = summary_json(skyline.summary_px);
+    json["drawn_pixels"] = interior.drawn;
+    json["pixels_beyond_data"] = interior.beyond_data;
+    json["skyline_columns"] = skyline.summary_px.count;
+    json["skyline_in_one_only"] = skyline.in_one_only;
+    return json;
 }
 
 }  // namespace oro

@@ -9,6 +9,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/output/overwrite_guard.h"
+#include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/view/view.h"
@@ -104,14 +105,14 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
                                std::to_string(report.pages) + ", where a bake was broken off");
     say(options.quiet, "wrote " + baked.file + ": " + std::to_string(report.pages) + " pages, " + size);
     if (!options.json) return;
-    const nlohmann::ordered_json json = {
-        {"file", baked.file},
-        {"bytes", baked.bytes},
-        {"posts", baked.posts},
-        {"bytes_per_post", baked.bytes_per_post()},
-        {"pages", {{"all", report.pages}, {"of_a_bake_broken_off", report.pages_found}}},
-        {"triangles", report.triangles},
-        {"times_s", {{"read", baked.read_s}, {"build_and_write", baked.build_s}}}};
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    json["file"] = baked.file;
+    json["bytes"] = baked.bytes;
+    json["posts"] = baked.posts;
+    json["bytes_per_post"] = baked.bytes_per_post();
+    json["pages"] = json_object("all", report.pages, "of_a_bake_broken_off", report.pages_found);
+    json["triangles"] = report.triangles;
+    json["times_s"] = json_object("read", baked.read_s, "build_and_write", baked.build_s);
     std::printf("%s\n", json_text(json, true).c_str());
 }
 

@@ -8,6 +8,7 @@
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/output/overwrite_guard.h"
+#include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/view/style.h"
@@ -19,14 +20,14 @@ namespace {
 
 nlohmann::ordered_json compare_json(const CompareOptions& options, const View& view, RasterPath path,
                                     const Gpu& gpu, const Verification& verification) {
-    nlohmann::ordered_json json;
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["view"] = options.view_file;
     json["error_picture"] = nullptr;
     if (!options.out.empty()) json["error_picture"] = options.out;
-    json["size_px"] = {view.camera.width_px, view.camera.height_px};
+    json["size_px"] = json_list(view.camera.width_px, view.camera.height_px);
     json["tau_px"] = view.tau_px;
     json["pipeline"] = name_of(path);
-    json["device"] = {{"name", gpu.report().name}, {"driver", gpu.report().driver}};
+    json["device"] = json_object("name", gpu.report().name, "driver", gpu.report().driver);
     json["error"] = verification_json(verification);
     return json;
 }

@@ -4,6 +4,7 @@
 #include "apps/commands/commands.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/output/data_folder.h"
+#include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "geo/sources/library_report.h"
 #include "render/device/gpu.h"
@@ -56,8 +57,8 @@ Finding finding_of(const DeviceReport& device, std::size_t number, GpuOptions op
 }
 
 ordered_json choice_json(const Finding& finding) {
-    ordered_json json{{"pipeline", nullptr},   {"why", finding.choice_text()}, {"mesh_ms", nullptr},
-                      {"compute_ms", nullptr}, {"measured", nullptr},          {"measured_now", false}};
+    ordered_json json = json_object("pipeline", nullptr, "why", finding.choice_text(), "mesh_ms", nullptr,
+                                    "compute_ms", nullptr, "measured", nullptr, "measured_now", false);
     if (!finding.choice) return json;
     json["pipeline"] = name_of(finding.choice->path);
     json["measured_now"] = finding.choice->measured_now;
@@ -69,47 +70,56 @@ ordered_json choice_json(const Finding& finding) {
     return json;
 }
 
+ordered_json mesh_shader_json(const DeviceReport& d) {
+    ordered_json json = json_object("present", d.mesh_shader);
+    json["preferred_task_invocations"] = d.mesh.preferred_task_invocations;
+    json["preferred_mesh_invocations"] = d.mesh.preferred_mesh_invocations;
+    json["max_task_invocations"] = d.mesh.max_task_invocations;
+    json["max_mesh_invocations"] = d.mesh.max_mesh_invocations;
+    json["max_output_vertices"] = d.mesh.max_output_vertices;
+    json["max_output_primitives"] = d.mesh.max_output_primitives;
+    json["max_task_groups_total"] = d.mesh.max_task_groups_total;
+    return json;
+}
+
 ordered_json device_json(const Finding& finding) {
     const DeviceReport& d = finding.device;
-    return {{"name", d.name},
-            {"type", d.type},
-            {"driver", d.driver},
-            {"api", d.api},
-            {"can_draw", d.lacks.empty()},
-            {"lacks", d.lacks},
-            {"mesh_shader",
-             {{"present", d.mesh_shader},
-              {"preferred_task_invocations", d.mesh.preferred_task_invocations},
-              {"preferred_mesh_invocations", d.mesh.preferred_mesh_invocations},
-              {"max_task_invocations", d.mesh.max_task_invocations},
-              {"max_mesh_invocations", d.mesh.max_mesh_invocations},
-              {"max_output_vertices", d.mesh.max_output_vertices},
-              {"max_output_primitives", d.mesh.max_output_primitives},
-              {"max_task_groups_total", d.mesh.max_task_groups_total}}},
-            {"pipelines", {{"mesh", d.mesh_shader}, {"compute", d.compute_raster}}},
-            {"auto", choice_json(finding)},
-            {"subgroup_size", d.subgroup_size},
-            {"max_picture_side_px", d.max_picture_side_px},
-            {"memory_bytes", d.memory_bytes}};
+    ordered_json json = ordered_json::object();
+    json["name"] = d.name;
+    json["type"] = d.type;
+    json["driver"] = d.driver;
+    json["api"] = d.api;
+    json["can_draw"] = d.lacks.empty();
+    json["lacks"] = d.lacks;
+    json["mesh_shader"] = mesh_shader_json(d);
+    json["pipelines"] = json_object("mesh", d.mesh_shader, "compute", d.compute_raster);
+    json["auto"] = choice_json(finding);
+    json["subgroup_size"] = d.subgroup_size;
+    json["max_picture_side_px"] = d.max_picture_side_px;
+    json["memory_bytes"] = d.memory_bytes;
+    return json;
+}
+
+ordered_json geoid_json(const GeoidGridReport& g) {
+    ordered_json json = json_object("name", g.name, "file", g.file, "found", g.found, "damage", nullptr);
+    if (!g.damage.empty()) json["damage"] = g.damage;
+    json["meaning"] = g.meaning;
+    return json;
 }
 
 ordered_json doctor_json(const std::vector<Finding>& devices, const std::string& no_device,
                          const LibraryReport& libraries) {
-    ordered_json json;
+    ordered_json json = ordered_json::object();
     json["version"] = OROGRAPH_VERSION;
     json["devices"] = ordered_json::array();
     for (const Finding& device : devices) json["devices"].push_back(device_json(device));
-    json["device_problem"] = no_device.empty() ? ordered_json() : ordered_json(no_device);
-    json["libraries"] = {
-        {"gdal", libraries.gdal}, {"proj", libraries.proj}, {"geographiclib", libraries.geographiclib}};
+    json["device_problem"] = nullptr;
+    if (!no_device.empty()) json["device_problem"] = no_device;
+    json["libraries"] =
+        json_object("gdal", libraries.gdal, "proj", libraries.proj, "geographiclib", libraries.geographiclib);
     json["geoids"] = ordered_json::array();
-    for (const GeoidGridReport& g : libraries.geoids)
-        json["geoids"].push_back({{"name", g.name},
-                                  {"file", g.file},
-                                  {"found", g.found},
-                                  {"damage", g.damage.empty() ? ordered_json() : ordered_json(g.damage)},
-                                  {"meaning", g.meaning}});
-    json["data_folder"] = {{"path", data_folder().string()}, {"found", has_data_folder()}};
+    for (const GeoidGridReport& g : libraries.geoids) json["geoids"].push_back(geoid_json(g));
+    json["data_folder"] = json_object("path", data_folder().string(), "found", has_data_folder());
     return json;
 }
 

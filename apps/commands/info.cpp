@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "apps/commands/commands.h"
+#include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
@@ -107,10 +108,9 @@ Result<void> run_info(const InfoOptions& options) {
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
     if (options.check && region.file) ORO_CHECK(region.file->verify());
     if (options.json) {
-        const nlohmann::ordered_json json = {{"sources", sources_json(region.sources)},
-                                             {"region", region_json(region)},
-                                             {"file", file_json(region)},
-                                             {"checked", options.check || !region.file}};
+        const nlohmann::ordered_json json =
+            json_object("sources", sources_json(region.sources), "region", region_json(region), "file",
+                        file_json(region), "checked", options.check || !region.file);
         std::printf("%s\n", json_text(json, true).c_str());
         return {};
     }

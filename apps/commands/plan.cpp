@@ -5,6 +5,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/plan_text.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "core/base/parallel.h"
@@ -41,15 +42,13 @@ const char* key_of(EffectMeasure measure) {
 }
 
 ordered_json size_json(const EffectSize& size) {
-    return {{"worst_m", size.worst_m},
-            {"typical_m", size.typical_m},
-            {"worst_px", size.worst_px},
-            {"typical_px", size.typical_px}};
+    return json_object("worst_m", size.worst_m, "typical_m", size.typical_m, "worst_px", size.worst_px,
+                       "typical_px", size.typical_px);
 }
 
 ordered_json effect_json(const BudgetLine& line) {
     const EffectFacts& facts = facts_of(line.kind);
-    ordered_json effect{{"effect", facts.name}, {"kind", facts.key}, {"group", key_of(facts.group)}};
+    ordered_json effect = json_object("effect", facts.name, "kind", facts.key, "group", key_of(facts.group));
     effect["meaning"] = facts.meaning;
     effect["measured_by"] = key_of(facts.measured_by);
     effect["size"] = nullptr;
@@ -68,7 +67,7 @@ ordered_json effect_json(const BudgetLine& line) {
 }
 
 ordered_json plan_json(const Budget& budget, const View& view, const AccuracyChoice& choice) {
-    ordered_json json;
+    ordered_json json = ordered_json::object();
     json["tolerance_px"] = budget.tolerance_px;
     json["in_view"] = !budget.empty;
     json["nearest_m"] = budget.nearest_m;
@@ -82,12 +81,11 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
         json["dominates"] = facts_of(*budget.dominant).name;
         json["dominates_kind"] = facts_of(*budget.dominant).key;
     }
-    json["cheapest"] = {{"accuracy", choice.bundle.name},
-                        {"options", choice.bundle.options},
-                        {"predicted_px", choice.predicted_px},
-                        {"holds", choice.holds},
-                        {"left_out", ordered_json::array()}};
-    for (const EffectKind kind : choice.left_out) json["cheapest"]["left_out"].push_back(facts_of(kind).key);
+    ordered_json left_out = ordered_json::array();
+    for (const EffectKind kind : choice.left_out) left_out.push_back(facts_of(kind).key);
+    json["cheapest"] =
+        json_object("accuracy", choice.bundle.name, "options", choice.bundle.options, "predicted_px",
+                    choice.predicted_px, "holds", choice.holds, "left_out", std::move(left_out));
     json["view"] = ordered_json::parse(view_to_json(view, false));
     return json;
 }

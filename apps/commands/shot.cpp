@@ -10,13 +10,13 @@
 #include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/verification.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/shot_json.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/picture_file.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
-#include "apps/view/model_names.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/window/picking.h"
@@ -27,35 +27,11 @@
 namespace oro {
 namespace {
 
-using nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-// How long each step of a shot took.
-struct ShotTimes {
-    double read_s{};
-    double pages_s{};
-    double draw_s{};  // drawing, reading back and writing, which overlap row by row
-    double verify_s{};
-};
-
-struct ShotResult {
-    View view;
-    Region region;
-    std::optional<SeenPlace> middle;  // what the picture sees there
-    PictureReport picture;
-    std::uint64_t pages{};
-    std::uint64_t pages_on_gpu{};
-    std::uint64_t page_bytes{};
-    double height_step_m{};
-    std::uint64_t triangles_at_full_resolution{};
-    std::optional<Verification> verification;
-    std::optional<AccuracyChoice> choice;  // with --tolerance
-    ShotTimes times;
-};
 
 namespace fs = std::filesystem;
 
@@ -80,91 +56,6 @@ Result<PictureFiles> shot_files(const ShotOptions& options) {
 bool is_check(const ShotOptions& options, const PictureFiles& files) {
     std::error_code ignored;
     return options.out.empty() && !options.overwrite && fs::is_regular_file(files.picture, ignored);
-}
-
-ordered_json destination_json(const std::optional<SeenPlace>& place) {
-    if (!place) return nullptr;
-    ordered_json json{{"lat_deg", place->lat_deg},
-                      {"lon_deg", place->lon_deg},
-                      {"h_m", place->h_m},
-                      {"H_m", place->H_m},
-                      {"bearing_deg", place->bearing_deg},
-                      {"distance_m", place->distance_m},
-                      {"seen_distance_m", place->seen_distance_m},
-                      {"cell", {{"row", place->row}, {"column", place->column}}},
-                      {"source", nullptr}};
-    if (!place->source.empty()) json["source"] = place->source;
-    return json;
-}
-
-ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
-                       const Style& style) {
-    const Geotags tags = geotags_of(shot.view, shot.region, shot.middle);
-    const glm::dvec3 ecef = shot.view.camera.eye_ecef().m;
-    const PictureReport& counts = shot.picture;
-    ordered_json json;
-    json["picture"] = files.picture;
-    json["view"] = ordered_json::parse(view_to_json(shot.view, false));
-    if (!shot.view.tells_paths) json["view"]["sources"] = ordered_json::array();
-    json["eye"] = {{"lat_deg", tags.lat_deg},
-                   {"lon_deg", tags.lon_deg},
-                   {"h_m", tags.h_m},
-                   {"H_m", tags.H_m},
-                   {"N_m", tags.N_m},
-                   {"geoid", tags.geoid},
-                   {"ecef_m", {ecef.x, ecef.y, ecef.z}}};
-    json["heading_deg"] = tags.heading_deg;
-    json["pitch_deg"] = tags.pitch_deg;
-    json["roll_deg"] = tags.roll_deg;
-    json["fov_deg"] = tags.vertical_fov_deg;
-    json["size_px"] = {tags.width_px, tags.height_px};
-    json["samples"] = shot.view.samples;
-    json["exaggeration"] = shot.view.exaggeration;
-    json["sun"] = {{"azimuth_deg", style.sun.azimuth_deg}, {"elevation_deg", style.sun.elevation_deg}};
-    json["time"] = time_text(shot.view.time_utc_s);
-    json["destination"] = destination_json(shot.middle);
-    json["attribution"] = tags.attribution;
-    json["sources"] = sources_json(shot.region.sources);
-    json["region"] = region_json(shot.region);
-    json["triangles"] = {{"drawn", counts.triangles_drawn},
-                         {"at_full_resolution", shot.triangles_at_full_resolution}};
-    json["meshlets"] = {{"drawn", counts.meshlets_drawn},
-                        {"culled_by_frustum", counts.meshlets_beyond_frustum},
-                        {"culled_by_horizon", counts.meshlets_beyond_horizon},
-                        {"mesh_workgroups", counts.mesh_groups}};
-    json["pages"] = {{"all", shot.pages},
-                     {"drawn", counts.pages_drawn},
-                     {"culled_by_frustum", shot.picture.pages_beyond_frustum},
-                     {"culled_by_horizon", shot.picture.pages_beyond_horizon},
-                     {"on_gpu", shot.pages_on_gpu},
-                     {"bytes_on_gpu", shot.page_bytes}};
-    json["tau_px"] = shot.view.tau_px;
-    json["models"] = models_json(shot.view);
-    json["accuracy"] = nullptr;
-    if (shot.choice) json["accuracy"]["bundle"] = nullptr;
-    if (!shot.view.accuracy.empty()) json["accuracy"]["bundle"] = shot.view.accuracy;
-    if (const auto& choice = shot.choice)
-        json["accuracy"].update({{"options", choice->bundle.options},
-                                 {"tolerance_px", choice->tolerance_px},
-                                 {"predicted_px", choice->predicted_px},
-                                 {"holds", choice->holds}});
-    json["models"]["height_step_m"] = shot.height_step_m;
-    json["settled"] = counts.settled;
-    json["tiles"] = shot.picture.tiles;
-    json["times_s"] = {{"read", shot.times.read_s},           {"pages", shot.times.pages_s},
-                       {"draw_and_write", shot.times.draw_s}, {"gpu_choose", counts.choose_s},
-                       {"gpu_raster", counts.raster_s},       {"gpu_shade", counts.shade_s}};
-    json["device"] = {{"name", gpu.report().name},
-                      {"type", gpu.report().type},
-                      {"driver", gpu.report().driver},
-                      {"api", gpu.report().api}};
-    json["pipeline"] = name_of(shot.picture.path);
-    if (shot.verification) {
-        json["times_s"]["verify"] = shot.times.verify_s;
-        json["error_picture"] = files.error;
-        json["error"] = verification_json(*shot.verification);
-    }
-    return json;
 }
 
 void say_notes(const ShotOptions& options, const ShotResult& shot) {
@@ -288,6 +179,31 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, gpu, style), true).c_str());
 }
 
+// Plans and draws; nothing is written when nothing of the region can be in view.
+Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu,
+                               Scene& scene, const Style& style, ProgressBar& bar, ShotResult& shot) {
+    const auto drawing = Clock::now();
+    const Camera& camera = shot.view.camera;
+    ORO_TRY(const FramePlan first, scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+                                              shot.view.tau_px, shot.view.model));
+    // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
+    const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
+    if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
+    ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
+    const bool checks = is_check(options, files);
+    ORO_TRY(DrawnPicture picture, draw_picture(checks ? unnamed(files) : files, options.overwrite || checks,
+                                               shot.view, shot.region, shot.middle, gpu, scene, style.frame,
+                                               [&](double share) { bar.show(share, "drawing"); }));
+    shot.picture = picture.report;
+    shot.times.draw_s = seconds_since(drawing);
+    if (shot.picture.triangles_drawn == 0)
+        say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
+    shot.pages_on_gpu = scene.store().size();
+    shot.page_bytes = scene.store().bytes();
+    shot.height_step_m = scene.height_step_m();
+    return picture;
+}
+
 Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     ORO_CHECK(check_out(options, files));
     if (options.view.tolerance) {
@@ -320,25 +236,8 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
     shot.triangles_at_full_resolution = scene.pages().facts().triangles;
     shot.times.pages_s = seconds_since(start);
-    const auto drawing = Clock::now();
-    const Camera& camera = shot.view.camera;
-    ORO_TRY(const FramePlan first, scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
-                                              shot.view.tau_px, shot.view.model));
-    // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
-    const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
-    if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
-    ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
+    ORO_TRY(DrawnPicture picture, draw_shot(options, files, *gpu, scene, style, bar, shot));
     const bool checks = is_check(options, files);
-    ORO_TRY(DrawnPicture picture, draw_picture(checks ? unnamed(files) : files, options.overwrite || checks,
-                                               shot.view, shot.region, shot.middle, *gpu, scene, style.frame,
-                                               [&](double share) { bar.show(share, "drawing"); }));
-    shot.picture = picture.report;
-    shot.times.draw_s = seconds_since(drawing);
-    if (shot.picture.triangles_drawn == 0)
-        say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
-    shot.pages_on_gpu = scene.store().size();
-    shot.page_bytes = scene.store().bytes();
-    shot.height_step_m = scene.height_step_m();
     std::optional<WholeFile> errors;
     if (options.verify) {
         bar.show(1.0, "measuring errors");

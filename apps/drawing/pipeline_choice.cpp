@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/report/json_fields.h"
+#include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "geo/files/whole_file.h"
 #include "render/device/calibration.h"
@@ -131,13 +132,10 @@ bool remember_times(const DeviceReport& device, const PipelineTimes& times) {
     if (entries.size() >= most_remembered)
         entries.erase(entries.begin(),
                       entries.begin() + static_cast<std::ptrdiff_t>(entries.size() - most_remembered + 1));
-    entries.push_back({{"device", device.name},
-                       {"driver", device.driver},
-                       {"program", OROGRAPH_VERSION},
-                       {"mesh_s", times.mesh_s},
-                       {"compute_s", times.compute_s},
-                       {"measured_utc_s", times.measured_utc_s}});
-    const ordered_json all{{"orograph_pipelines", cache_format}, {"measured", entries}};
+    entries.push_back(json_object<json>("device", device.name, "driver", device.driver, "program",
+                                        OROGRAPH_VERSION, "mesh_s", times.mesh_s, "compute_s",
+                                        times.compute_s, "measured_utc_s", times.measured_utc_s));
+    const ordered_json all = json_object("orograph_pipelines", cache_format, "measured", entries);
     return write_whole_file(file.string(), json_text(all, true) + "\n", true).ok();
 }
 

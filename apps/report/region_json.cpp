@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "apps/report/json_object.h"
 #include "core/baked/region_format.h"
 #include "geo/files/foreign_text.h"
 
@@ -11,72 +12,78 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json box_json(const BoundingBox& box) {
-    return {box.west_deg, box.south_deg, box.east_deg, box.north_deg};
+    return json_list(box.west_deg, box.south_deg, box.east_deg, box.north_deg);
 }
 
 ordered_json seams_json(const SeamReport& seams) {
-    return {{"shared_posts", seams.shared_posts},
-            {"disagreeing_posts", seams.disagreeing_posts},
-            {"largest_difference_m", seams.largest_difference_m}};
+    return json_object("shared_posts", seams.shared_posts, "disagreeing_posts", seams.disagreeing_posts,
+                       "largest_difference_m", seams.largest_difference_m);
+}
+
+ordered_json source_json(const SourceReport& s) {
+    ordered_json json = ordered_json::object();
+    json["path"] = s.path;
+    json["format"] = s.format;
+    json["crs"] = s.crs;
+    json["vertical_datum"] = s.vertical_datum;
+    json["height_unit"] = s.height_unit;
+    json["posts_are"] = s.posts_are;
+    json["posts"] = json_object("rows", s.rows, "columns", s.columns);
+    json["spacing"] =
+        json_object("lat_deg", s.lat_spacing_deg, "lon_deg", s.lon_spacing_deg, "metres", s.spacing_m);
+    json["bbox"] = box_json(s.box);
+    json["H_m"] = json_object("lowest", s.lowest_m, "highest", s.highest_m);
+    json["voids"] = s.voids;
+    json["implausible"] = s.implausible;
+    json["placement"] = s.placement;
+    json["seams"] = seams_json(s.seams);
+    json["attribution"] = s.attribution;
+    return json;
 }
 
 }  // namespace
 
 ordered_json sources_json(const std::vector<SourceReport>& sources) {
     ordered_json all = ordered_json::array();
-    for (const SourceReport& s : sources) {
-        all.push_back(
-            {{"path", s.path},
-             {"format", s.format},
-             {"crs", s.crs},
-             {"vertical_datum", s.vertical_datum},
-             {"height_unit", s.height_unit},
-             {"posts_are", s.posts_are},
-             {"posts", {{"rows", s.rows}, {"columns", s.columns}}},
-             {"spacing",
-              {{"lat_deg", s.lat_spacing_deg}, {"lon_deg", s.lon_spacing_deg}, {"metres", s.spacing_m}}},
-             {"bbox", box_json(s.box)},
-             {"H_m", {{"lowest", s.lowest_m}, {"highest", s.highest_m}}},
-             {"voids", s.voids},
-             {"implausible", s.implausible},
-             {"placement", s.placement},
-             {"seams", seams_json(s.seams)},
-             {"attribution", s.attribution}});
-    }
+    for (const SourceReport& source : sources) all.push_back(source_json(source));
     return all;
 }
 
 ordered_json region_json(const Region& region) {
     const PostGrid& grid = region.field.grid;
     const HeightRange range = height_range(region.field);
-    return {{"bbox", {grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()}},
-            {"posts", {{"rows", grid.rows()}, {"columns", grid.columns()}}},
-            {"spacing_deg", {{"lat", grid.lat.spacing_deg()}, {"lon", grid.lon.spacing_deg()}}},
-            {"H_m", {{"lowest", range.lowest_m}, {"highest", range.highest_m}}},
-            {"geoid", region.geoid},
-            {"voids", region.void_posts()},
-            {"outside_sources", region.outside},
-            {"in_missing_cells", region.in_missing},
-            {"filled", region.filled},
-            {"void_method", region.void_method},
-            {"seams", seams_json(region.seams)},
-            {"seam_rule", "the finer spacing wins; among equals the first in the byte order of file names"},
-            {"missing_cells", region.missing_cells},
-            {"notes", region.notes}};
+    ordered_json json = ordered_json::object();
+    json["bbox"] = json_list(grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg());
+    json["posts"] = json_object("rows", grid.rows(), "columns", grid.columns());
+    json["spacing_deg"] = json_object("lat", grid.lat.spacing_deg(), "lon", grid.lon.spacing_deg());
+    json["H_m"] = json_object("lowest", range.lowest_m, "highest", range.highest_m);
+    json["geoid"] = region.geoid;
+    json["voids"] = region.void_posts();
+    json["outside_sources"] = region.outside;
+    json["in_missing_cells"] = region.in_missing;
+    json["filled"] = region.filled;
+    json["void_method"] = region.void_method;
+    json["seams"] = seams_json(region.seams);
+    json["seam_rule"] = "the finer spacing wins; among equals the first in the byte order of file names";
+    json["missing_cells"] = region.missing_cells;
+    json["notes"] = region.notes;
+    return json;
 }
 
 ordered_json file_json(const Region& region) {
     if (!region.file) return nullptr;
     const RegionFile& file = *region.file;
-    return {{"path", file.path()},
-            {"format", "baked region"},
-            {"version", region_format::version},
-            {"levels", file.order().levels()},
-            {"pages", file.order().count()},
-            {"triangles", file.outline().triangles},
-            {"bytes", file.bytes()},
-            {"bytes_per_post",
-             static_cast<double>(file.bytes()) / static_cast<double>(region.field.grid.post_count())}};
+    ordered_json json = ordered_json::object();
+    json["path"] = file.path();
+    json["format"] = "baked region";
+    json["version"] = region_format::version;
+    json["levels"] = file.order().levels();
+    json["pages"] = file.order().count();
+    json["triangles"] = file.outline().triangles;
+    json["bytes"] = file.bytes();
+    json["bytes_per_post"] =
+        static_cast<double>(file.bytes()) / static_cast<double>(region.field.grid.post_count());
+    return json;
 }
 
 std::string note_of_voids(const Region& region) {

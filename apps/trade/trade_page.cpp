@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "apps/report/json_object.h"
 #include "apps/trade/trade_parts.h"
 
 namespace oro {
@@ -24,7 +25,7 @@ ordered_json measured(bool was, double value) {
 }
 ordered_json range(const std::optional<RatioRange>& ratio) {
     if (!ratio) return nullptr;
-    return {number(ratio->least), number(ratio->most)};
+    return json_list(number(ratio->least), number(ratio->most));
 }
 std::optional<RatioRange> as_range(const std::optional<double>& ratio) {
     if (!ratio) return std::nullopt;
@@ -38,27 +39,26 @@ std::size_t index_of(const Items& items, const Find& is_it) {
 
 ordered_json setting_json(const TradeSetting& setting) {
     const bool ground = setting.interior_pixels > 0;
-    return {{"name", valid_text(setting.name)},
-            {"options", valid_text(setting.options)},
-            {"limit_px", number(setting.limit_px)},
-            {"gpu_ms", number(setting.gpu_ms)},
-            {"triangles", setting.triangles},
-            {"bytes", setting.bytes},
-            {"ground_m", measured(ground, setting.interior_m)},
-            {"ground_px", measured(ground, setting.interior_px)},
-            {"ground_p99_px", measured(ground, setting.interior_p99_px)},
-            {"ground_mean_px", measured(ground, setting.interior_mean_px)},
-            {"skyline_px", measured(setting.skyline_columns > 0, setting.skyline_px)},
-            {"over_limit", ground && setting.limit_px && !(setting.interior_px <= *setting.limit_px)},
-            {"best", setting.on_front}};
+    ordered_json json = ordered_json::object();
+    json["name"] = valid_text(setting.name);
+    json["options"] = valid_text(setting.options);
+    json["limit_px"] = number(setting.limit_px);
+    json["gpu_ms"] = number(setting.gpu_ms);
+    json["triangles"] = setting.triangles;
+    json["bytes"] = setting.bytes;
+    json["ground_m"] = measured(ground, setting.interior_m);
+    json["ground_px"] = measured(ground, setting.interior_px);
+    json["ground_p99_px"] = measured(ground, setting.interior_p99_px);
+    json["ground_mean_px"] = measured(ground, setting.interior_mean_px);
+    json["skyline_px"] = measured(setting.skyline_columns > 0, setting.skyline_px);
+    json["over_limit"] = ground && setting.limit_px && !(setting.interior_px <= *setting.limit_px);
+    json["best"] = setting.on_front;
+    return json;
 }
 
 ordered_json summary_json(const ErrorSummary& of) {
-    return {{"worst", number(of.largest)},
-            {"p9999", number(of.p9999)},
-            {"p99", number(of.p99)},
-            {"mean", number(of.mean)},
-            {"count", of.count}};
+    return json_object("worst", number(of.largest), "p9999", number(of.p9999), "p99", number(of.p99), "mean",
+                       number(of.mean), "count", of.count);
 }
 
 ordered_json shot_json(const TradeReport& report, const std::vector<std::string>& views,
@@ -66,36 +66,47 @@ ordered_json shot_json(const TradeReport& report, const std::vector<std::string>
     const auto view = index_of(views, [&](const std::string& name) { return name == shot.view; });
     const auto setting =
         index_of(report.settings, [&](const TradeSetting& one) { return one.name == shot.setting; });
-    return {{"view", view},
-            {"setting", setting},
-            {"gpu_ms", number(shot.gpu_ms)},
-            {"triangles", shot.triangles},
-            {"bytes", shot.bytes},
-            {"ground_m", summary_json(shot.interior_m)},
-            {"ground_px", summary_json(shot.interior_px)},
-            {"skyline_px", summary_json(shot.skyline_px)},
-            {"skyline_in_one_only", shot.skyline_in_one_only}};
+    ordered_json json = ordered_json::object();
+    json["view"] = view;
+    json["setting"] = setting;
+    json["gpu_ms"] = number(shot.gpu_ms);
+    json["triangles"] = shot.triangles;
+    json["bytes"] = shot.bytes;
+    json["ground_m"] = summary_json(shot.interior_m);
+    json["ground_px"] = summary_json(shot.interior_px);
+    json["skyline_px"] = summary_json(shot.skyline_px);
+    json["skyline_in_one_only"] = shot.skyline_in_one_only;
+    return json;
 }
 
 ordered_json effect_json(const EffectWorst& effect) {
-    return {{"name", valid_text(effect.effect)},           {"predicted_m", number(effect.predicted_m)},
-            {"measured_m", number(effect.measured_m)},     {"ratio_m", range(effect.ratio_m)},
-            {"predicted_px", number(effect.predicted_px)}, {"measured_px", number(effect.measured_px)},
-            {"ratio_px", range(effect.ratio_px)},          {"over_in", effect.broken_in.size()},
-            {"measured_views", effect.measured_views},     {"remark", remark_on(effect.measured_by)}};
+    ordered_json json = ordered_json::object();
+    json["name"] = valid_text(effect.effect);
+    json["predicted_m"] = number(effect.predicted_m);
+    json["measured_m"] = number(effect.measured_m);
+    json["ratio_m"] = range(effect.ratio_m);
+    json["predicted_px"] = number(effect.predicted_px);
+    json["measured_px"] = number(effect.measured_px);
+    json["ratio_px"] = range(effect.ratio_px);
+    json["over_in"] = effect.broken_in.size();
+    json["measured_views"] = effect.measured_views;
+    json["remark"] = remark_on(effect.measured_by);
+    return json;
 }
 
 ordered_json effect_json(const TradeEffect& effect) {
-    return {{"view", valid_text(effect.view)},
-            {"name", valid_text(effect.effect)},
-            {"predicted_m", number(effect.predicted_m)},
-            {"measured_m", number(effect.measured_m)},
-            {"ratio_m", range(as_range(bound_ratio(effect.predicted_m, effect.measured_m)))},
-            {"predicted_px", number(effect.predicted_px)},
-            {"measured_px", number(effect.measured_px)},
-            {"ratio_px", range(as_range(bound_ratio(effect.predicted_px, effect.measured_px)))},
-            {"over", bound_broken(effect)},
-            {"remark", remark_on(effect.measured_by)}};
+    ordered_json json = ordered_json::object();
+    json["view"] = valid_text(effect.view);
+    json["name"] = valid_text(effect.effect);
+    json["predicted_m"] = number(effect.predicted_m);
+    json["measured_m"] = number(effect.measured_m);
+    json["ratio_m"] = range(as_range(bound_ratio(effect.predicted_m, effect.measured_m)));
+    json["predicted_px"] = number(effect.predicted_px);
+    json["measured_px"] = number(effect.measured_px);
+    json["ratio_px"] = range(as_range(bound_ratio(effect.predicted_px, effect.measured_px)));
+    json["over"] = bound_broken(effect);
+    json["remark"] = remark_on(effect.measured_by);
+    return json;
 }
 
 // How many pictures there are of settings with a limit, and how many of them are over it.
@@ -109,7 +120,7 @@ ordered_json limits_json(const TradeReport& report) {
         ++pictures;
         if (!(shot.interior_px.largest <= *at->limit_px)) ++over;
     }
-    return {{"pictures", pictures}, {"over", over}};
+    return json_object("pictures", pictures, "over", over);
 }
 
 ordered_json bounds_json(const TradeReport& report) {
@@ -122,22 +133,23 @@ ordered_json bounds_json(const TradeReport& report) {
         if (bound_broken(effect)) ++over;
         if (bound_loose(effect)) ++loose;
     }
-    return {
-        {"measured", known}, {"over", over}, {"loose", loose}, {"unmeasured", report.effects.size() - known}};
+    return json_object("measured", known, "over", over, "loose", loose, "unmeasured",
+                       report.effects.size() - known);
 }
 
 // Source: PNG, 11.2.2: width and height are the 16th to 23rd byte. What is no PNG has no size and no bytes.
 ordered_json picture_json(const TradePicture& picture) {
     constexpr std::array<std::uint8_t, 8> signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
     const std::vector<std::uint8_t>& png = picture.png;
-    ordered_json json{{"title", valid_text(picture.title)}, {"caption", valid_text(picture.caption)}};
+    ordered_json json =
+        json_object("title", valid_text(picture.title), "caption", valid_text(picture.caption));
     const bool is_png = png.size() >= 24 && std::equal(signature.begin(), signature.end(), png.begin());
     const auto side_px = [&](std::size_t at) {
         return is_png ? std::uint32_t{png[at]} << 24U | std::uint32_t{png[at + 1]} << 16U |
                             std::uint32_t{png[at + 2]} << 8U | png[at + 3]
                       : 0U;
     };
-    json["size_px"] = {side_px(16), side_px(20)};
+    json["size_px"] = json_list(side_px(16), side_px(20));
     json["png"] = is_png ? base64(png) : "";
     return json;
 }
@@ -153,7 +165,7 @@ std::string json_for_html(const ordered_json& json) {
 
 ordered_json trade_page_json(const TradeReport& report) {
     const std::vector<std::string> views = views_of(report);
-    ordered_json json;
+    ordered_json json = ordered_json::object();
     for (const auto& [name, text] : {std::pair{"region", &report.region},
                                      {"command", &report.command},
                                      {"machine", &report.machine},
@@ -163,7 +175,7 @@ ordered_json trade_page_json(const TradeReport& report) {
                                      {"version", &report.version},
                                      {"time", &report.time}})
         json[name] = valid_text(*text);
-    json["size_px"] = {report.width_px, report.height_px};
+    json["size_px"] = json_list(report.width_px, report.height_px);
     for (const char* list : {"views", "settings", "shots", "effects", "effects_of_views", "pictures"})
         json[list] = ordered_json::array();
     for (const std::string& view : views) json["views"].push_back(valid_text(view));

@@ -52,11 +52,13 @@ Result<HeightStorage> heights_named(const std::string& name) {
 }
 
 nlohmann::ordered_json models_json(const View& view) {
-    return {{"earth", name_in(earths, view.model.earth)},
-            {"geoid", name_in(geoids, view.has_geoid)},
-            {"refraction", view.model.refraction_k},
-            {"precision", name_in(precisions, view.model.precision)},
-            {"heights", name_in(storages, view.heights)}};
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    json["earth"] = name_in(earths, view.model.earth);
+    json["geoid"] = name_in(geoids, view.has_geoid);
+    json["refraction"] = view.model.refraction_k;
+    json["precision"] = name_in(precisions, view.model.precision);
+    json["heights"] = name_in(storages, view.heights);
+    return json;
 }
 
 }  // namespace oro

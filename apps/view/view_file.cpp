@@ -5,6 +5,7 @@
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/report/json_fields.h"
+#include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
@@ -28,6 +29,11 @@ Error not_a_view(const std::string& where, const std::string& reason) {
     return {ErrorKind::failed, where, "holds no view that can be read: " + reason};
 }
 
+// An element of a list, as a field of the list's name: that is what a fault tells of.
+nlohmann::json as_field(const char* name, const nlohmann::json& element) {
+    return json_object<nlohmann::json>(name, element);
+}
+
 double number(const nlohmann::json& json, const char* name, const Limits& limits) {
     return json_number(json, name, limits.low, limits.high);
 }
@@ -40,7 +46,7 @@ std::int64_t whole(const nlohmann::json& json, const char* name, const Limits& l
 BoundingBox read_box(const nlohmann::json& json) {
     const nlohmann::json& corners = json_array(json, "bbox", 4);
     const auto angle = [&](std::size_t i, double limit) {
-        return json_number({{"bbox", corners[i]}}, "bbox", -limit, limit);
+        return json_number(as_field("bbox", corners[i]), "bbox", -limit, limit);
     };
     const BoundingBox box{angle(0, 180), angle(1, 90), angle(2, 180), angle(3, 90)};
     if (!(box.south_deg < box.north_deg) || box.west_deg == box.east_deg) throw JsonFault{"'bbox' is empty"};
@@ -82,7 +88,7 @@ nlohmann::ordered_json path_json(const std::string& path) {
         hex += digits[static_cast<unsigned char>(c) >> 4U];
         hex += digits[static_cast<unsigned char>(c) & 15U];
     }
-    return {{"hex", hex}};
+    return json_object("hex", hex);
 }
 
 std::string path_from(const nlohmann::json& json, const char* name) {
@@ -105,7 +111,7 @@ void read_sources(const nlohmann::json& json, View& view) {
     if (!sources.is_array())
         throw JsonFault{"'sources' must be a list, and is " + std::string(sources.type_name())};
     for (const nlohmann::json& source : sources)
-        view.region.paths.push_back(path_from({{"sources", source}}, "sources"));
+        view.region.paths.push_back(path_from(as_field("sources", source), "sources"));
     view.tells_paths = !view.region.paths.empty();
     // Views of before pictures told where paths start have them from the working folder.
     if (!json.contains("paths_from")) return;
@@ -123,8 +129,8 @@ void read_camera(const nlohmann::json& json, Camera& camera) {
                        number(json, "roll_deg", limits::roll_deg)};
     camera.vertical_fov_deg = number(json, "fov_deg", limits::fov_deg);
     const nlohmann::json& size = json_array(json, "size_px", 2);
-    camera.width_px = static_cast<int>(whole({{"size_px", size[0]}}, "size_px", limits::side_px));
-    camera.height_px = static_cast<int>(whole({{"size_px", size[1]}}, "size_px", limits::side_px));
+    camera.width_px = static_cast<int>(whole(as_field("size_px", size[0]), "size_px", limits::side_px));
+    camera.height_px = static_cast<int>(whole(as_field("size_px", size[1]), "size_px", limits::side_px));
 }
 
 // What the parser of options would have refused must not come in by a file.
@@ -173,29 +179,31 @@ std::string time_text(std::int64_t time_utc_s) {
 }
 
 std::string view_to_json(const View& view, bool pretty) {
-    ordered_json json;
+    ordered_json json = ordered_json::object();
     json["orograph_view"] = view_format;
     if (view.paths_from_own_file) json["paths_from"] = own_file;
     json["sources"] = ordered_json::array();
     for (const std::string& path : view.region.paths) json["sources"].push_back(path_json(path));
     json["bbox"] = nullptr;
     if (const auto& box = view.region.box)
-        json["bbox"] = {box->west_deg, box->south_deg, box->east_deg, box->north_deg};
+        json["bbox"] = json_list(box->west_deg, box->south_deg, box->east_deg, box->north_deg);
     json["height_unit"] = view.region.height_unit;
     json["fill_voids"] = view.region.fill_voids;
     json["strict_datum"] = view.region.strict_datum;
     const Camera& camera = view.camera;
-    json["eye"] = {{"lat_deg", camera.eye.lat_deg}, {"lon_deg", camera.eye.lon_deg}, {"h_m", camera.eye.h_m}};
+    json["eye"] =
+        json_object("lat_deg", camera.eye.lat_deg, "lon_deg", camera.eye.lon_deg, "h_m", camera.eye.h_m);
     json["heading_deg"] = camera.attitude.heading_deg;
     json["pitch_deg"] = camera.attitude.pitch_deg;
     json["roll_deg"] = camera.attitude.roll_deg;
     json["fov_deg"] = camera.vertical_fov_deg;
-    json["size_px"] = {camera.width_px, camera.height_px};
+    json["size_px"] = json_list(camera.width_px, camera.height_px);
     json["samples"] = view.samples;
     json["exaggeration"] = view.exaggeration;
     json["sun"] = nullptr;
     if (view.sun)
-        json["sun"] = {{"azimuth_deg", view.sun->azimuth_deg}, {"elevation_deg", view.sun->elevation_deg}};
+        json["sun"] =
+            json_object("azimuth_deg", view.sun->azimuth_deg, "elevation_deg", view.sun->elevation_deg);
     json["style"] = path_json(view.style);
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;

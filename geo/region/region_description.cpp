@@ -17,32 +17,40 @@ constexpr std::int64_t description_format = 1;
 // A source has some 30 values; more than 100,000 of them do not fit into the longest description.
 constexpr JsonBounds bounds{.most_values = 5'000'000, .most_bytes = std::numeric_limits<std::size_t>::max()};
 
+// Field by field: of nested initializer lists whose making fails half-way (no memory), GCC 12 destroys what
+// was never made.
 ordered_json seams_text(const SeamReport& seams) {
-    return {{"shared_posts", seams.shared_posts},
-            {"disagreeing_posts", seams.disagreeing_posts},
-            {"largest_difference_m", seams.largest_difference_m}};
+    ordered_json text = ordered_json::object();
+    text["shared_posts"] = seams.shared_posts;
+    text["disagreeing_posts"] = seams.disagreeing_posts;
+    text["largest_difference_m"] = seams.largest_difference_m;
+    return text;
 }
 
 ordered_json source_text(const SourceReport& s) {
-    return {{"path", s.path},
-            {"format", s.format},
-            {"crs", s.crs},
-            {"vertical_datum", s.vertical_datum},
-            {"height_unit", s.height_unit},
-            {"posts_are", s.posts_are},
-            {"attribution", s.attribution},
-            {"rows", s.rows},
-            {"columns", s.columns},
-            {"lat_spacing_deg", s.lat_spacing_deg},
-            {"lon_spacing_deg", s.lon_spacing_deg},
-            {"spacing_m", s.spacing_m},
-            {"box_deg", {s.box.west_deg, s.box.south_deg, s.box.east_deg, s.box.north_deg}},
-            {"lowest_m", s.lowest_m},
-            {"highest_m", s.highest_m},
-            {"voids", s.voids},
-            {"implausible", s.implausible},
-            {"placement", s.placement},
-            {"seams", seams_text(s.seams)}};
+    ordered_json text = ordered_json::object();
+    text["path"] = s.path;
+    text["format"] = s.format;
+    text["crs"] = s.crs;
+    text["vertical_datum"] = s.vertical_datum;
+    text["height_unit"] = s.height_unit;
+    text["posts_are"] = s.posts_are;
+    text["attribution"] = s.attribution;
+    text["rows"] = s.rows;
+    text["columns"] = s.columns;
+    text["lat_spacing_deg"] = s.lat_spacing_deg;
+    text["lon_spacing_deg"] = s.lon_spacing_deg;
+    text["spacing_m"] = s.spacing_m;
+    text["box_deg"] = ordered_json::array();
+    for (const double side_deg : {s.box.west_deg, s.box.south_deg, s.box.east_deg, s.box.north_deg})
+        text["box_deg"].push_back(side_deg);
+    text["lowest_m"] = s.lowest_m;
+    text["highest_m"] = s.highest_m;
+    text["voids"] = s.voids;
+    text["implausible"] = s.implausible;
+    text["placement"] = s.placement;
+    text["seams"] = seams_text(s.seams);
+    return text;
 }
 
 // What is wrong in a description; thrown and caught within this file.
@@ -173,7 +181,7 @@ Region region_of(const Field& field) {
 }  // namespace
 
 std::string region_description(const Region& region) {
-    ordered_json all;
+    ordered_json all = ordered_json::object();
     all["orograph_region"] = description_format;
     all["sources"] = ordered_json::array();
     for (const SourceReport& source : region.sources) all["sources"].push_back(source_text(source));

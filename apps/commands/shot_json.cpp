@@ -1,0 +1,129 @@
+#include "apps/commands/shot_json.h"
+
+#include "apps/report/json_object.h"
+#include "apps/report/json_text.h"
+#include "apps/report/region_json.h"
+#include "apps/view/model_names.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json destination_json(const std::optional<SeenPlace>& place) {
+    if (!place) return nullptr;
+    ordered_json json = ordered_json::object();
+    json["lat_deg"] = place->lat_deg;
+    json["lon_deg"] = place->lon_deg;
+    json["h_m"] = place->h_m;
+    json["H_m"] = place->H_m;
+    json["bearing_deg"] = place->bearing_deg;
+    json["distance_m"] = place->distance_m;
+    json["seen_distance_m"] = place->seen_distance_m;
+    json["cell"] = json_object("row", place->row, "column", place->column);
+    json["source"] = nullptr;
+    if (!place->source.empty()) json["source"] = place->source;
+    return json;
+}
+
+ordered_json eye_json(const ShotResult& shot, const Geotags& tags) {
+    const glm::dvec3 ecef = shot.view.camera.eye_ecef().m;
+    ordered_json json = ordered_json::object();
+    json["lat_deg"] = tags.lat_deg;
+    json["lon_deg"] = tags.lon_deg;
+    json["h_m"] = tags.h_m;
+    json["H_m"] = tags.H_m;
+    json["N_m"] = tags.N_m;
+    json["geoid"] = tags.geoid;
+    json["ecef_m"] = json_list(ecef.x, ecef.y, ecef.z);
+    return json;
+}
+
+// How much of the terrain was drawn, and what was left out and why.
+void put_counts(const ShotResult& shot, ordered_json& json) {
+    const PictureReport& counts = shot.picture;
+    json["triangles"] =
+        json_object("drawn", counts.triangles_drawn, "at_full_resolution", shot.triangles_at_full_resolution);
+    ordered_json& meshlets = json["meshlets"] = ordered_json::object();
+    meshlets["drawn"] = counts.meshlets_drawn;
+    meshlets["culled_by_frustum"] = counts.meshlets_beyond_frustum;
+    meshlets["culled_by_horizon"] = counts.meshlets_beyond_horizon;
+    meshlets["mesh_workgroups"] = counts.mesh_groups;
+    ordered_json& pages = json["pages"] = ordered_json::object();
+    pages["all"] = shot.pages;
+    pages["drawn"] = counts.pages_drawn;
+    pages["culled_by_frustum"] = counts.pages_beyond_frustum;
+    pages["culled_by_horizon"] = counts.pages_beyond_horizon;
+    pages["on_gpu"] = shot.pages_on_gpu;
+    pages["bytes_on_gpu"] = shot.page_bytes;
+}
+
+// Null where neither --accuracy nor --tolerance chose.
+ordered_json accuracy_json(const ShotResult& shot) {
+    const bool named = !shot.view.accuracy.empty();
+    if (!shot.choice && !named) return nullptr;
+    ordered_json json = json_object("bundle", nullptr);
+    if (named) json["bundle"] = shot.view.accuracy;
+    if (!shot.choice) return json;
+    json["options"] = shot.choice->bundle.options;
+    json["tolerance_px"] = shot.choice->tolerance_px;
+    json["predicted_px"] = shot.choice->predicted_px;
+    json["holds"] = shot.choice->holds;
+    return json;
+}
+
+ordered_json times_json(const ShotResult& shot) {
+    ordered_json json = ordered_json::object();
+    json["read"] = shot.times.read_s;
+    json["pages"] = shot.times.pages_s;
+    json["draw_and_write"] = shot.times.draw_s;
+    json["gpu_choose"] = shot.picture.choose_s;
+    json["gpu_raster"] = shot.picture.raster_s;
+    json["gpu_shade"] = shot.picture.shade_s;
+    return json;
+}
+
+}  // namespace
+
+ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
+                       const Style& style) {
+    const Geotags tags = geotags_of(shot.view, shot.region, shot.middle);
+    ordered_json json = ordered_json::object();
+    json["picture"] = files.picture;
+    json["view"] = ordered_json::parse(view_to_json(shot.view, false));
+    if (!shot.view.tells_paths) json["view"]["sources"] = ordered_json::array();
+    json["eye"] = eye_json(shot, tags);
+    json["heading_deg"] = tags.heading_deg;
+    json["pitch_deg"] = tags.pitch_deg;
+    json["roll_deg"] = tags.roll_deg;
+    json["fov_deg"] = tags.vertical_fov_deg;
+    json["size_px"] = json_list(tags.width_px, tags.height_px);
+    json["samples"] = shot.view.samples;
+    json["exaggeration"] = shot.view.exaggeration;
+    json["sun"] = json_object("azimuth_deg", style.sun.azimuth_deg, "elevation_deg", style.sun.elevation_deg);
+    json["time"] = time_text(shot.view.time_utc_s);
+    json["destination"] = destination_json(shot.middle);
+    json["attribution"] = tags.attribution;
+    json["sources"] = sources_json(shot.region.sources);
+    json["region"] = region_json(shot.region);
+    put_counts(shot, json);
+    json["tau_px"] = shot.view.tau_px;
+    json["models"] = models_json(shot.view);
+    json["accuracy"] = accuracy_json(shot);
+    json["models"]["height_step_m"] = shot.height_step_m;
+    json["settled"] = shot.picture.settled;
+    json["tiles"] = shot.picture.tiles;
+    json["times_s"] = times_json(shot);
+    const DeviceReport& device = gpu.report();
+    json["device"] =
+        json_object("name", device.name, "type", device.type, "driver", device.driver, "api", device.api);
+    json["pipeline"] = name_of(shot.picture.path);
+    if (shot.verification) {
+        json["times_s"]["verify"] = shot.times.verify_s;
+        json["error_picture"] = files.error;
+        json["error"] = verification_json(*shot.verification);
+    }
+    return json;
+}
+
+}  // namespace oro

@@ -1,0 +1,45 @@
+// What orograph shot found out, and tells with --json.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/accuracy/accuracy.h"
+#include "apps/accuracy/verification.h"
+#include "apps/output/picture_file.h"
+#include "apps/view/style.h"
+#include "apps/view/view.h"
+#include "apps/window/picking.h"
+#include "geo/region/region.h"
+#include "render/device/gpu.h"
+
+namespace oro {
+
+// How long each step of a shot took.
+struct ShotTimes {
+    double read_s{};
+    double pages_s{};
+    double draw_s{};  // drawing, reading back and writing, which overlap row by row
+    double verify_s{};
+};
+
+struct ShotResult {
+    View view;
+    Region region;
+    std::optional<SeenPlace> middle;  // what the picture sees there
+    PictureReport picture;
+    std::uint64_t pages{};
+    std::uint64_t pages_on_gpu{};
+    std::uint64_t page_bytes{};
+    double height_step_m{};
+    std::uint64_t triangles_at_full_resolution{};
+    std::optional<Verification> verification;
+    std::optional<AccuracyChoice> choice;  // with --tolerance
+    ShotTimes times;
+};
+
+nlohmann::ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
+                                 const Style& style);
+
+}  // namespace oro
