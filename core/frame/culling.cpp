@@ -52,12 +52,17 @@ HorizonOccluder occluder_below(double lowest_h_m, double cell_diagonal_m) {
     return {glm::dvec3(wgs84_a_m - depth_m, wgs84_a_m - depth_m, wgs84_b_m - depth_m)};
 }
 
-HorizonCone horizon_cone_scaled(std::span<const glm::dvec3> points_scaled) {
+HorizonPoint horizon_point(const glm::dvec3& scaled) {
+    const double r = std::sqrt(glm::dot(scaled, scaled));
+    return {scaled, r > 1.0 ? std::sqrt((r - 1.0) * (r + 1.0)) : 0.0, 1.0 / (r * std::max(1.0, r))};
+}
+
+HorizonCone horizon_cone(std::span<const HorizonPoint> points) {
     HorizonCone cone;
     glm::dvec3 sum(0.0);
-    for (const glm::dvec3& point : points_scaled) sum += point;
+    for (const HorizonPoint& point : points) sum += point.place;
     const double length = glm::length(sum);
-    if (!(length > 1.0e-9 * static_cast<double>(points_scaled.size()))) {
+    if (!(length > 1.0e-9 * static_cast<double>(points.size()))) {
         cone.angle_rad = std::numbers::pi;  // all round the Earth
         return cone;
     }
@@ -68,16 +73,12 @@ HorizonCone horizon_cone_scaled(std::span<const glm::dvec3> points_scaled) {
     double largest_sine = 0.0;
     double its_cosine = 1.0;
     double smallest_cosine = 1.0;
-    for (const glm::dvec3& point : points_scaled) {
-        const double rr = glm::dot(point, point);
-        const double along = glm::dot(point, cone.direction);
-        const glm::dvec3 across_point = glm::cross(point, cone.direction);
+    for (const HorizonPoint& point : points) {
+        const double along = glm::dot(point.place, cone.direction);
+        const glm::dvec3 across_point = glm::cross(point.place, cone.direction);
         const double across = std::sqrt(glm::dot(across_point, across_point));
-        const double r = std::sqrt(rr);
-        const double tangent = r > 1.0 ? std::sqrt((r - 1.0) * (r + 1.0)) : 0.0;
-        const double scale = 1.0 / (r * std::max(1.0, r));
-        const double sine = (tangent * along + across) * scale;
-        const double cosine = (along - tangent * across) * scale;
+        const double sine = (point.tangent * along + across) * point.scale;
+        const double cosine = (along - point.tangent * across) * point.scale;
         its_cosine = sine > largest_sine ? cosine : its_cosine;
         largest_sine = std::max(largest_sine, sine);
         smallest_cosine = std::min(smallest_cosine, cosine);
@@ -86,18 +87,19 @@ HorizonCone horizon_cone_scaled(std::span<const glm::dvec3> points_scaled) {
         cone.angle_rad = std::atan2(largest_sine, its_cosine);
         return cone;
     }
-    for (const glm::dvec3& point : points_scaled) {
-        cone.angle_rad = std::max(
-            cone.angle_rad, horizon_angle_rad(glm::length(point)) + angle_between_rad(point, cone.direction));
+    for (const HorizonPoint& point : points) {
+        cone.angle_rad = std::max(cone.angle_rad, horizon_angle_rad(glm::length(point.place)) +
+                                                      angle_between_rad(point.place, cone.direction));
     }
     return cone;
 }
 
 HorizonCone horizon_cone(const HorizonOccluder& occluder, std::span<const glm::dvec3> points_ecef_m) {
-    std::vector<glm::dvec3> scaled;
-    scaled.reserve(points_ecef_m.size());
-    for (const glm::dvec3& point : points_ecef_m) scaled.push_back(occluder.scaled(Ecef{point}));
-    return horizon_cone_scaled(scaled);
+    std::vector<HorizonPoint> points;
+    points.reserve(points_ecef_m.size());
+    for (const glm::dvec3& point : points_ecef_m)
+        points.push_back(horizon_point(occluder.scaled(Ecef{point})));
+    return horizon_cone(points);
 }
 
 HorizonEye horizon_eye(const HorizonOccluder& occluder, const Ecef& eye) {

@@ -35,9 +35,16 @@ struct HorizonCone {
 // Cone of points on or above the occluder (ECEF). Also good for the triangles between them: the hidden part
 // of space is convex.
 HorizonCone horizon_cone(const HorizonOccluder& occluder, std::span<const glm::dvec3> points_ecef_m);
-// The same for points that are in scaled space already, in any frame turned about the Earth's axis (the cone
-// is then in that one).
-HorizonCone horizon_cone_scaled(std::span<const glm::dvec3> points_scaled);
+// A point of scaled space, in any frame turned about the Earth's axis, with what its place alone gives to
+// every cone that it lies in.
+struct HorizonPoint {
+    glm::dvec3 place;
+    double tangent;  // from it to the unit sphere; 0 for points below that
+    double scale;    // one over its distance from the centre and the larger of that and 1
+};
+HorizonPoint horizon_point(const glm::dvec3& scaled);
+// The same cone, in the points' frame.
+HorizonCone horizon_cone(std::span<const HorizonPoint> points);
 
 // The eye as horizon tests need it. angle_rad is pi (nothing hidden) for an eye below the occluder.
 struct HorizonEye {

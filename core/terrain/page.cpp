@@ -67,12 +67,23 @@ void for_each_post(const PagePosts& page, const Visit& visit) {
     }
 }
 
-// A page while it is built: its posts in double, then what the block and the summary make of them.
-class Draft {
+// The posts of a page in double. One of these serves a thread for page after page: fresh memory for each
+// costs more than what is done in it.
+struct PlacedPosts {
+    std::vector<glm::dvec3> position_m;  // page frame
+    std::vector<HorizonPoint> horizon;
+    std::vector<unsigned char> drawn;  // that belong to a triangle
+
+    PlacedPosts() : position_m(count), horizon(count), drawn(count) {}
+    static constexpr std::size_t count = static_cast<std::size_t>(posts) * posts;
+};
+
+// Builds a page: its posts in double, then what the block and the summary make of them.
+class PageBuilder {
   public:
-    Draft(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights, PageIndex index,
-          gpu::PageBlock& block)
-        : grid_(grid), shape_(shape), heights_(heights), block_(block), posts_(grid, index) {
+    PageBuilder(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights, PageIndex index,
+                gpu::PageBlock& block, PlacedPosts& placed)
+        : grid_(grid), shape_(shape), heights_(heights), block_(block), posts_(grid, index), placed_(placed) {
         summary_.index = index;
     }
 
@@ -95,7 +106,7 @@ class Draft {
     void bound_page();
     void bound_meshlet(int number);
     int mark_triangles(int number);
-    glm::dvec3 scaled(const glm::dvec3& position_m) const;
+    HorizonPoint horizon_point_at(const glm::dvec3& position_m) const;
 
     static std::size_t at(int row, int column) { return static_cast<std::size_t>(row * posts + column); }
     std::int32_t steps(int row, int column) const {
@@ -112,18 +123,21 @@ class Draft {
     double middle_lon_deg_{};  // of the origin, in the region's own whole turn
     double rho0_m_{};
     double z0_m_{};
-    std::vector<glm::dvec3> position_m_;  // page frame
-    std::vector<bool> drawn_;             // posts that belong to a triangle
+    PlacedPosts& placed_;
+    bool whole_{true};  // without a void post
     std::array<glm::dvec3, gpu::meshlets_per_page>
         directions_{};  // of the meshlets' horizon cones, page frame
 };
 
-void Draft::measure_heights() {
+void PageBuilder::measure_heights() {
     std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
     std::int32_t highest = std::numeric_limits<std::int32_t>::min();
     for (int row = 0; row < posts; ++row) {
         for (int column = 0; column < posts; ++column) {
-            if (!drawable(row, column)) continue;
+            if (!drawable(row, column)) {
+                whole_ = false;
+                continue;
+            }
             lowest = std::min(lowest, steps(row, column));
             highest = std::max(highest, steps(row, column));
         }
@@ -134,7 +148,7 @@ void Draft::measure_heights() {
     summary_.origin.h_m = std::round(0.5 * (summary_.lowest_h_m + summary_.highest_h_m));
 }
 
-void Draft::place_origin() {
+void PageBuilder::place_origin() {
     // A coarse page may be far larger than what the region has of it.
     const auto end = [&](const LevelAxis& axis, int first) {
         return axis.level == 0 ? first + quads : axis.region_post(std::min(first + quads, axis.quads));
@@ -152,14 +166,13 @@ void Draft::place_origin() {
     z0_m_ = summary_.origin_ecef.m.z;
 }
 
-void Draft::fill_block() {
+void PageBuilder::fill_block() {
     set_spacing(grid_, summary_.origin, block_);
     std::copy(heights_.steps.begin(), heights_.steps.end(), std::begin(block_.heights));
 }
 
-void Draft::place_posts() {
-    position_m_.assign(static_cast<std::size_t>(posts) * posts, glm::dvec3(0.0));
-    drawn_.assign(position_m_.size(), false);
+void PageBuilder::place_posts() {
+    std::ranges::fill(placed_.drawn, static_cast<unsigned char>(whole_ ? 1 : 0));
     std::array<double, gpu::page_posts> V{};
     std::array<double, gpu::page_posts> W{};
     for (int j = 0; j < posts; ++j) {
@@ -177,21 +190,24 @@ void Draft::place_posts() {
             if (!drawable(i, j)) continue;
             const double h_m = steps(i, j) * height_step_m;
             const double r = (normal_m + h_m) * lat.cosine;
-            position_m_[at(i, j)] = {r - rho0_m_ - r * V[static_cast<std::size_t>(j)],
-                                     r * W[static_cast<std::size_t>(j)],
-                                     (normal_m * (1.0 - wgs84_e2) + h_m) * lat.sine - z0_m_};
+            const glm::dvec3 position_m{r - rho0_m_ - r * V[static_cast<std::size_t>(j)],
+                                        r * W[static_cast<std::size_t>(j)],
+                                        (normal_m * (1.0 - wgs84_e2) + h_m) * lat.sine - z0_m_};
+            placed_.position_m[at(i, j)] = position_m;
+            placed_.horizon[at(i, j)] = horizon_point_at(position_m);
         }
     }
 }
 
 // Scaled space turned as the page's frame is (the two equatorial radii are equal, so scaling and turning
 // commute).
-glm::dvec3 Draft::scaled(const glm::dvec3& position_m) const {
-    return (position_m + glm::dvec3(rho0_m_, 0.0, z0_m_)) / shape_.occluder.radii_m;
+HorizonPoint PageBuilder::horizon_point_at(const glm::dvec3& position_m) const {
+    return horizon_point((position_m + glm::dvec3(rho0_m_, 0.0, z0_m_)) / shape_.occluder.radii_m);
 }
 
 // Marks the posts of a meshlet that belong to a triangle; number of triangles.
-int Draft::mark_triangles(int number) {
+int PageBuilder::mark_triangles(int number) {
+    if (whole_) return 2 * meshlet_quads * meshlet_quads;
     const int first_row = number / meshlets_per_side * meshlet_quads;
     const int first_column = number % meshlets_per_side * meshlet_quads;
     int triangles = 0;
@@ -201,8 +217,8 @@ int Draft::mark_triangles(int number) {
             for (const int side : {0, 1}) {
                 if (!drawable(row + 1 - side, column + side)) continue;
                 ++triangles;
-                drawn_[at(row, column)] = drawn_[at(row + 1, column + 1)] = true;
-                drawn_[at(row + 1 - side, column + side)] = true;
+                placed_.drawn[at(row, column)] = placed_.drawn[at(row + 1, column + 1)] = 1;
+                placed_.drawn[at(row + 1 - side, column + side)] = 1;
             }
         }
     }
@@ -234,7 +250,7 @@ Sphere sphere_around(std::span<const glm::dvec3> points) {
     return {centre, std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity())};
 }
 
-void Draft::bound_meshlet(int number) {
+void PageBuilder::bound_meshlet(int number) {
     gpu::MeshletBounds& bounds = block_.meshlets[number];
     bounds = {gpu::vec3(0.0F), -1.0F, gpu::vec3(0.0F), 0.0F, 0.0F, -1.0F};
     // A post may belong to a neighbour's triangle alone: keeping it costs a little and loses nothing.
@@ -243,20 +259,20 @@ void Draft::bound_meshlet(int number) {
     summary_.triangles += static_cast<std::uint32_t>(triangles);
     ++summary_.meshlets;
     std::array<glm::dvec3, gpu::meshlet_vertices> points;
-    std::array<glm::dvec3, gpu::meshlet_vertices> points_scaled;
+    std::array<HorizonPoint, gpu::meshlet_vertices> horizon;
     std::size_t count = 0;
     const int first_row = number / meshlets_per_side * meshlet_quads;
     const int first_column = number % meshlets_per_side * meshlet_quads;
     for (int row = first_row; row <= first_row + meshlet_quads; ++row) {
         for (int column = first_column; column <= first_column + meshlet_quads; ++column) {
-            if (!drawn_[at(row, column)]) continue;
-            points[count] = position_m_[at(row, column)];
-            points_scaled[count] = scaled(points[count]);
+            if (placed_.drawn[at(row, column)] == 0) continue;
+            points[count] = placed_.position_m[at(row, column)];
+            horizon[count] = placed_.horizon[at(row, column)];
             ++count;
         }
     }
     const Sphere sphere = sphere_around(std::span(points).first(count));
-    const HorizonCone cone = horizon_cone_scaled(std::span(points_scaled).first(count));
+    const HorizonCone cone = horizon_cone(std::span(horizon).first(count));
     bounds.centre = sphere.centre;
     bounds.radius = sphere.radius;
     bounds.lod_radius = sphere.radius;
@@ -265,21 +281,26 @@ void Draft::bound_meshlet(int number) {
     directions_[static_cast<std::size_t>(number)] = cone.direction;
 }
 
-void Draft::bound_meshlets() {
+void PageBuilder::bound_meshlets() {
     for (int number = 0; number < static_cast<int>(gpu::meshlets_per_page); ++number) bound_meshlet(number);
 }
 
-void Draft::bound_page() {
-    std::vector<glm::dvec3> points;
-    for (std::size_t i = 0; i < position_m_.size(); ++i) {
-        if (drawn_[i]) points.push_back(position_m_[i]);
+void PageBuilder::bound_page() {
+    // All posts that are drawn, moved together in their order.
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < PlacedPosts::count; ++i) {
+        if (placed_.drawn[i] == 0) continue;
+        if (count < i) {
+            placed_.position_m[count] = placed_.position_m[i];
+            placed_.horizon[count] = placed_.horizon[i];
+        }
+        ++count;
     }
-    if (points.empty()) return;
-    const Sphere sphere = sphere_around(points);
+    if (count == 0) return;
+    const Sphere sphere = sphere_around(std::span(placed_.position_m).first(count));
     summary_.centre_m = glm::dvec3(sphere.centre);
     summary_.radius_m = sphere.radius;
-    for (glm::dvec3& point : points) point = scaled(point);
-    const HorizonCone cone = horizon_cone_scaled(points);
+    const HorizonCone cone = horizon_cone(std::span(placed_.horizon).first(count));
     summary_.horizon = {summary_.ecef_from_page * cone.direction, cone.angle_rad};
     for (std::size_t i = 0; i < directions_.size(); ++i) {
         if (block_.meshlets[i].radius < 0.0F) continue;
@@ -313,29 +334,6 @@ void set_page_frame(PageSummary& summary) {
 
 PageLayout page_layout(const PostGrid& grid) {
     return level_grid(grid, 0).pages();
-}
-
-RegionShape region_shape(const HeightField& field, double exaggeration) {
-    assert(exaggeration >= 0.0);
-    const PostGrid& grid = field.grid;
-    const std::vector<float>& N_m = field.undulation.N_m;
-    const double lowest_N_m = N_m.empty() ? 0.0 : *std::min_element(N_m.begin(), N_m.end());
-    double lowest_h_m = 0.0;
-    double diagonal_m = 0.0;
-    for (int row = 0; row < grid.rows(); ++row) {
-        for (int column = 0; column < grid.columns(); ++column) {
-            const float H_m = field.H_at_post_m(row, column);
-            // Most posts cannot be the lowest whatever their undulation.
-            if (is_void(H_m) || static_cast<double>(H_m) * exaggeration + lowest_N_m >= lowest_h_m) continue;
-            lowest_h_m = std::min(lowest_h_m, drawn_h_m(field, row, column, exaggeration));
-        }
-        const double lat_deg = grid.lat.at_deg(row);
-        const double south_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
-        const double east_m = prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine *
-                              radians_from_deg(grid.lon.spacing_deg()).rad;
-        diagonal_m = std::max(diagonal_m, std::hypot(south_m, east_m));
-    }
-    return {occluder_below(lowest_h_m, diagonal_m), exaggeration};
 }
 
 PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, PageIndex index) {
@@ -381,8 +379,8 @@ PageHeights page_heights(const PostGrid& grid, const UndulationField& undulation
 
 PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,
                        PageIndex index, gpu::PageBlock& block) {
-    Draft draft(grid, shape, heights, index, block);
-    return draft.build();
+    thread_local PlacedPosts placed;
+    return PageBuilder(grid, shape, heights, index, block, placed).build();
 }
 
 PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,

@@ -11,6 +11,7 @@
 #include "geo/posts/holes.h"
 #include "geo/posts/seams.h"
 #include "geo/posts/source_sampling.h"
+#include "geo/posts/tiles_ahead.h"
 #include "geo/posts/voids.h"
 #include "geo/region/baked_region.h"
 #include "geo/region/region_grid.h"
@@ -129,6 +130,7 @@ struct Reading {
     const PostGrid& grid;
     const UndulationField& undulation;
     JoinedSurface& surface;
+    TilesAhead& ahead;
 };
 
 struct Laid {
@@ -139,15 +141,18 @@ struct Laid {
 // Lays one source into the surface, at one whole turn, in strips that fit memory.
 Result<Laid> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, const Reading& to) {
     constexpr std::size_t posts_a_strip = std::size_t{1} << 26;
-    ORO_TRY(SourceOnGrid placed, SourceOnGrid::create(source, to.grid, turn));
+    std::optional<Result<SourceOnGrid>> begun = to.ahead.take(source, turn);
+    const bool is_read = begun.has_value();
+    ORO_TRY(SourceOnGrid placed, is_read ? std::move(*begun) : SourceOnGrid::create(source, to.grid, turn));
     const GridRect& rect = placed.rect();
     Laid laid{0, placed.fit()};
     if (rect.rows <= 0 || rect.columns <= 0) return laid;
     SourceReport& report = source.report;
     report.placement = placed.placement();
     const auto columns = static_cast<std::size_t>(rect.columns);
-    const int strip = static_cast<int>(
-        std::clamp<std::size_t>(posts_a_strip / columns, 1, static_cast<std::size_t>(rect.rows)));
+    const int strip = is_read ? rect.rows
+                              : static_cast<int>(std::clamp<std::size_t>(
+                                    posts_a_strip / columns, 1, static_cast<std::size_t>(rect.rows)));
     std::vector<float> heights(columns), beyond(columns);
     std::vector<unsigned char> inside(columns);
     std::vector<double> lon_deg(columns);
@@ -155,7 +160,7 @@ Result<Laid> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, c
         lon_deg[c] = to.grid.lon.at_deg(rect.first_column + static_cast<std::int64_t>(c));
     const int end = rect.first_row + rect.rows;
     for (int first = rect.first_row; first < end; first += strip) {
-        ORO_CHECK(placed.read(first, std::min(strip, end - first)));
+        if (!is_read) ORO_CHECK(placed.read(first, std::min(strip, end - first)));
         report.voids += placed.block().voids;
         report.implausible += placed.block().implausible;
         for (int row = first; row < std::min(first + strip, end); ++row) {
@@ -195,8 +200,14 @@ Result<void> lay_sources(std::vector<Source>& sources, const GeoidOfRegion& geoi
                          bool strict, const Reading& to, std::vector<std::string>& notes,
                          const Progress& progress) {
     std::size_t done = 0;
-    for (const std::size_t i : by_precedence(sources)) {
+    const std::vector<std::size_t> order = by_precedence(sources);
+    std::size_t begun = 1;
+    for (const std::size_t i : order) {
         Source& source = sources[i];
+        for (begun = std::max(begun, done + 1); begun < order.size() && to.ahead.has_room(); ++begun) {
+            const Source& next = sources[order[begun]];
+            for (const int turn : turns_of(next, to.grid)) to.ahead.begin(next, turn);
+        }
         SourceReport& report = source.report;
         if (progress)
             progress(0.1 + 0.85 * static_cast<double>(done++) / static_cast<double>(sources.size()),
@@ -271,8 +282,9 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
         add_note(region.notes, "west is greater than east in " + text_of(*request.box) +
                                    ": that crosses the antimeridian, and most of the way round the Earth");
     JoinedSurface surface(grid);
+    TilesAhead ahead(grid);
     ORO_CHECK(lay_sources(found.sources, geoid, posts, request.strict_datum,
-                          {grid, region.field.undulation, surface}, region.notes, progress));
+                          {grid, region.field.undulation, surface, ahead}, region.notes, progress));
     surface.finish();
     region.void_method = void_method_holes;
     if (request.fill_voids) {
