@@ -20,6 +20,7 @@
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/window/picking.h"
+#include "core/base/file_there.h"
 #include "core/base/open_file.h"
 #include "core/terrain/ground.h"
 #include "geo/files/whole_file.h"
@@ -41,10 +42,10 @@ Result<PictureFiles> shot_files(const ShotOptions& options) {
         return Error{ErrorKind::usage, "--out", "is missing: name the picture to write (.png, .jpg or .tif)"};
     std::string out = options.out.empty() ? options.view_file : options.out;
     if (options.out.empty() && fs::path(out).extension() == ".json") {
-        std::error_code ignored;
         for (const char* ending : {".png", ".jpg", ".jpeg", ".tif", ".tiff"}) {
             out = fs::path(options.view_file).replace_extension(ending).string();
-            if (fs::exists(out, ignored)) break;
+            ORO_TRY(const bool there, is_there(out));
+            if (there) break;
             out = fs::path(options.view_file).replace_extension(".png").string();
         }
     }

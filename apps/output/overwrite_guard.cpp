@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "core/base/file_there.h"
+
 namespace oro {
 
 namespace fs = std::filesystem;
@@ -9,10 +11,11 @@ namespace fs = std::filesystem;
 Result<void> spare_files(const std::vector<std::string>& written, const std::vector<std::string>& inputs,
                          const std::string& what_they_are) {
     for (const std::string& file : written) {
-        std::error_code not_there;
-        if (!fs::exists(file, not_there)) continue;
+        ORO_TRY(const bool there, is_there(file));
+        if (!there) continue;
         for (const std::string& input : inputs) {
-            if (fs::equivalent(file, input, not_there))
+            ORO_TRY(const bool same, is_same_file(file, input));
+            if (same)
                 return Error{ErrorKind::usage, "--out", "would replace " + input + ", " + what_they_are};
         }
     }

@@ -50,7 +50,7 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
     PictureOptions options;
     ORO_TRY(options.path, choose_path(view.pipeline, gpu));
     // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
-    View drawn = view_told_by(view, files.told_from);
+    ORO_TRY(View drawn, view_told_by(view, files.told_from));
     drawn.pipeline = name_of(options.path);
     ORO_CHECK(check_view_opens(drawn, files.picture));
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,

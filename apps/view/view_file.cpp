@@ -235,7 +235,7 @@ Result<View> read_view(const std::string& path) {
     const std::string ending = dot == std::string::npos ? "" : lower_case(path.substr(dot));
     ORO_TRY(const std::string text, ending == ".json" ? read_text_file(path) : read_view_json(path));
     ORO_TRY(View view, view_from_json(text, path));
-    lead_from_working_folder(view, path);
+    ORO_CHECK(lead_from_working_folder(view, path));
     return view;
 }
 

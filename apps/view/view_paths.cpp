@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "apps/view/style.h"
+#include "core/base/file_there.h"
 
 namespace oro {
 namespace fs = std::filesystem;
@@ -12,9 +13,9 @@ namespace fs = std::filesystem;
 namespace {
 
 // What GDAL calls a name (/vsizip/..., NETCDF:"a.nc":v) leads from nowhere.
-bool is_plain_path(const std::string& path) {
-    std::error_code unreadable;
-    return !path.starts_with("/vsi") && fs::exists(path, unreadable);
+Result<bool> is_plain_path(const std::string& path) {
+    if (path.starts_with("/vsi")) return false;
+    return is_there(path);
 }
 
 // `path` without the dots and a last slash; absolute.
@@ -36,37 +37,59 @@ std::ptrdiff_t steps_up(const fs::path& relative) {
     return std::count(relative.begin(), relative.end(), "..");
 }
 
-// As named, or as it really lies where links lead elsewhere: the one with fewer steps up, if it leads there.
-std::string from_folder(const fs::path& folder, const std::string& named) {
-    if (!is_plain_path(named)) return named;
+// Empty where it is gone.
+Result<fs::path> working_folder() {
     std::error_code failed;
-    const fs::path here = fs::current_path(failed);
-    if (failed) return named;
+    fs::path here = fs::current_path(failed);
+    if (is_no_answer(failed)) return no_answer("the working folder", failed);
+    return failed ? fs::path() : here;
+}
+
+// `path`, absolute, as it lies behind all links; empty where nothing is there.
+Result<fs::path> without_links(const fs::path& path) {
+    std::error_code failed;
+    fs::path really = fs::canonical(path, failed);
+    if (is_no_answer(failed)) return no_answer(path.string(), failed);
+    return failed ? fs::path() : really;
+}
+
+// As named, or as it really lies where links lead elsewhere: the one with fewer steps up, if it leads there.
+Result<std::string> from_folder(const fs::path& folder, const std::string& named) {
+    ORO_TRY(const bool plain, is_plain_path(named));
+    if (!plain) return named;
+    ORO_TRY(const fs::path here, working_folder());
+    if (here.empty()) return named;
     const fs::path as_named = tidied(here / named);
     const auto leads = [&](const fs::path& relative) {
-        std::error_code unreadable;
-        return fs::equivalent(folder / relative, named, unreadable);
+        return is_same_file((folder / relative).string(), named);
     };
     std::optional<fs::path> best = way(folder, as_named);
-    if (best && !leads(*best)) best.reset();
+    if (best) {
+        ORO_TRY(const bool there, leads(*best));
+        if (!there) best.reset();
+    }
     // Links before the last name are followed, not the last itself.
     const fs::path whole = (here / named).has_filename() ? here / named : (here / named).parent_path();
     const fs::path last = whole.filename();
     const bool is_dots = last == "." || last == "..";
-    const fs::path really =
-        is_dots ? fs::canonical(whole, failed) : fs::canonical(whole.parent_path(), failed) / last;
-    if (!failed) {
+    ORO_TRY(fs::path really, without_links(is_dots ? whole : whole.parent_path()));
+    if (!really.empty()) {
+        if (!is_dots) really /= last;
         const auto other = way(folder, really);
-        if (other && leads(*other) && (!best || steps_up(*other) < steps_up(*best))) best = other;
+        if (other && (!best || steps_up(*other) < steps_up(*best))) {
+            ORO_TRY(const bool there, leads(*other));
+            if (there) best = other;
+        }
     }
     if (best) return best->string();
-    const fs::path absolute = fs::canonical(named, failed);
-    return failed || fs::path(named).is_absolute() ? named : absolute.string();
+    if (fs::path(named).is_absolute()) return named;
+    ORO_TRY(const fs::path absolute, without_links(named));
+    return absolute.empty() ? named : absolute.string();
 }
 
 }  // namespace
 
-View view_told_by(const View& view, const std::string& picture) {
+Result<View> view_told_by(const View& view, const std::string& picture) {
     View told = view;
     told.paths_from_own_file = true;
     if (!told.tells_paths) {
@@ -74,29 +97,35 @@ View view_told_by(const View& view, const std::string& picture) {
         if (is_style_path(told.style)) told.style = fs::path(told.style).filename().string();
         return told;
     }
-    std::error_code failed;
     const fs::path parent = fs::path(picture).parent_path();
-    const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, failed);
-    if (failed) {
+    ORO_TRY(const fs::path folder, without_links(parent.empty() ? fs::path(".") : parent));
+    if (folder.empty()) {
         told.paths_from_own_file = false;
         return told;
     }
-    for (std::string& path : told.region.paths) path = from_folder(folder, path);
-    if (is_style_path(told.style)) told.style = from_folder(folder, told.style);
+    for (std::string& path : told.region.paths) {
+        ORO_TRY(path, from_folder(folder, path));
+    }
+    if (is_style_path(told.style)) {
+        ORO_TRY(told.style, from_folder(folder, told.style));
+    }
     return told;
 }
 
-void lead_from_working_folder(View& view, const std::string& file) {
-    if (!view.paths_from_own_file) return;
+Result<void> lead_from_working_folder(View& view, const std::string& file) {
+    if (!view.paths_from_own_file) return {};
     view.paths_from_own_file = false;
     const fs::path folder = fs::path(file).parent_path();
-    const auto lead = [&](std::string& path) {
-        if (fs::path(path).is_absolute()) return;
+    const auto lead = [&](std::string& path) -> Result<void> {
+        if (fs::path(path).is_absolute()) return {};
         const std::string joined = (folder / path).string();
-        if (is_plain_path(joined) || path.find(':') == std::string::npos) path = joined;
+        ORO_TRY(const bool plain, is_plain_path(joined));
+        if (plain || path.find(':') == std::string::npos) path = joined;
+        return {};
     };
-    for (std::string& path : view.region.paths) lead(path);
-    if (is_style_path(view.style)) lead(view.style);
+    for (std::string& path : view.region.paths) ORO_CHECK(lead(path));
+    if (is_style_path(view.style)) ORO_CHECK(lead(view.style));
+    return {};
 }
 
 }  // namespace oro

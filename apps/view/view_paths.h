@@ -10,10 +10,11 @@ namespace oro {
 
 // The view as a picture of that name carries it. Paths that share a folder with the picture start from the
 // picture's folder; others, which have only the root in common with it, stay absolute. Without paths where
-// the view is not to tell any.
-View view_told_by(const View& view, const std::string& picture);
+// the view is not to tell any. Errors: the file system cannot tell where a path leads.
+Result<View> view_told_by(const View& view, const std::string& picture);
 
 // The other way: the view that was read from `file`, with paths that lead there from the working folder.
-void lead_from_working_folder(View& view, const std::string& file);
+// Errors: as above.
+Result<void> lead_from_working_folder(View& view, const std::string& file);
 
 }  // namespace oro

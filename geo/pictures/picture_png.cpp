@@ -66,6 +66,9 @@ void PngPicture::write_header(png_bytep exif, png_uint_32 exif_size, png_text* x
     png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_eXIf_1(png_, info_, exif_size, exif);
     png_set_text(png_, info_, xmp, 1);
+    // It leaves out a tag that it has no memory for, and warns alone.
+    if (png_get_valid(png_, info_, PNG_INFO_eXIf) == 0 || png_get_text(png_, info_, nullptr, nullptr) != 1)
+        png_error(png_, "no memory for the tags");
     png_write_info(png_, info_);
 }
 

@@ -46,6 +46,31 @@ std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
     const std::vector<std::string> names{"Info", "Bake", "Shot", "ShotOfBaked"};
     return names[info.index];
 }
+
+void expect_order_of_all(const Command& command, const char* calls, bool own) {
+    FaultRuns runs(command, 1);
+    Fault fault{calls};
+    fault.own = own;
+    expect_order(runs, fault, runs.count(fault), 0);
+}
+
+// Of the C library's allocations for the program comes no exception but an error code, which could pass for
+// an answer ("no such file").
+class FailedAllocationsOfC : public testing::TestWithParam<Command (*)()> {};
+
+TEST_P(FailedAllocationsOfC, ForTheProgram) {
+    expect_order_of_all(GetParam()(), "by:libc.so", true);
+}
+
+// libpng leaves out a tag that it has no memory for, and only warns.
+TEST(FailedAllocationsOfLibpng, ForAPicture) {
+    expect_order_of_all(oro::test::shot_of_tiles(), "by:libpng", false);
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocationsOfC,
+                         testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
+                                         oro::test::shot_of_tiles),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocations,
                          testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
                                          oro::test::shot_of_tiles, oro::test::shot_of_baked),

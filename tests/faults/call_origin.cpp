@@ -93,6 +93,11 @@ Origin origin_of_call(const void* caller) {
     return innermost.origin;
 }
 
+bool is_in(const char* library, const void* address) {
+    const link_map* const module = module_of(address);
+    return module && begins(file_name(module), library);
+}
+
 bool driver_on_stack() {
     bool found = false;
     _Unwind_Backtrace(&find_driver, &found);

@@ -47,11 +47,11 @@ constexpr double longest_run_s = 60.0;
 bool parse_plan(const char* text, Plan& plan) {
     char whose[8] = "";
     plan = {};
-    if (std::sscanf(text, "%15s %ld %ld %d %7s", plan.name, &plan.number, &plan.period, &plan.error, whose) <
+    if (std::sscanf(text, "%31s %ld %ld %d %7s", plan.name, &plan.number, &plan.period, &plan.error, whose) <
         2)
         return false;
     plan.own = std::strcmp(whose, "own") == 0;
-    if (std::strcmp(plan.name, "allocation") == 0) {
+    if (std::sscanf(plan.name, "by:%23s", plan.by) == 1 || std::strcmp(plan.name, "allocation") == 0) {
         plan.calls = Calls::allocation;
     } else if (std::strcmp(plan.name, "thread") == 0) {
         plan.calls = Calls::thread;
@@ -137,6 +137,8 @@ const Plan& plan() {
 
 bool must_fail(Calls calls, const void* caller) {
     if (inside || !state().armed || state().plan.calls != calls) return false;
+    if (const char* const library = state().plan.by; *library != '\0' && !is_in(library, caller))
+        return false;
     inside = true;
     const int error_number = errno;
     const Plan& plan = state().plan;

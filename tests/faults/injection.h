@@ -3,9 +3,8 @@
 //
 //   FAULT="CALLS NUMBER PERIOD ERRNO WHOSE" LD_PRELOAD=libfault_injection.so orograph ...
 //
-// CALLS    allocation, thread, system (all of those below), or one of open read write lseek rename fsync
-// close map
-//          truncate stat list
+// CALLS    allocation, or by:LIBRARY, those that this library makes itself; thread; system (all of those
+//          below), or one of open read write lseek rename fsync close map truncate stat list
 // NUMBER   the first that fails; 0 counts alone
 // PERIOD   0: that one alone; 1: all from there on; k: each k-th from there on
 // ERRNO    what a system call fails with (5: EIO)
@@ -27,11 +26,12 @@ enum class Calls { none, allocation, thread, system };
 
 struct Plan {
     Calls calls{Calls::none};
-    char name[16]{};
+    char name[32]{};
     long number{0};
     long period{0};
     int error{0};
     bool own{false};
+    char by[24]{};  // "", or the library whose own allocations alone are meant
 };
 
 // The plan that is in force; none before main().
@@ -52,6 +52,8 @@ enum class Origin {
 };
 // Of the innermost frame that is not neutral, from `caller` (or, if null, from here) outwards.
 Origin origin_of_call(const void* caller);
+// True for addresses in a library whose file's name begins so.
+bool is_in(const char* library, const void* address);
 // True when a driver is anywhere on the stack.
 bool driver_on_stack();
 // The stack as "module+offset module+offset ..." from the inside out.

@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "tests/faults/commands.h"
+#include "tests/support/test_data.h"
 
 namespace {
 using oro::test::Command;
@@ -53,6 +57,26 @@ TEST_P(FailedSystemCalls, AllOfAKindFromOneOn) {
         fault.period = 1;
         if (runs.count(fault) > 0) expect_order(runs, fault, 2, runs_asked_for() / 4);
     }
+}
+
+// Where the file system cannot tell whether the output is an input, the input stays.
+TEST(FailedQuestions, LetNoInputBeReplaced) {
+    const std::string region = oro::test::shot_of_baked().inputs.at("tile.oro");
+    const std::filesystem::path folder = oro::test::scratch_folder(), file = folder / "region.png";
+    oro::test::DisturbedProgram program(
+        {"shot", "region.png", "-q", "--size", "64x48", "--overwrite", "--out", "region.png"}, folder, 1);
+    Fault fault{"stat"};
+    fault.own = true;
+    for (long count = 0; fault.number <= count; ++fault.number) {
+        std::ofstream(file, std::ios::binary) << region;
+        const oro::test::Disturbed run = program.run(fault);
+        if (fault.number == 0) count = run.counted;
+        EXPECT_TRUE(run.exit_code == 1 || run.exit_code == 2) << fault.line() << ": " << run.exit_code;
+        std::ostringstream left;
+        left << std::ifstream(file, std::ios::binary).rdbuf();
+        EXPECT_TRUE(left.str() == region) << fault.line();
+    }
+    EXPECT_GT(fault.number, 10);
 }
 
 std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
