@@ -11,11 +11,11 @@
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <new>
 #include <type_traits>
 #include <vector>
 
+#include "core/base/lent.h"
 #include "core/base/little_endian.h"
 #include "core/terrain/post_grid.h"
 
@@ -162,51 +162,21 @@ unsigned kind_of(const PagePayload& payload) {
     return (all_whole ? whole_metres : floats) | (any_void ? with_voids : 0U);
 }
 
-// What is kept for pressing and unpacking, one for each thread that does so at a time; not to be had without
-// memory. Lent, and not a thread's own: glibc aborts when it has no memory to enter what a thread must
-// destroy.
-template <class Context, Context* (*create)(), std::size_t (*destroy)(Context*)>
-class Lent {
-  public:
-    Lent() {
-        {
-            const std::scoped_lock lock(idle().mutex);
-            if (!idle().contexts.empty()) {
-                context_ = std::move(idle().contexts.back());
-                idle().contexts.pop_back();
-            }
-        }
-        if (!context_) context_.reset(create());
-        if (!context_) throw std::bad_alloc();
-    }
-    Lent(const Lent&) = delete;
-    Lent& operator=(const Lent&) = delete;
-    ~Lent() {
-        try {
-            const std::scoped_lock lock(idle().mutex);
-            idle().contexts.push_back(std::move(context_));
-        } catch (const std::bad_alloc&) {  // then it is destroyed
-        }
-    }
-    [[nodiscard]] Context* get() const { return context_.get(); }
-
-  private:
-    struct Destroy {
-        void operator()(Context* context) const { destroy(context); }
-    };
-    struct Idle {
-        std::mutex mutex;
-        std::vector<std::unique_ptr<Context, Destroy>> contexts;
-    };
-    static Idle& idle() {
-        static Idle all;
-        return all;
-    }
-
-    std::unique_ptr<Context, Destroy> context_;
+// What is kept for pressing and unpacking; not to be had without memory.
+template <class Context, std::size_t (*destroy)(Context*)>
+struct Destroy {
+    void operator()(Context* context) const { destroy(context); }
 };
-using Packer = Lent<ZSTD_CCtx, ZSTD_createCCtx, ZSTD_freeCCtx>;
-using Unpacker = Lent<ZSTD_DCtx, ZSTD_createDCtx, ZSTD_freeDCtx>;
+using Compressor = std::unique_ptr<ZSTD_CCtx, Destroy<ZSTD_CCtx, ZSTD_freeCCtx>>;
+using Decompressor = std::unique_ptr<ZSTD_DCtx, Destroy<ZSTD_DCtx, ZSTD_freeDCtx>>;
+Compressor new_compressor() {
+    return Compressor(ZSTD_createCCtx());
+}
+Decompressor new_decompressor() {
+    return Decompressor(ZSTD_createDCtx());
+}
+using Packer = Lent<Compressor, new_compressor>;
+using Unpacker = Lent<Decompressor, new_decompressor>;
 
 // What zstd found wrong; nothing when all is well. Lack of memory is no fault of the bytes.
 std::optional<std::string> fault_of(std::size_t zstd_result) {

@@ -7,9 +7,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
+
+#include "core/base/lent.h"
 
 namespace oro {
 namespace {
@@ -67,8 +70,8 @@ void for_each_post(const PagePosts& page, const Visit& visit) {
     }
 }
 
-// The posts of a page in double. One of these serves a thread for page after page: fresh memory for each
-// costs more than what is done in it.
+// The posts of a page in double. Lent for page after page: fresh memory for each costs more than what is
+// done in it.
 struct PlacedPosts {
     std::vector<glm::dvec3> position_m;  // page frame
     std::vector<HorizonPoint> horizon;
@@ -379,8 +382,8 @@ PageHeights page_heights(const PostGrid& grid, const UndulationField& undulation
 
 PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,
                        PageIndex index, gpu::PageBlock& block) {
-    thread_local PlacedPosts placed;
-    return PageBuilder(grid, shape, heights, index, block, placed).build();
+    const Lent<std::unique_ptr<PlacedPosts>, std::make_unique<PlacedPosts>> placed;
+    return PageBuilder(grid, shape, heights, index, block, *placed.get()).build();
 }
 
 PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
