@@ -1,4 +1,5 @@
 // orograph view: a window to fly over a region.
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -23,6 +24,8 @@
 namespace oro {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 // Everything that lives while the window is open.
 struct Viewer {
     const WindowOptions& options;
@@ -40,7 +43,17 @@ struct Viewer {
     std::vector<PageIndex> missing{};      // what the last frame should have had
     std::optional<TrueSurface> surface{};  // made when it is first asked, for all questions after
     std::unique_ptr<FinerLevels> finer{};  // the levels that the view asks for, until they are here
+    Clock::time_point started{};
+    bool is_shown{};  // once something is
 };
+
+// How long the user has waited for it.
+void say_waited(const Viewer& viewer, const char* what) {
+    char text[100];
+    std::snprintf(text, sizeof text, "%s after %.2f s", what,
+                  std::chrono::duration<double>(Clock::now() - viewer.started).count());
+    say(viewer.options.quiet, text);
+}
 
 Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px) {
     if (!viewer.surface)
@@ -143,6 +156,7 @@ Result<void> take_finer_levels(Viewer& viewer) {
                                  std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
     viewer.scene = std::make_unique<Scene>(std::move(scene));
     viewer.missing.clear();
+    say_waited(viewer, "full detail");
     return {};
 }
 
@@ -243,6 +257,10 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown;
+    if (shown && !viewer.is_shown) {
+        viewer.is_shown = true;
+        say_waited(viewer, viewer.finer ? "first picture, coarse," : "first picture");
+    }
     return {};
 }
 
@@ -285,6 +303,7 @@ Result<void> run_view(const WindowOptions& options) {
     if (options.view.tolerance)
         return Error{ErrorKind::usage, "--tolerance",
                      "is for single pictures: a window takes --accuracy or --tau"};
+    const Clock::time_point started = Clock::now();
     ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
     ProgressBar bar(options.quiet);
     View view;
@@ -326,6 +345,7 @@ Result<void> run_view(const WindowOptions& options) {
                   std::make_unique<Scene>(std::move(scene)),
                   *window,
                   renderer};
+    viewer.started = started;
     if (coarse_first) viewer.finer = std::make_unique<FinerLevels>(viewer.region, viewer.view.exaggeration);
     return run_loop(viewer);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -158,6 +159,28 @@ TEST(Window, ASizeThatTheDeviceCannotDrawIsRefused) {
          (oro::test::bundled_data() / "jacksboro.tif").string(), "-q", "--size", "65500x200"},
         there);
     oro::test::expect_refusal(outcome, 2, {"--size", "65500x200", "pixels a side"});
+}
+
+// Measuring the levels of four tiles takes a while: something coarser is there before.
+TEST(Window, ShowsACoarsePictureWhileLevelsAreMeasured) {
+    const fs::path folder = oro::test::scratch_folder();
+    std::string heights(std::size_t{2} * 1201 * 1201, '\0');
+    for (std::size_t i = 0; i < heights.size(); i += 2) heights[i] = static_cast<char>((i / 200) % 4);
+    for (const char* name : {"N10E020.hgt", "N10E021.hgt", "N11E020.hgt", "N11E021.hgt"})
+        std::ofstream(folder / name, std::ios::binary) << heights;
+    oro::test::Circumstances there;
+    there.environment = {"WAYLAND_DISPLAY"};
+    const std::string session =
+        "\"$1\" view \"$2\" --size 320x200 --at 11,21 --above 3000 2>said.txt & viewer=$!; "
+        "for try in $(seq 600); do grep -q 'full detail' said.txt && break; sleep 0.1; done; "
+        "kill $viewer; wait $viewer; cat said.txt";
+    const auto outcome = oro::test::run_program(
+        {OROGRAPH_ON_DISPLAY, "sh", "-c", "cd \"$2\"; " + session, "sh", OROGRAPH_PROGRAM, folder}, there);
+    const std::size_t first = outcome.out.find("orograph: first picture, coarse, after ");
+    const std::size_t full = outcome.out.find("orograph: full detail after ");
+    ASSERT_NE(first, std::string::npos) << outcome.out << outcome.err;
+    ASSERT_NE(full, std::string::npos) << outcome.out << outcome.err;
+    EXPECT_LT(first, full);
 }
 
 }  // namespace
