@@ -66,6 +66,10 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(0.0, "comparing");
     ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));
+    if (verification.interior.drawn == 0) {
+        ORO_TRY(const std::string nothing, nothing_in_view(view, region, options.view_file));
+        say(options.quiet, "note: " + nothing);
+    }
     if (!options.out.empty())
         ORO_CHECK(write_error_picture(options.out, verification, view.tau_px, options.overwrite));
     bar.clear();

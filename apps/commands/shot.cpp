@@ -197,7 +197,7 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
                                                [&](double share) { bar.show(share, "drawing"); }));
     shot.picture = picture.report;
     shot.times.draw_s = seconds_since(drawing);
-    if (shot.picture.triangles_drawn == 0)
+    if (shot.picture.ground_px == 0)
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
     shot.pages_on_gpu = scene.store().size();
     shot.page_bytes = scene.store().bytes();

@@ -254,6 +254,13 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
     ORO_TRY(FramePlan plan, viewer.scene->plan(camera, tile, viewer.view.tau_px, viewer.view.model));
     viewer.missing = plan.missing;
+    if (!viewer.is_shown && plan.pages_wanted == 0) {
+        // A view of another place: told where the title is read, and where messages are.
+        const auto nothing = nothing_in_view(viewer.view, viewer.region, viewer.options.view_file);
+        viewer.message = nothing.ok() ? *nothing : nothing.error().what;
+        say(viewer.options.quiet, "note: " + viewer.message);
+        show_title(viewer);
+    }
     ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown;

@@ -42,6 +42,13 @@ Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle
     return {};
 }
 
+// Pixels with ground, as the picture's fourth channel tells them.
+std::uint64_t ground_pixels(const std::vector<std::uint8_t>& rgba) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 3; i < rgba.size(); i += 4) count += rgba[i] != 0;
+    return count;
+}
+
 void copy_rgb(const std::vector<std::uint8_t>& rgba, const Tile& tile, int picture_width,
               std::vector<std::uint8_t>& band) {
     for (int y = 0; y < tile.height_px; ++y) {
@@ -101,6 +108,7 @@ Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera&
             ORO_TRY(const std::vector<std::uint8_t> rgba,
                     renderer.read_picture(static_cast<std::uint32_t>(tile.width_px),
                                           static_cast<std::uint32_t>(rows)));
+            report.ground_px += ground_pixels(rgba);
             copy_rgb(rgba, tile, camera.width_px, band);
         }
         const std::size_t row_bytes = std::size_t{3} * static_cast<std::size_t>(camera.width_px);

@@ -27,6 +27,7 @@ struct PictureReport {
     std::uint64_t meshlets_beyond_horizon{};
     std::uint64_t mesh_groups{};
     std::uint64_t triangles_drawn{};
+    std::uint64_t ground_px{};    // pixels that show ground, in any of their samples
     std::uint64_t pages_drawn{};  // with a meshlet of the right level
     bool settled{true};           // all that tau asks for was there
     double choose_s{};            // GPU timestamps, all samples

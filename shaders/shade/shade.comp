@@ -12,8 +12,8 @@ layout(constant_id = 0) const bool from_compute = false;  // ids come from the c
 // Written by a function: glslang 12.0 does not end on such an assignment in main().
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Depths { float at[]; };
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;
-layout(binding = 1, rgba32f) uniform image2D sum;  // of the samples so far, linear light
-layout(binding = 2, rgba8) uniform writeonly image2D picture;  // sRGB-encoded
+layout(binding = 1, rgba32f) uniform image2D sum;  // of the samples so far, linear light; alpha: those with ground
+layout(binding = 2, rgba8) uniform writeonly image2D picture;  // sRGB-encoded; alpha: the share of samples with ground
 
 vec3 srgb_from_linear(vec3 linear) {
     // Source: IEC 61966-2-1:1999, 5.2.
@@ -33,6 +33,7 @@ void main() {
     uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
                            : imageLoad(ids, pixel).x;
     float depth = 0.0;
+    float ground = id == 0u ? 0.0 : 1.0;
     vec3 colour;
     if (id == 0u) {
         colour = background(normalize(ray));
@@ -44,10 +45,11 @@ void main() {
     // From the triangle and the pixel alone, so that both ways of drawing give the same.
     keep_depth(pixel, depth);
     if (FRAME.sample_count > 1u) {
-        vec3 total = colour + (FRAME.sample_index == 0u ? vec3(0.0) : imageLoad(sum, pixel).rgb);
-        imageStore(sum, pixel, vec4(total, 1.0));
+        vec4 total = vec4(colour, ground) + (FRAME.sample_index == 0u ? vec4(0.0) : imageLoad(sum, pixel));
+        imageStore(sum, pixel, total);
         if (FRAME.sample_index + 1u < FRAME.sample_count) return;
-        colour = total / float(FRAME.sample_count);
+        colour = total.rgb / float(FRAME.sample_count);
+        ground = total.a / float(FRAME.sample_count);
     }
-    imageStore(picture, pixel, vec4(srgb_from_linear(colour), 1.0));
+    imageStore(picture, pixel, vec4(srgb_from_linear(colour), ground));
 }

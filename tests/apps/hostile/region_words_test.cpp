@@ -65,6 +65,15 @@ TEST(RegionWords, AViewOfAnotherPlaceIsRefusedAndTheSkyIsNoted) {
     EXPECT_EQ(sky.exit_code, 0) << sky.err;
     EXPECT_NE(sky.err.find("nothing of the region is in view"), std::string::npos) << sky.err;
     EXPECT_EQ(here.err.find("nothing"), std::string::npos) << here.err;
+    // Pages near the eye may be in such a view, and no pixel of theirs.
+    const Outcome near = run_orograph({"shot", bundled(), "--at", "36.6,-84.2", "--above", "300", "--pitch",
+                                       "60", "--fov", "20", "--size", "64x48", "--out", folder / "near.png"});
+    EXPECT_NE(near.err.find("nothing of the region is in view"), std::string::npos) << near.err;
+    expect_refusal(run_orograph({"compare", folder / "here.png", folder / "N46E008.hgt"}), 3,
+                   {"nothing of the region is in view", "8,46,9,47"});
+    const Outcome compared = run_orograph({"compare", folder / "near.png"});
+    EXPECT_EQ(compared.exit_code, 0) << compared.err;
+    EXPECT_NE(compared.err.find("nothing of the region is in view"), std::string::npos) << compared.err;
 }
 
 TEST(RegionWords, APlaceWithoutDataHearsOfTheirBoxAndOfSwappedCoordinates) {
