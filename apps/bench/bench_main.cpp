@@ -2,7 +2,6 @@
 // Links core and render alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -10,13 +9,14 @@
 #include "apps/bench/bench_path.h"
 #include "apps/bench/bench_terrain.h"
 #include "core/baked/file_pages.h"
+#include "core/base/elapsed.h"
+#include "core/base/median.h"
 #include "core/base/parallel.h"
 #include "render/frame/picture_renderer.h"
 
 namespace oro {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using nlohmann::ordered_json;
 
 struct BenchOptions {
@@ -44,16 +44,6 @@ gpu::FrameStyle plain_style() {
     style.haze_distance_m = 1e5F;
     style.sky_scale_height_m = 8000.0F;
     return style;
-}
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 // Medians over the frames that count.
@@ -99,12 +89,12 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
         ORO_CHECK(scene.settled_plan(camera, tile, options.tau_px));
         planned.push_back(seconds_since(start));
     }
-    times.choose_s = median(choose);
-    times.raster_s = median(raster);
-    times.shade_s = median(shade);
-    times.gpu_s = median(whole);
-    times.plan_s = median(planned);
-    times.frame_s = median(frame);
+    times.choose_s = median_of(std::move(choose));
+    times.raster_s = median_of(std::move(raster));
+    times.shade_s = median_of(std::move(shade));
+    times.gpu_s = median_of(std::move(whole));
+    times.plan_s = median_of(std::move(planned));
+    times.frame_s = median_of(std::move(frame));
     times.pages_on_gpu = scene.store().size();
     times.bytes_on_gpu = scene.store().bytes();
     return times;

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <span>
@@ -17,6 +16,7 @@
 #include "core/baked/file_pages.h"
 #include "core/baked/region_file.h"
 #include "core/base/checksum.h"
+#include "core/base/elapsed.h"
 #include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/source_paths.h"
@@ -28,11 +28,6 @@ namespace oro {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Files that the paths name or hold, and all that these are made of: for an archive the archive itself.
 Result<std::vector<std::string>> input_files(const std::vector<std::string>& paths) {

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <span>
@@ -20,6 +19,7 @@
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/window/picking.h"
+#include "core/base/elapsed.h"
 #include "core/base/file_there.h"
 #include "core/base/open_file.h"
 #include "core/terrain/ground.h"
@@ -27,12 +27,6 @@
 
 namespace oro {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 namespace fs = std::filesystem;
 
