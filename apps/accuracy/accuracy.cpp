@@ -16,9 +16,7 @@ std::optional<double> stated_le90_m(const Region& region) {
     // 5: absolute height error at most 16 m (90 %).
     constexpr double srtm_le90_m = 16.0;
     for (const SourceReport& source : region.sources) {
-        if (source.format.find("SRTM") != std::string::npos ||
-            source.format.find(".hgt") != std::string::npos)
-            return srtm_le90_m;
+        if (source.format != SourceFormat::raster) return srtm_le90_m;
     }
     return std::nullopt;
 }

@@ -88,4 +88,8 @@ std::string grouped(std::uint64_t count) {
     return text;
 }
 
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+    return grouped(count) + " " + (count == 1 ? one : many);
+}
+
 }  // namespace oro

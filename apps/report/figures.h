@@ -22,5 +22,7 @@ std::string point_aligned(double value, int before);
 std::string all_digits(double value);
 // "12,345,678"
 std::string grouped(std::uint64_t count);
+// "1 file", "12,345 files"
+std::string counted(std::uint64_t count, const char* one, const char* many);
 
 }  // namespace oro

@@ -2,9 +2,11 @@
 
 #include <set>
 
+#include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "core/baked/region_format.h"
 #include "geo/files/foreign_text.h"
+#include "geo/region/source_words.h"
 
 namespace oro {
 namespace {
@@ -23,11 +25,11 @@ ordered_json seams_json(const SeamReport& seams) {
 ordered_json source_json(const SourceReport& s) {
     ordered_json json = ordered_json::object();
     json["path"] = s.path;
-    json["format"] = s.format;
+    json["format"] = format_words(s);
     json["crs"] = s.crs;
-    json["vertical_datum"] = s.vertical_datum;
-    json["height_unit"] = s.height_unit;
-    json["posts_are"] = s.posts_are;
+    json["vertical_datum"] = datum_words(s.vertical_datum);
+    json["height_unit"] = unit_words(s.height_unit);
+    json["posts_are"] = posts_words(s.posts_are);
     json["posts"] = json_object("rows", s.rows, "columns", s.columns);
     json["spacing"] =
         json_object("lat_deg", s.lat_spacing_deg, "lon_deg", s.lon_spacing_deg, "metres", s.spacing_m);
@@ -35,7 +37,7 @@ ordered_json source_json(const SourceReport& s) {
     json["H_m"] = json_object("lowest", s.lowest_m, "highest", s.highest_m);
     json["voids"] = s.voids;
     json["implausible"] = s.implausible;
-    json["placement"] = s.placement;
+    json["placement"] = placement_words(s);
     json["seams"] = seams_json(s.seams);
     json["attribution"] = s.attribution;
     return json;
@@ -62,7 +64,7 @@ ordered_json region_json(const Region& region) {
     json["outside_sources"] = region.outside;
     json["in_missing_cells"] = region.in_missing;
     json["filled"] = region.filled;
-    json["void_method"] = region.void_method;
+    json["void_method"] = void_method_words(region.void_method);
     json["seams"] = seams_json(region.seams);
     json["seam_rule"] = "the finer spacing wins; among equals the first in the byte order of file names";
     json["missing_cells"] = region.missing_cells;
@@ -88,14 +90,14 @@ ordered_json file_json(const Region& region) {
 
 std::string note_of_voids(const Region& region) {
     std::string note;
-    const auto add = [&](std::uint64_t posts, const std::string& what) {
-        if (posts > 0) note += (note.empty() ? "" : "; ") + std::to_string(posts) + what;
+    const auto add = [&](std::uint64_t posts, const char* one, const char* many, const std::string& what) {
+        if (posts > 0) note += (note.empty() ? "" : "; ") + counted(posts, one, many) + what;
     };
-    add(region.void_posts(), std::string(" void posts are holes (") + (region.file ? "baking with " : "") +
-                                 "--fill-voids fills what is near others)");
-    add(region.outside, " posts outside all sources are holes");
-    add(region.in_missing,
-        " posts in " + std::to_string(region.missing_cells.size()) + " missing cells are holes");
+    add(region.void_posts(), "void post is a hole", "void posts are holes",
+        std::string(" (") + (region.file ? "baking with " : "") + "--fill-voids fills what is near others)");
+    add(region.outside, "post outside all files is a hole", "posts outside all files are holes", "");
+    add(region.in_missing, "post is a hole", "posts are holes",
+        ": " + counted(region.missing_cells.size(), "cell has no file", "cells have no file"));
     return note;
 }
 

@@ -49,6 +49,15 @@ double metres_per_unit(PJ_CONTEXT* context, const PJ* crs, int axis) {
     return direction && std::string_view(direction) == "down" ? -factor : factor;
 }
 
+// True for heights above EGM96, in whatever unit: by the datum that PROJ knows as its own.
+bool is_egm96(PJ_CONTEXT* context, const PJ* vertical_crs) {
+    const ProjObject stated(proj_crs_get_datum_forced(context, vertical_crs));
+    const ProjObject egm96(
+        proj_create_from_database(context, "EPSG", "5171", PJ_CATEGORY_DATUM, false, nullptr));
+    return stated && egm96 &&
+           proj_is_equivalent_to_with_ctx(context, stated.get(), egm96.get(), PJ_COMP_EQUIVALENT) != 0;
+}
+
 // A CRS's heights over latitude and longitude.
 struct GeographicHeights {
     StatedDatum datum;
@@ -67,10 +76,9 @@ GeographicHeights geographic_with_heights(PJ_CONTEXT* context, const std::string
             unbound(context, ProjObject(proj_crs_get_sub_crs(context, crs.get(), 0)));
         const ProjObject vertical = unbound(context, ProjObject(proj_crs_get_sub_crs(context, crs.get(), 1)));
         if (!horizontal || !vertical) return heights;
-        const char* const name = proj_get_name(vertical.get());
         heights.metres_per_unit = metres_per_unit(context, vertical.get(), 0);
         heights.datum = {code_and_name(vertical.get()), heights.metres_per_unit,
-                         name && std::string_view(name).find("EGM96 height") != std::string_view::npos};
+                         is_egm96(context, vertical.get())};
         const ProjObject geographic(proj_crs_get_geodetic_crs(context, horizontal.get()));
         if (!geographic) return heights;
         const std::string text_of_both = "COMPOUNDCRS[\"heights\"," + wkt(context, geographic.get()) + "," +
@@ -254,6 +262,7 @@ Result<GeoidOfRegion::Shift> GeoidOfRegion::shift_from(const std::string& crs, c
                                 ? "PROJ knows no way from " + datum.name + " to ellipsoidal heights"
                                 : "PROJ lacks " + found.missing + " for " + datum.name;
     if (strict) return Error{ErrorKind::failed, "vertical datum", why};
+    shift.egm96_stands_in_ = true;
     shift.note_ = why + ": EGM96 stands in";
     return shift;
 }

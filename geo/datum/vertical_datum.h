@@ -61,6 +61,8 @@ class GeoidOfRegion {
         // are there. Errors: a grid that gives no height inside itself, or not the same twice.
         Result<void> apply(const UndulationField& undulation, double lat_deg, std::span<const double> lon_deg,
                            std::span<float> H_m);
+        // True where the way from the stated datum is missing; note() says what of it.
+        [[nodiscard]] bool egm96_stands_in() const { return egm96_stands_in_; }
         [[nodiscard]] const std::string& note() const { return note_; }
         [[nodiscard]] bool does_nothing() const { return ways_ == nullptr; }
         // Posts outside the grids, whose heights were left as they are.
@@ -74,6 +76,7 @@ class GeoidOfRegion {
         std::unique_ptr<Ways> ways_;
         std::string name_;  // of the datum, in errors
         double metres_per_unit_{1.0};
+        bool egm96_stands_in_{};
         std::string note_;
         std::size_t beyond_grid_{};
     };

@@ -153,17 +153,6 @@ void SourceOnGrid::find_rect() {
         grid_.lon.index_at(west - lon_margin), grid_.lon.index_at(east + lon_margin), grid_.columns());
 }
 
-std::string SourceOnGrid::placement() const {
-    const std::string moved =
-        moved_by_ > 1e-4 ? " (moved by up to " + std::to_string(moved_by_).substr(0, 6) + " of a post)" : "";
-    if (fit_ == Fit::same_posts) return "posts copied" + moved;
-    if (fit_ == Fit::every_kth_post)
-        return "interpolated over its triangles (one post for " + std::to_string(lat_part_) + " x " +
-               std::to_string(lon_part_) + " of the region)" + moved;
-    const std::string& crs = source_->report.crs;
-    return "cubic resampling from " + (crs.starts_with("EPSG:") ? crs.substr(0, crs.find(' ')) : crs);
-}
-
 PostWindow SourceOnGrid::window_for(int first_row, int rows) {
     constexpr int intervals = 48;
     double low_row = 1e18, high_row = -1e18, low_column = 1e18, high_column = -1e18;

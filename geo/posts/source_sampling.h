@@ -21,9 +21,6 @@ struct GridRect {
     int columns{};
 };
 
-// How a source's posts stand to the grid's.
-enum class Fit { same_posts, every_kth_post, elsewhere };
-
 // A source as it meets a grid, moved by whole turns.
 class SourceOnGrid {
   public:
@@ -34,10 +31,9 @@ class SourceOnGrid {
     ~SourceOnGrid();
 
     [[nodiscard]] Fit fit() const { return fit_; }
-    [[nodiscard]] const GridRect& rect() const {
-        return rect_;
-    }                                             // grid posts that the source can have a height for
-    [[nodiscard]] std::string placement() const;  // for SourceReport
+    // Grid posts that the source can have a height for.
+    [[nodiscard]] const GridRect& rect() const { return rect_; }
+    [[nodiscard]] Placement placement() const { return {fit_, moved_by_, lat_part_, lon_part_}; }
 
     // Reads what the grid's rows need. Errors: as read_posts.
     Result<void> read(int first_row, int rows);

@@ -2,16 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "core/base/result.h"
 #include "geo/posts/seams.h"
 
 namespace oro {
-
-inline constexpr const char* void_method_holes = "holes";
-inline constexpr const char* void_method_filled = "filled by inverse-distance interpolation (GDALFillNodata)";
 
 // Fills the void posts that sources cover from posts up to 100 away; says how many. What no source covers
 // stays a hole.

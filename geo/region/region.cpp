@@ -217,10 +217,8 @@ Result<void> lay_sources(std::vector<Source>& sources, const GeoidOfRegion& geoi
             auto found = geoid.shift_from(source.vertical_crs, box, strict);
             if (!found) return Error{found.error().kind, report.path, found.error().line()};
             shift = std::move(*found);
-            if (!shift.note().empty()) {
-                add_note(notes, shift.note());
-                report.vertical_datum += "; EGM96 stands in";
-            }
+            report.vertical_datum.egm96_stands_in = shift.egm96_stands_in();
+            add_note(notes, shift.note());
         }
         report.lowest_m = std::numeric_limits<double>::max();
         report.highest_m = std::numeric_limits<double>::lowest();
@@ -274,7 +272,7 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
     add_note(region.notes, geoid.note());
     if (!request.height_unit.empty() && request.height_unit != "m" &&
         std::ranges::any_of(found.sources,
-                            [](const Source& source) { return source.report.format.ends_with(".hgt"); }))
+                            [](const Source& source) { return source.kind == SourceKind::hgt; }))
         add_note(region.notes,
                  "the height unit " + request.height_unit + " is not for .hgt files: they hold metres");
     if (request.box && request.box->west_deg > request.box->east_deg &&
@@ -286,11 +284,11 @@ Result<Region> open_checked(const RegionRequest& request, const Progress& progre
     ORO_CHECK(lay_sources(found.sources, geoid, posts, request.strict_datum,
                           {grid, region.field.undulation, surface, ahead}, region.notes, progress));
     surface.finish();
-    region.void_method = void_method_holes;
+    region.void_method = VoidMethod::holes;
     if (request.fill_voids) {
         if (progress) progress(0.95, "filling voids");
         ORO_TRY(region.filled, fill_voids(surface, grid));
-        region.void_method = void_method_filled;
+        region.void_method = VoidMethod::filled;
     }
     region.seams = surface.seams();
     region.field.H_m = std::move(surface.heights());

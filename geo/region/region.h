@@ -12,17 +12,9 @@
 #include "core/baked/region_file.h"
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
+#include "geo/region/source_report.h"
 
 namespace oro {
-
-// Degrees; west > east crosses the antimeridian. All finite, latitudes in [-90, 90], longitudes in [-180,
-// 180].
-struct BoundingBox {
-    double west_deg{};
-    double south_deg{};
-    double east_deg{};
-    double north_deg{};
-};
 
 // "west,south,east,north". Usage errors for anything else: not four numbers, not finite, out of range, south
 // >= north, no width.
@@ -40,38 +32,8 @@ struct RegionRequest {
     std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
 };
 
-// Where sources of one spacing meet or overlap. Rule: the finer spacing wins; among equals the first in the
-// byte order of file names.
-struct SeamReport {
-    std::uint64_t shared_posts{};
-    std::uint64_t disagreeing_posts{};
-    double largest_difference_m{};
-};
-
-// What a source says of itself and what was found in it.
-struct SourceReport {
-    std::string path;            // as found, e.g. tiles.zip/N46E008.hgt
-    std::string format;          // "SRTM .hgt", "GTiff", ...
-    std::string crs;             // e.g. "EPSG:4326 WGS 84"
-    std::string vertical_datum;  // e.g. "EGM96 height (assumed: .hgt states none)"
-    std::string height_unit;     // "m"
-    std::string posts_are;       // "points" or "cell centres (area)"
-    std::string attribution;     // "" when unknown
-    int rows{};
-    int columns{};
-    double lat_spacing_deg{};
-    double lon_spacing_deg{};
-    double spacing_m{};  // north-south, metres
-    BoundingBox box;     // of the posts
-    double lowest_m{};   // of posts with a height inside the region, H in metres
-    double highest_m{};
-    std::uint64_t voids{};
-    std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
-    std::string placement;        // "posts copied", "cubic resampling from EPSG:2056", ...
-    SeamReport seams;             // with the sources that win over it: its posts that one of them has, too
-    std::vector<std::string> files;  // of this machine that it is made of: the archive it is in, all that a
-                                     // VRT names; unknown ({}) in a baked region
-};
+// What becomes of void posts: they are left out of the terrain, or filled from their neighbours.
+enum class VoidMethod { holes, filled };
 
 struct Region {
     HeightField field;
@@ -87,7 +49,7 @@ struct Region {
     std::uint64_t outside{};     // beyond the rims of all sources, in cells that one touches
     std::uint64_t in_missing{};  // in missing_cells
     std::uint64_t filled{};      // void posts filled
-    std::string void_method;     // "holes" or "filled by inverse-distance interpolation (GDALFillNodata)"
+    VoidMethod void_method{VoidMethod::holes};
     // Void in the source that covers them: what --fill-voids is for.
     [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }
     std::vector<std::string> notes;  // what a user must know, one line each (a geoid that stands in, ...)

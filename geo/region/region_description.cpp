@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/json_bounds.h"
+#include "geo/region/source_words.h"
 
 namespace oro {
 namespace {
@@ -30,11 +31,11 @@ ordered_json seams_text(const SeamReport& seams) {
 ordered_json source_text(const SourceReport& s) {
     ordered_json text = ordered_json::object();
     text["path"] = s.path;
-    text["format"] = s.format;
+    text["format"] = format_words(s);
     text["crs"] = s.crs;
-    text["vertical_datum"] = s.vertical_datum;
-    text["height_unit"] = s.height_unit;
-    text["posts_are"] = s.posts_are;
+    text["vertical_datum"] = datum_words(s.vertical_datum);
+    text["height_unit"] = unit_words(s.height_unit);
+    text["posts_are"] = posts_words(s.posts_are);
     text["attribution"] = s.attribution;
     text["rows"] = s.rows;
     text["columns"] = s.columns;
@@ -48,7 +49,7 @@ ordered_json source_text(const SourceReport& s) {
     text["highest_m"] = s.highest_m;
     text["voids"] = s.voids;
     text["implausible"] = s.implausible;
-    text["placement"] = s.placement;
+    text["placement"] = placement_words(s);
     text["seams"] = seams_text(s.seams);
     return text;
 }
@@ -70,6 +71,7 @@ class Field {
         if (found == value_.end()) throw Fault{full + " is missing"};
         return {*found, full};
     }
+    [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] bool has(const char* name) const { return value_.is_object() && value_.contains(name); }
     [[nodiscard]] std::vector<Field> elements() const {
         require(value_.is_array(), "a list");
@@ -127,14 +129,23 @@ SeamReport seams_of(const Field& field) {
             field["largest_difference_m"].number()};
 }
 
+// A fact by its words, of which there are only a few.
+template <class Fact>
+Fact known(const Field& field, std::optional<Fact> (*of_words)(const std::string&)) {
+    const std::string words = field.text();
+    const std::optional<Fact> fact = of_words(words);
+    if (!fact) throw Fault{field.name() + " is " + one_line(words) + ", which this program does not know"};
+    return *fact;
+}
+
 SourceReport source_of(const Field& field) {
     SourceReport s;
     s.path = field["path"].text();
-    s.format = field["format"].text();
+    set_format(s, field["format"].text());
     s.crs = field["crs"].text();
-    s.vertical_datum = field["vertical_datum"].text();
-    s.height_unit = field["height_unit"].text();
-    s.posts_are = field["posts_are"].text();
+    s.vertical_datum = datum_of_words(field["vertical_datum"].text());
+    s.height_unit = unit_of_words(field["height_unit"].text());
+    s.posts_are = known(field["posts_are"], posts_of_words);
     s.attribution = field["attribution"].text();
     s.rows = field["rows"].side();
     s.columns = field["columns"].side();
@@ -146,7 +157,7 @@ SourceReport source_of(const Field& field) {
     s.highest_m = field["highest_m"].number();
     s.voids = field["voids"].count();
     s.implausible = field["implausible"].count();
-    s.placement = field["placement"].text();
+    s.placement = placement_of_words(field["placement"].text());
     s.seams = seams_of(field["seams"]);
     return s;
 }
@@ -173,7 +184,7 @@ Region region_of(const Field& field) {
     if (region.outside > region.voids || region.in_missing > region.voids - region.outside)
         throw Fault{"it tells of more posts without a source than without a height"};
     region.filled = field["filled"].count();
-    region.void_method = field["void_method"].text();
+    region.void_method = known(field["void_method"], void_method_of_words);
     region.notes = field["notes"].texts();
     return region;
 }
@@ -192,7 +203,7 @@ std::string region_description(const Region& region) {
     all["outside"] = region.outside;
     all["in_missing"] = region.in_missing;
     all["filled"] = region.filled;
-    all["void_method"] = region.void_method;
+    all["void_method"] = void_method_words(region.void_method);
     all["notes"] = region.notes;
     return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

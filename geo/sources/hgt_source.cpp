@@ -190,11 +190,9 @@ Result<Source> inspect_hgt(const SourcePath& path) {
     SourceReport& report = source.report;
     report.path = path.shown;
     report.files = {local_file_of(path.file)};
-    report.format = arc_seconds == 1 ? "SRTM1 .hgt" : "SRTM3 .hgt";
+    report.format = arc_seconds == 1 ? SourceFormat::srtm1_hgt : SourceFormat::srtm3_hgt;
     report.crs = "EPSG:4326 WGS 84";
-    report.vertical_datum = "EGM96 height (assumed: .hgt states none)";
-    report.height_unit = "m";
-    report.posts_are = "points";
+    report.vertical_datum.from = DatumFrom::assumed_for_hgt;
     report.attribution = srtm_attribution(path);
     report.rows = report.columns = *posts;
     report.lat_spacing_deg = report.lon_spacing_deg = 1.0 / per_deg;

@@ -79,22 +79,17 @@ StatedDatum read_vertical(Source& source, GDALDatasetH dataset, OGRSpatialRefere
     if (OSRIsCompound(crs) || OSRGetAxesCount(crs) == 3) {
         source.vertical_crs = wkt_of(crs);
         if (auto datum = stated_datum(source.vertical_crs)) {
-            source.report.vertical_datum = datum->name;
+            source.report.vertical_datum = {DatumFrom::crs, datum->name, false};
             return *datum;
         }
         // Kept: who asks for it later is told that it cannot be read.
-        source.report.vertical_datum =
-            "EGM96 height (assumed: PROJ cannot read what the CRS states of heights)";
+        source.report.vertical_datum.from = DatumFrom::assumed_unreadable;
         return {};
     }
     const std::string dted = text_of(GDALGetMetadataItem(dataset, "DTED_VerticalDatum", nullptr));
     if (dted == "E96" || dted == "E08") {
         source.vertical_crs = dted == "E96" ? "EPSG:4326+5773" : "EPSG:4326+3855";
-        source.report.vertical_datum =
-            (dted == "E96" ? "EGM96 height (DTED metadata: " : "EGM2008 height (DTED metadata: ") + dted +
-            ")";
-    } else {
-        source.report.vertical_datum = "EGM96 height (assumed: the file states none)";
+        source.report.vertical_datum.from = dted == "E96" ? DatumFrom::dted_egm96 : DatumFrom::dted_egm2008;
     }
     return {};
 }
@@ -109,7 +104,7 @@ Result<void> read_unit(Source& source, GDALRasterBandH band, const StatedDatum& 
             return Error{ErrorKind::usage, "height unit '" + override_unit + "'",
                          "is none of m, ft, us-ft, cm"};
         metres = *factor;
-        source.report.height_unit = override_unit + " (as told)";
+        source.report.height_unit = {override_unit, UnitFrom::request};
     } else if (!stated.empty()) {
         const auto factor = metres_in(stated);
         if (!factor)
@@ -117,14 +112,14 @@ Result<void> read_unit(Source& source, GDALRasterBandH band, const StatedDatum& 
                 ErrorKind::failed, "",
                 "gives its heights in '" + stated + "', which is no known unit of height (m, ft, us-ft, cm)"};
         metres = *factor;
-        source.report.height_unit = stated;
+        source.report.height_unit.name = stated;
     } else if (!source.vertical_crs.empty() && std::abs(datum.metres_per_unit) != 1.0) {
         metres = std::abs(datum.metres_per_unit);
-        source.report.height_unit = std::abs(metres - 0.3048) < 1e-9   ? "ft"
-                                    : std::abs(metres - 0.3048) < 1e-5 ? "us-ft"
-                                                                       : std::to_string(metres) + " m";
+        source.report.height_unit.name = std::abs(metres - 0.3048) < 1e-9   ? "ft"
+                                         : std::abs(metres - 0.3048) < 1e-5 ? "us-ft"
+                                                                            : std::to_string(metres) + " m";
     } else {
-        source.report.height_unit = source.vertical_crs.empty() ? "m (assumed)" : "m";
+        source.report.height_unit.from = source.vertical_crs.empty() ? UnitFrom::assumed : UnitFrom::file;
     }
     if (datum.metres_per_unit < 0.0) metres = -metres;  // depths
     int scaled = 0, shifted = 0;
@@ -198,7 +193,7 @@ Result<Source> described(const SourcePath& path, const Dataset& dataset, const s
     source.file = path.file;
     source.named = path.named;
     source.report.path = path.shown;
-    source.report.format = text_of(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get())));
+    source.report.driver = text_of(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get())));
     source.report.rows = GDALGetRasterYSize(dataset.get());
     source.report.columns = GDALGetRasterXSize(dataset.get());
     if (source.report.rows < 2 || source.report.columns < 2) return fault("has fewer than 2 x 2 posts");
@@ -210,7 +205,7 @@ Result<Source> described(const SourcePath& path, const Dataset& dataset, const s
                             cell[3] + 0.5 * (cell[4] + cell[5]), cell[4], cell[5]};
     const bool points =
         lower_case(text_of(GDALGetMetadataItem(dataset.get(), "AREA_OR_POINT", nullptr))) == "point";
-    source.report.posts_are = points ? "points" : "cell centres (area)";
+    source.report.posts_are = points ? PostsAre::points : PostsAre::cell_centres;
     source.report.attribution = attribution_of(dataset.get());
     const SpatialReference horizontal(OSRClone(crs.get()));
     if (OSRIsCompound(horizontal.get())) OSRStripVertical(horizontal.get());

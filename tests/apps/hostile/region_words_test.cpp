@@ -117,7 +117,7 @@ TEST(RegionWords, VoidsAndMissingTilesAreCountedApart) {
     EXPECT_EQ(shot.exit_code, 0) << shot.err;
     EXPECT_NE(shot.err.find("9 void posts are holes (baking with --fill-voids"), std::string::npos)
         << shot.err;
-    EXPECT_NE(shot.err.find("1439999 posts in 1 missing cells are holes"), std::string::npos) << shot.err;
+    EXPECT_NE(shot.err.find("1,439,999 posts are holes: 1 cell has no file"), std::string::npos) << shot.err;
     // Where no post is void, filling is not offered.
     fs::remove(folder / "tiles" / "N46E008.hgt");
     oro::test::write_bytes(folder / "tiles" / "N46E008.hgt", tile());
@@ -137,7 +137,7 @@ TEST(RegionWords, FilesThatMakeNoRegionAreToldOneByOne) {
     EXPECT_EQ(told.exit_code, 1);
     for (const char* name : {"N46E008.hgt", "N46E009.hgt", "S80W170.hgt"})
         EXPECT_NE(told.out.find(name), std::string::npos) << told.out;
-    EXPECT_NE(told.out.find("H           not read"), std::string::npos) << told.out;
+    EXPECT_NE(told.out.find("H not read"), std::string::npos) << told.out;
     EXPECT_NE(told.err.find("region too large"), std::string::npos) << told.err;
     EXPECT_NE(told.err.find("farthest from the others lies " + (folder / "S80W170.hgt").string()),
               std::string::npos)

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "geo/region/source_words.h"
 #include "geo/sources/source.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
@@ -112,8 +113,8 @@ TEST(VerticalDatum, StatedEgm96IsTakenAsItIs) {
     const auto region = opened(request, &reason);
     ASSERT_TRUE(region) << reason;
     EXPECT_EQ(H_at_centre(*region), 1000.0);
-    EXPECT_EQ(region->sources[0].vertical_datum, "EPSG:5773 EGM96 height");
-    EXPECT_EQ(region->sources[0].placement, "posts copied");
+    EXPECT_EQ(datum_words(region->sources[0].vertical_datum), "EPSG:5773 EGM96 height");
+    EXPECT_EQ(placement_words(region->sources[0]), "posts copied");
     EXPECT_TRUE(region->notes.empty());
 }
 
@@ -126,7 +127,7 @@ TEST(VerticalDatum, EllipsoidalHeightsLoseTheUndulation) {
         const auto region = opened(request, &reason);
         ASSERT_TRUE(region) << crs << ": " << reason;
         EXPECT_NEAR(H_at_centre(*region), 1000.0, 0.02) << crs;
-        EXPECT_NE(region->sources[0].vertical_datum.find("ellipsoidal"), std::string::npos);
+        EXPECT_NE(datum_words(region->sources[0].vertical_datum).find("ellipsoidal"), std::string::npos);
         fs::remove(folder / "flat.tif");
     }
 }
@@ -193,8 +194,10 @@ TEST(VerticalDatum, HeightsInFeetOfThreeAxesAreConvertedOnce) {
                 ASSERT_TRUE(region) << projected << unit << stored << ": " << reason;
                 EXPECT_EQ(region->sources[0].implausible, 0U) << projected << unit << stored;
                 EXPECT_NEAR(H_at_centre(*region), h_m - region->field.undulation.at_m(46.5, 8.0), 0.01)
-                    << projected << " '" << unit << "' " << stored << ", " << region->sources[0].height_unit;
-                EXPECT_NE(region->sources[0].vertical_datum.find("ellipsoidal"), std::string::npos);
+                    << projected << " '" << unit << "' " << stored << ", "
+                    << unit_words(region->sources[0].height_unit);
+                EXPECT_NE(datum_words(region->sources[0].vertical_datum).find("ellipsoidal"),
+                          std::string::npos);
                 fs::remove(file);
             }
         }
@@ -224,7 +227,7 @@ TEST(VerticalDatum, AGridThatProjLacksIsNamedAndStrictRefuses) {
         EXPECT_NE(region->notes[0].find(c.grid), std::string::npos) << region->notes[0];
         EXPECT_NE(region->notes[0].find(c.datum), std::string::npos) << region->notes[0];
         EXPECT_NE(region->notes[0].find("EGM96 stands in"), std::string::npos) << region->notes[0];
-        EXPECT_NE(region->sources[0].vertical_datum.find(c.datum), std::string::npos);
+        EXPECT_NE(datum_words(region->sources[0].vertical_datum).find(c.datum), std::string::npos);
         request.strict_datum = true;
         const auto strict = open_region(request);
         ASSERT_FALSE(strict.ok()) << c.crs;
@@ -306,11 +309,11 @@ TEST(VerticalDatum, RealDtedMetadataIsHonoured) {
     if (!copernicus) GTEST_SKIP() << "needs geotiff";
     const auto region = opened(request_for({copernicus->string()}));
     ASSERT_TRUE(region);
-    EXPECT_NE(region->sources[0].vertical_datum.find("EGM2008"), std::string::npos);
+    EXPECT_NE(datum_words(region->sources[0].vertical_datum).find("EGM2008"), std::string::npos);
     const auto nfong = opened(request_for({real_data("geotiff/nfong_N46E008.tif")->string()}));
     ASSERT_TRUE(nfong);
-    EXPECT_NE(nfong->sources[0].vertical_datum.find("EGM96"), std::string::npos);
-    EXPECT_EQ(nfong->sources[0].vertical_datum.find("assumed"), std::string::npos);
+    EXPECT_NE(datum_words(nfong->sources[0].vertical_datum).find("EGM96"), std::string::npos);
+    EXPECT_EQ(datum_words(nfong->sources[0].vertical_datum).find("assumed"), std::string::npos);
     EXPECT_TRUE(nfong->notes.empty());
 }
 

@@ -16,11 +16,11 @@ using nlohmann::json;
 SourceReport unusual_source(const std::string& path) {
     SourceReport s;
     s.path = path;
-    s.format = "SRTM .hgt";
+    s.format = SourceFormat::srtm3_hgt;
     s.crs = "EPSG:4326 WGS 84";
-    s.vertical_datum = "EGM96 height (assumed: .hgt states none)";
-    s.height_unit = "us-ft";
-    s.posts_are = "cell centres (area)";
+    s.vertical_datum = {DatumFrom::assumed_for_hgt, "", true};
+    s.height_unit = {"us-ft", UnitFrom::request};
+    s.posts_are = PostsAre::cell_centres;
     s.attribution = "© swisstopo, \"quoted\"\nand on a second line";
     s.rows = 2147483647;
     s.columns = 1;
@@ -32,7 +32,7 @@ SourceReport unusual_source(const std::string& path) {
     s.highest_m = 8848.86;
     s.voids = 18446744073709551615U;
     s.implausible = 3;
-    s.placement = "cubic resampling from EPSG:2056";
+    s.placement = Placement{Fit::every_kth_post, 0.0012, 2, 3};
     s.seams = {1201, 12, 0.30000000000000004};
     return s;
 }
@@ -45,7 +45,7 @@ Region unusual_region() {
     region.missing_cells = {"N45E008", "S01W001"};
     region.voids = 5;
     region.filled = 7;
-    region.void_method = "holes";
+    region.void_method = VoidMethod::filled;
     region.notes = {"one", ""};
     return region;
 }
@@ -91,8 +91,11 @@ TEST(RegionDescription, EveryFieldComesBack) {
     EXPECT_EQ(s.path, expected.path);
     EXPECT_EQ(s.format, expected.format);
     EXPECT_EQ(s.crs, expected.crs);
-    EXPECT_EQ(s.vertical_datum, expected.vertical_datum);
-    EXPECT_EQ(s.height_unit, expected.height_unit);
+    EXPECT_EQ(s.vertical_datum.from, expected.vertical_datum.from);
+    EXPECT_EQ(s.vertical_datum.name, expected.vertical_datum.name);
+    EXPECT_EQ(s.vertical_datum.egm96_stands_in, expected.vertical_datum.egm96_stands_in);
+    EXPECT_EQ(s.height_unit.name, expected.height_unit.name);
+    EXPECT_EQ(s.height_unit.from, expected.height_unit.from);
     EXPECT_EQ(s.posts_are, expected.posts_are);
     EXPECT_EQ(s.attribution, expected.attribution);
     EXPECT_EQ(s.rows, expected.rows);
@@ -108,7 +111,11 @@ TEST(RegionDescription, EveryFieldComesBack) {
     EXPECT_EQ(s.highest_m, expected.highest_m);
     EXPECT_EQ(s.voids, expected.voids);
     EXPECT_EQ(s.implausible, expected.implausible);
-    EXPECT_EQ(s.placement, expected.placement);
+    ASSERT_TRUE(s.placement);
+    EXPECT_EQ(s.placement->fit, expected.placement->fit);
+    EXPECT_EQ(s.placement->moved_by_posts, expected.placement->moved_by_posts);
+    EXPECT_EQ(s.placement->lat_part, expected.placement->lat_part);
+    EXPECT_EQ(s.placement->lon_part, expected.placement->lon_part);
     EXPECT_EQ(s.seams.shared_posts, expected.seams.shared_posts);
     EXPECT_EQ(s.seams.disagreeing_posts, expected.seams.disagreeing_posts);
     EXPECT_EQ(s.seams.largest_difference_m, expected.seams.largest_difference_m);

@@ -1,4 +1,5 @@
 #include "geo/region/region.h"
+#include "geo/region/source_words.h"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +80,7 @@ TEST(Region, FinerSpacingWinsAndCoarserFillsWithItsTriangles) {
     }
     for (const SourceReport& source : region->sources) {
         if (source.rows == 1201) {
-            EXPECT_NE(source.placement.find("3 x 3"), std::string::npos) << source.placement;
+            EXPECT_NE(placement_words(source).find("3 x 3"), std::string::npos) << placement_words(source);
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "geo/region/source_words.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -87,7 +88,7 @@ TEST(WorldBox, EveryPartOfEveryWorldIsTheRastersOwn) {
                 EXPECT_TRUE(grid.goes_round() ||
                             (grid.west_deg() <= box.west_deg && grid.east_deg() >= east_deg))
                     << grid.west_deg() << " .. " << grid.east_deg();
-                EXPECT_EQ(region->sources[0].placement, "posts copied");
+                EXPECT_EQ(placement_words(region->sources[0]), "posts copied");
                 expect_pixels(file, west_deg, *region);
             }
             fs::remove(file);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geo/region/source_words.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -53,14 +54,14 @@ TEST(Hgt, PostsLieOnWholeDegreesAndKeepTheirValues) {
     }
     ASSERT_EQ(region->sources.size(), 1U);
     const SourceReport& source = region->sources[0];
-    EXPECT_EQ(source.format, "SRTM3 .hgt");
-    EXPECT_EQ(source.placement, "posts copied");
-    EXPECT_NE(source.vertical_datum.find("EGM96"), std::string::npos);
-    EXPECT_NE(source.vertical_datum.find("assumed"), std::string::npos);
+    EXPECT_EQ(format_words(source), "SRTM3 .hgt");
+    EXPECT_EQ(placement_words(source), "posts copied");
+    EXPECT_NE(datum_words(source.vertical_datum).find("EGM96"), std::string::npos);
+    EXPECT_NE(datum_words(source.vertical_datum).find("assumed"), std::string::npos);
     EXPECT_EQ(source.box.west_deg, 8.0);
     EXPECT_NEAR(source.spacing_m, 92.63, 0.01);  // 1/1200 degree of the meridian at 46.5 N (WGS84)
     EXPECT_EQ(region->voids, 0U);
-    EXPECT_EQ(region->void_method, "holes");
+    EXPECT_EQ(region->void_method, VoidMethod::holes);
     EXPECT_TRUE(region->missing_cells.empty());
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "geo/region/source_words.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -64,8 +65,8 @@ TEST(Raster, PostsAreCopiedExactly) {
     }
     EXPECT_EQ(region->sources[0].attribution, "A survey, 2020");
     EXPECT_EQ(region->sources[0].crs, "EPSG:4326 WGS 84");
-    EXPECT_EQ(region->sources[0].placement, "posts copied");
-    EXPECT_EQ(region->sources[0].height_unit, "m (assumed)");
+    EXPECT_EQ(placement_words(region->sources[0]), "posts copied");
+    EXPECT_EQ(unit_words(region->sources[0].height_unit), "m (assumed)");
 }
 
 // A tilted plane is the same surface whether its file says "area" or "point": GDAL's map is for cell corners
@@ -109,7 +110,7 @@ TEST(Raster, AreaAndPointAgreeToTheHalfPost) {
             std::string reason;
             const auto region = opened(request_for({file}), &reason);
             ASSERT_TRUE(region) << file << ": " << reason;
-            EXPECT_EQ(region->sources[0].posts_are, points ? "points" : "cell centres (area)");
+            EXPECT_EQ(region->sources[0].posts_are, points ? PostsAre::points : PostsAre::cell_centres);
             const PostGrid& grid = region->field.grid;
             int compared = 0;
             for (int r = 0; r < grid.rows(); ++r) {
@@ -303,7 +304,7 @@ TEST(Raster, SouthUpRasterAndDatumEqualToWgs84AreCopied) {
     ASSERT_TRUE(upright && flipped && etrs);
     EXPECT_EQ(upright->field.H_m, flipped->field.H_m);
     EXPECT_EQ(upright->field.H_m, etrs->field.H_m);
-    EXPECT_EQ(etrs->sources[0].placement, "posts copied");
+    EXPECT_EQ(placement_words(etrs->sources[0]), "posts copied");
 }
 
 TEST(Raster, RotatedGeoreferenceAndVrtWork) {
@@ -407,7 +408,7 @@ TEST(Raster, RealCollection) {
         EXPECT_NEAR(static_cast<double>(range.lowest_m), c.lowest, c.tolerance + 0.05) << c.file;
         EXPECT_NEAR(static_cast<double>(range.highest_m), c.highest, c.tolerance + 0.05) << c.file;
         std::printf("%-50s %5d x %-5d %s\n", c.file, region->field.grid.rows(), region->field.grid.columns(),
-                    region->sources[0].placement.c_str());
+                    placement_words(region->sources[0]).c_str());
     }
     const auto swiss = open_region(request_for({(*folder / "dhm25_25_matrix.bt").string()}));
     ASSERT_FALSE(swiss.ok());

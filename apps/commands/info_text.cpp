@@ -1,0 +1,188 @@
+#include "apps/commands/info_text.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/report/figures.h"
+#include "core/baked/region_format.h"
+#include "geo/region/source_words.h"
+
+namespace oro {
+namespace {
+
+enum class Posts { read, not_read };
+
+std::string line(const char* name, const std::string& text) {
+    char label[20];
+    std::snprintf(label, sizeof label, "  %-12s", name);
+    return label + one_line(text) + "\n";
+}
+
+template <class... Values>
+std::string text_of(const char* format, Values... values) {
+    char text[240];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+std::string box_text(double west_deg, double south_deg, double east_deg, double north_deg) {
+    return text_of("west %.6f south %.6f east %.6f north %.6f", west_deg, south_deg, east_deg, north_deg);
+}
+
+// "137 to 4783 m"
+std::string heights_text(double lowest_m, double highest_m) {
+    return text_of("%.6g to %.6g m", lowest_m, highest_m);
+}
+
+std::string voids_text(const SourceReport& source) {
+    if (source.voids == 0) return "none";
+    if (source.implausible == 0) return grouped(source.voids);
+    return grouped(source.voids) + ", " + grouped(source.implausible) +
+           " of them heights that no terrain has (below -12,000 m or above 9,000 m)";
+}
+
+std::string placement_text(const Placement& placement) {
+    if (placement.fit == Fit::elsewhere)
+        return "its posts lie elsewhere than the region's: heights are resampled (bicubic)";
+    std::string text = "its posts are the region's posts";
+    if (placement.fit == Fit::every_kth_post)
+        text = "each of its posts stands for " + std::to_string(placement.lat_part) + " x " +
+               std::to_string(placement.lon_part) + " of the region's; those between are interpolated";
+    constexpr double too_little_to_tell = 1e-4;
+    if (placement.moved_by_posts <= too_little_to_tell) return text;
+    return text + text_of(", moved by up to %.4f of their spacing", placement.moved_by_posts);
+}
+
+// What a file says of itself that many files often say alike.
+std::vector<std::string> common_facts(const SourceReport& source) {
+    std::vector<std::string> facts{
+        format_words(source), "posts are " + posts_words(source.posts_are), source.crs,
+        datum_words(source.vertical_datum) + " in " + unit_words(source.height_unit)};
+    facts.push_back(source.placement ? placement_text(*source.placement) : "");
+    facts.push_back(source.attribution.empty() ? "attribution not stated" : source.attribution);
+    return facts;
+}
+
+std::string all_of(const std::vector<std::string>& facts) {
+    std::string text;
+    for (const std::string& fact : facts)
+        if (!fact.empty()) text += (text.empty() ? "" : "; ") + fact;
+    return text;
+}
+
+std::string one_file(const SourceReport& source, Posts posts) {
+    std::string text = one_line(source.path) + "\n";
+    text += line("format", format_words(source) + ", posts are " + posts_words(source.posts_are));
+    text += line("coordinates", source.crs);
+    text += line("heights", datum_words(source.vertical_datum) + ", in " + unit_words(source.height_unit));
+    text += line("posts", text_of("%d x %d, every %.6g x %.6g degrees (%.4g m)", source.columns, source.rows,
+                                  source.lon_spacing_deg, source.lat_spacing_deg, source.spacing_m));
+    text += line("box", box_text(source.box.west_deg, source.box.south_deg, source.box.east_deg,
+                                 source.box.north_deg));
+    text += line("H", posts == Posts::read ? heights_text(source.lowest_m, source.highest_m) : "not read");
+    if (posts == Posts::read) text += line("void posts", voids_text(source));
+    if (source.placement) text += line("placement", placement_text(*source.placement));
+    return text + line("attribution", source.attribution.empty() ? "not stated" : source.attribution);
+}
+
+std::string line_of_file(const SourceReport& source, Posts posts, const std::vector<std::string>& own_facts) {
+    std::string text = one_line(source.path);
+    text += text_of("  box %.6g,%.6g,%.6g,%.6g; %d x %d posts, every %.4g m; H ", source.box.west_deg,
+                    source.box.south_deg, source.box.east_deg, source.box.north_deg, source.columns,
+                    source.rows, source.spacing_m);
+    text += posts == Posts::read ? heights_text(source.lowest_m, source.highest_m) : "not read";
+    if (source.voids > 0) text += "; void posts: " + voids_text(source);
+    if (source.seams.disagreeing_posts > 0)
+        text += "; " + counted(source.seams.disagreeing_posts, "post differs", "posts differ") +
+                " from another file's, by up to " + text_of("%.4g m", source.seams.largest_difference_m);
+    if (const std::string own = all_of(own_facts); !own.empty()) text += "; " + own;
+    return one_line(text) + "\n";
+}
+
+std::string files_text(const std::vector<SourceReport>& sources, Posts posts) {
+    if (sources.size() == 1) return one_file(sources.front(), posts);
+    std::vector<std::vector<std::string>> own;
+    for (const SourceReport& source : sources) own.push_back(common_facts(source));
+    std::vector<std::string> shared;
+    for (std::size_t fact = 0; !own.empty() && fact < own.front().size(); ++fact) {
+        const std::string first = own.front()[fact];
+        if (!std::ranges::all_of(own, [&](const auto& facts) { return facts[fact] == first; })) continue;
+        shared.push_back(first);
+        for (auto& facts : own) facts[fact].clear();
+    }
+    std::string text = "files: " + grouped(sources.size());
+    if (const std::string all = all_of(shared); !all.empty()) text += ", all of them: " + one_line(all);
+    text += "\n";
+    for (std::size_t i = 0; i < sources.size(); ++i) text += line_of_file(sources[i], posts, own[i]);
+    return text;
+}
+
+std::string region_voids(const Region& region) {
+    std::string text = region.void_posts() == 0 ? "none" : grouped(region.void_posts());
+    if (region.filled > 0) text += " left, " + grouped(region.filled) + " filled from their neighbours";
+    if (region.void_posts() > 0 && region.void_method == VoidMethod::holes)
+        text += std::string(", left as holes (") + (region.file ? "baking with " : "") +
+                "--fill-voids fills those near others)";
+    return text;
+}
+
+std::string posts_without_file(const Region& region) {
+    std::string text;
+    if (region.in_missing > 0 || !region.missing_cells.empty()) {
+        text = counted(region.in_missing, "post", "posts") + " in " +
+               counted(region.missing_cells.size(), "cell", "cells") + " of a degree that no file covers:";
+        for (const std::string& cell : region.missing_cells) text += " " + cell;
+    }
+    if (region.outside > 0)
+        text += (text.empty() ? "" : "; ") + counted(region.outside, "post", "posts") +
+                " beyond the edges of the files";
+    return text.empty() ? "none" : text;
+}
+
+std::string overlaps(const SeamReport& seams) {
+    if (seams.shared_posts == 0) return "none";
+    const std::string shared =
+        counted(seams.shared_posts, "post is", "posts are") + " in more than one file, ";
+    if (seams.disagreeing_posts == 0) return shared + "with the same height";
+    return shared + grouped(seams.disagreeing_posts) + " of them with other heights, by up to " +
+           text_of("%.4g m", seams.largest_difference_m) +
+           "; the finer spacing wins, among equals the first by file name";
+}
+
+std::string baked_text(const RegionFile& file) {
+    const auto posts = static_cast<double>(file.outline().grid.post_count());
+    std::string text = one_line(file.path()) + "\n";
+    text += line("format", "baked region (.oro), version " + std::to_string(region_format::version));
+    text +=
+        line("levels",
+             std::to_string(file.order().levels()) + ", " + counted(file.order().count(), "page", "pages") +
+                 ", " + counted(file.outline().triangles, "triangle", "triangles") + " at full resolution");
+    return text + line("bytes", grouped(file.bytes()) +
+                                    text_of(", %.2f a post", static_cast<double>(file.bytes()) / posts));
+}
+
+}  // namespace
+
+std::string info_text(const Region& region) {
+    const PostGrid& grid = region.field.grid;
+    const HeightRange range = height_range(region.field);
+    std::string text = region.file ? baked_text(*region.file) : "";
+    text += "region: " + counted(region.sources.size(), "file", "files") + "\n";
+    text += line("box", box_text(grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()));
+    text += line("posts", text_of("%d x %d, every %.6g x %.6g degrees", grid.columns(), grid.rows(),
+                                  grid.lon.spacing_deg(), grid.lat.spacing_deg()));
+    text +=
+        line("H", heights_text(static_cast<double>(range.lowest_m), static_cast<double>(range.highest_m)) +
+                      " above the geoid " + region.geoid);
+    text += line("void posts", region_voids(region));
+    text += line("no data", posts_without_file(region));
+    text += line("overlaps", overlaps(region.seams));
+    for (const std::string& note : region.notes) text += line("note", note);
+    return text + files_text(region.sources, Posts::read);
+}
+
+std::string unread_text(const std::vector<SourceReport>& sources) {
+    return files_text(sources, Posts::not_read);
+}
+
+}  // namespace oro

@@ -1,0 +1,92 @@
+// What one source says of itself and what was found in it: facts. source_words.h makes words of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oro {
+
+// Degrees; west > east crosses the antimeridian. All finite, latitudes in [-90, 90], longitudes in [-180,
+// 180].
+struct BoundingBox {
+    double west_deg{};
+    double south_deg{};
+    double east_deg{};
+    double north_deg{};
+};
+
+// .hgt tiles with posts every 1 or 3 seconds of arc; all else is read by GDAL.
+enum class SourceFormat { srtm1_hgt, srtm3_hgt, raster };
+
+enum class PostsAre { points, cell_centres };
+
+// Where it is known from what a source's heights refer to. Assumed is EGM96.
+enum class DatumFrom {
+    crs,
+    dted_egm96,  // DTED metadata say so
+    dted_egm2008,
+    assumed_for_hgt,    // .hgt files state none
+    assumed_unstated,   // the file states none
+    assumed_unreadable  // PROJ cannot read what the CRS states
+};
+
+struct HeightDatum {
+    DatumFrom from{DatumFrom::assumed_unstated};
+    std::string name;        // from the CRS alone, as PROJ calls it: "EPSG:5703 NAVD88 height"
+    bool egm96_stands_in{};  // a grid for it is missing
+};
+
+enum class UnitFrom { file, request, assumed };
+
+struct HeightUnit {
+    std::string name{"m"};
+    UnitFrom from{UnitFrom::file};
+};
+
+// How a source's posts stand to the region's: they are the same, the region has some between them, or they
+// lie elsewhere and heights are resampled (bicubic).
+enum class Fit { same_posts, every_kth_post, elsewhere };
+
+// How a source was laid into the region.
+struct Placement {
+    Fit fit{Fit::elsewhere};
+    double moved_by_posts{};                // a post, at most; nothing where heights are resampled
+    std::int64_t lat_part{1}, lon_part{1};  // every how many posts of the region the source has one
+};
+
+// Where sources of one spacing meet or overlap. Rule: the finer spacing wins; among equals the first in the
+// byte order of file names.
+struct SeamReport {
+    std::uint64_t shared_posts{};
+    std::uint64_t disagreeing_posts{};
+    double largest_difference_m{};
+};
+
+struct SourceReport {
+    std::string path;  // as found, e.g. tiles.zip/N46E008.hgt
+    SourceFormat format{SourceFormat::raster};
+    std::string driver;  // of a raster: GDAL's name of its format, "GTiff"
+    std::string crs;     // e.g. "EPSG:4326 WGS 84"
+    HeightDatum vertical_datum;
+    HeightUnit height_unit;
+    PostsAre posts_are{PostsAre::points};
+    std::string attribution;  // "" when unknown
+    int rows{};
+    int columns{};
+    double lat_spacing_deg{};
+    double lon_spacing_deg{};
+    double spacing_m{};  // north-south, metres
+    BoundingBox box;     // of the posts
+    double lowest_m{};   // of posts with a height inside the region, H in metres
+    double highest_m{};
+    std::uint64_t voids{};
+    std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
+    std::optional<Placement> placement;  // nothing for a source that was not laid
+    SeamReport seams;                // with the sources that win over it: its posts that one of them has, too
+    std::vector<std::string> files;  // of this machine that it is made of: the archive it is in, all that a
+                                     // VRT names; unknown ({}) in a baked region
+};
+
+}  // namespace oro

@@ -1,0 +1,112 @@
+// What `info` prints: the region first, one line for each of many files, and the right number of everything.
+#include "apps/commands/info_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace oro {
+namespace {
+
+SourceReport tile(const std::string& path) {
+    SourceReport source;
+    source.path = path;
+    source.format = SourceFormat::srtm3_hgt;
+    source.crs = "EPSG:4326 WGS 84";
+    source.vertical_datum.from = DatumFrom::assumed_for_hgt;
+    source.attribution = "somebody";
+    source.rows = source.columns = 1201;
+    source.lat_spacing_deg = source.lon_spacing_deg = 1.0 / 1200.0;
+    source.spacing_m = 92.63;
+    source.box = {8.0, 46.0, 9.0, 47.0};
+    source.lowest_m = 190.0;
+    source.highest_m = 4142.0;
+    source.placement = Placement{Fit::same_posts, 0.0, 1, 1};
+    return source;
+}
+
+Region region_of(std::vector<SourceReport> sources) {
+    Region region;
+    region.field.grid.lat = {1.0, 0.0, 47, -1, 2};
+    region.field.grid.lon = {1.0, 0.0, 8, +1, 2};
+    region.field.H_m = {190.0F, 4142.0F, 200.0F, 300.0F};
+    region.geoid = "EGM96 (egm96_15.gtx)";
+    region.sources = std::move(sources);
+    return region;
+}
+
+void expect_words(const std::string& text, const std::vector<std::string>& words) {
+    for (const std::string& word : words)
+        EXPECT_NE(text.find(word), std::string::npos) << text << "\nlacks: " << word;
+}
+
+void expect_none(const std::string& text, const std::vector<std::string>& words) {
+    for (const std::string& word : words)
+        EXPECT_EQ(text.find(word), std::string::npos) << text << "\nhas: " << word;
+}
+
+TEST(InfoText, OneFileTellsAllOfItself) {
+    const std::string text = info_text(region_of({tile("a/N46E008.hgt")}));
+    expect_words(text, {"region: 1 file\n", "void posts  none\n", "no data     none\n", "overlaps    none\n",
+                        "\na/N46E008.hgt\n", "SRTM3 .hgt, posts are points", "in m\n", "190 to 4142 m\n",
+                        "its posts are the region's posts\n", "attribution somebody\n"});
+    expect_none(text, {"1 files", "sources", " 0 of", "no cell", "note"});
+    EXPECT_LT(text.find("region: "), text.find("N46E008.hgt"));
+}
+
+TEST(InfoText, ManyFilesAreALineEachAfterWhatTheyShare) {
+    SourceReport other = tile("b/fine.tif");
+    other.format = SourceFormat::raster;
+    other.driver = "GTiff";
+    other.attribution = "";
+    other.voids = 1500;
+    other.implausible = 2;
+    other.seams = {40, 1, 2.5};
+    Region region = region_of({tile("a/N46E008.hgt"), other});
+    region.seams = {1201, 12, 3.5};
+    region.missing_cells = {"N46E009"};
+    region.in_missing = 1;
+    region.outside = 7;
+    region.voids = 1500 + 8;
+    const std::string text = info_text(region);
+    expect_words(
+        text,
+        {"region: 2 files\n", "1,500, left as holes (--fill-voids",
+         "1 post in 1 cell of a degree that no file covers: N46E009; 7 posts beyond the edges of the files\n",
+         "1,201 posts are in more than one file, 12 of them with other heights, by up to 3.5 m",
+         "files: 2, all of them: posts are points; EPSG:4326 WGS 84;",
+         "a/N46E008.hgt  box 8,46,9,47; 1201 x 1201 posts, every 92.63 m; H 190 to 4142 m; SRTM3 .hgt; "
+         "somebody\n",
+         "void posts: 1,500, 2 of them heights that no terrain has",
+         "1 post differs from another file's, by up to 2.5 m; GTiff; attribution not stated\n"});
+    const auto of_files =
+        std::count(text.begin() + static_cast<std::ptrdiff_t>(text.find("files: 2")), text.end(), '\n');
+    EXPECT_EQ(of_files, 3);
+}
+
+TEST(InfoText, FilledPostsAndPlacementsAreTold) {
+    SourceReport coarse = tile("c.tif");
+    coarse.placement = Placement{Fit::every_kth_post, 0.0012, 3, 2};
+    Region region = region_of({coarse});
+    region.void_method = VoidMethod::filled;
+    region.filled = 12;
+    expect_words(
+        info_text(region),
+        {"void posts  none left, 12 filled from their neighbours\n",
+         "each of its posts stands for 3 x 2 of the region's; those between are interpolated, moved by "
+         "up to 0.0012 of their spacing\n"});
+    region.sources[0].placement = Placement{};
+    expect_words(info_text(region), {"its posts lie elsewhere than the region's: heights are resampled"});
+}
+
+TEST(InfoText, FilesThatWereNotReadHaveNoHeights) {
+    SourceReport unread = tile("a.hgt");
+    unread.placement.reset();
+    expect_words(unread_text({unread}), {"H           not read\n"});
+    expect_none(unread_text({unread}), {"void posts", "placement", "190"});
+    const std::string two = unread_text({unread, unread});
+    expect_words(two, {"files: 2, all of them: SRTM3 .hgt", "a.hgt  box 8,46,9,47;", "; H not read\n"});
+}
+
+}  // namespace
+}  // namespace oro
