@@ -7,7 +7,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "geo/sources/library_report.h"
-#include "render/device/gpu.h"
+#include "render/device/device_words.h"
 
 namespace oro {
 namespace {
@@ -17,6 +17,12 @@ using nlohmann::ordered_json;
 bool has_data_folder() {
     std::error_code unreadable;
     return std::filesystem::is_directory(data_folder(), unreadable);
+}
+
+std::vector<std::string> lacks_of(const DeviceReport& device) {
+    std::vector<std::string> words;
+    for (const DeviceLack lack : device.lacks) words.push_back(lack_words(lack));
+    return words;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -37,7 +43,7 @@ struct Finding {
 
 // Number `number` of the survey, which may have to be measured first.
 Finding finding_of(const DeviceReport& device, std::size_t number, GpuOptions options) {
-    if (!device.lacks.empty()) return {device, {}, "the device cannot draw"};
+    if (!device.can_draw()) return {device, {}, "the device cannot draw"};
     if (const auto known = known_choice(device)) return {device, known, ""};
     std::string problem = "the device cannot be told from another";
     // Its name may be a part of another's, and its number, too.
@@ -86,11 +92,11 @@ ordered_json device_json(const Finding& finding) {
     const DeviceReport& d = finding.device;
     ordered_json json = ordered_json::object();
     json["name"] = d.name;
-    json["type"] = d.type;
+    json["type"] = kind_words(d.kind);
     json["driver"] = d.driver;
-    json["api"] = d.api;
-    json["can_draw"] = d.lacks.empty();
-    json["lacks"] = d.lacks;
+    json["api"] = version_words(d.vulkan_version);
+    json["can_draw"] = d.can_draw();
+    json["lacks"] = lacks_of(d);
     json["mesh_shader"] = mesh_shader_json(d);
     json["pipelines"] = json_object("mesh", d.mesh_shader, "compute", d.compute_raster);
     json["auto"] = choice_json(finding);
@@ -125,13 +131,13 @@ ordered_json doctor_json(const std::vector<Finding>& devices, const std::string&
 
 void print_device(std::size_t number, const Finding& finding) {
     const DeviceReport& d = finding.device;
-    std::printf("GPU %zu        %s (%s), %s, Vulkan %s\n", number, d.name.c_str(), d.type.c_str(),
-                d.driver.c_str(), d.api.c_str());
-    if (!d.lacks.empty()) {
+    std::printf("GPU %zu        %s (%s), %s, Vulkan %s\n", number, d.name.c_str(), kind_words(d.kind).c_str(),
+                d.driver.c_str(), version_words(d.vulkan_version).c_str());
+    if (!d.can_draw()) {
         std::printf(
             "             cannot draw: lacks %s; a current driver for it, or the software driver "
             "(scripts/set-up), is needed\n",
-            joined(d.lacks).c_str());
+            joined(lacks_of(d)).c_str());
         return;
     }
     if (d.mesh_shader) {

@@ -4,6 +4,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
 #include "apps/view/model_names.h"
+#include "render/device/device_words.h"
 
 namespace oro {
 namespace {
@@ -115,8 +116,8 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["tiles"] = shot.picture.tiles;
     json["times_s"] = times_json(shot);
     const DeviceReport& device = gpu.report();
-    json["device"] =
-        json_object("name", device.name, "type", device.type, "driver", device.driver, "api", device.api);
+    json["device"] = json_object("name", device.name, "type", kind_words(device.kind), "driver",
+                                 device.driver, "api", version_words(device.vulkan_version));
     json["pipeline"] = name_of(shot.picture.path);
     if (shot.verification) {
         json["times_s"]["verify"] = shot.times.verify_s;

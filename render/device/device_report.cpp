@@ -6,21 +6,6 @@
 namespace oro {
 namespace {
 
-std::string type_name(VkPhysicalDeviceType type) {
-    switch (type) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-            return "discrete GPU";
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-            return "integrated GPU";
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-            return "virtual GPU";
-        case VK_PHYSICAL_DEVICE_TYPE_CPU:
-            return "software";
-        default:
-            return "other";
-    }
-}
-
 // What a device has cannot be told where asking fails: that is no lack.
 Result<bool> has_extension(VkPhysicalDevice physical, const char* wanted) {
     std::uint32_t count = 0;
@@ -30,12 +15,6 @@ Result<bool> has_extension(VkPhysicalDevice physical, const char* wanted) {
     return std::any_of(all.begin(), all.end(), [&](const VkExtensionProperties& e) {
         return std::strcmp(e.extensionName, wanted) == 0;
     });
-}
-
-std::string version_name(std::uint32_t version) {
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
-           std::to_string(VK_API_VERSION_MINOR(version)) + "." +
-           std::to_string(VK_API_VERSION_PATCH(version));
 }
 
 void describe_properties(VkPhysicalDevice physical, DeviceReport& report) {
@@ -53,9 +32,8 @@ void describe_properties(VkPhysicalDevice physical, DeviceReport& report) {
     vkGetPhysicalDeviceProperties2(physical, &properties);
     const VkPhysicalDeviceLimits& limits = properties.properties.limits;
     report.name = properties.properties.deviceName;
-    report.type = type_name(properties.properties.deviceType);
     report.driver = std::string(vulkan12.driverName) + " " + vulkan12.driverInfo;
-    report.api = version_name(properties.properties.apiVersion);
+    report.vulkan_version = properties.properties.apiVersion;
     report.subgroup_size = vulkan11.subgroupSize;
     report.max_picture_side_px =
         std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight,
@@ -82,21 +60,19 @@ Result<void> describe_lacks(VkPhysicalDevice physical, const GpuOptions& options
     vulkan12.pNext = &vulkan13;
     if (report.mesh_shader) vulkan13.pNext = &mesh;
     vkGetPhysicalDeviceFeatures2(physical, &features);
-    if (!vulkan12.bufferDeviceAddress) report.lacks.emplace_back("bufferDeviceAddress");
-    if (!vulkan12.scalarBlockLayout) report.lacks.emplace_back("scalarBlockLayout");
-    if (!vulkan13.synchronization2) report.lacks.emplace_back("synchronization2");
-    if (!vulkan13.dynamicRendering) report.lacks.emplace_back("dynamicRendering");
-    if (!vulkan13.maintenance4) report.lacks.emplace_back("maintenance4");
+    if (!vulkan12.bufferDeviceAddress) report.lacks.push_back(DeviceLack::buffer_device_address);
+    if (!vulkan12.scalarBlockLayout) report.lacks.push_back(DeviceLack::scalar_block_layout);
+    if (!vulkan13.synchronization2) report.lacks.push_back(DeviceLack::synchronization2);
+    if (!vulkan13.dynamicRendering) report.lacks.push_back(DeviceLack::dynamic_rendering);
+    if (!vulkan13.maintenance4) report.lacks.push_back(DeviceLack::maintenance4);
     report.mesh_shader = report.mesh_shader && mesh.meshShader && mesh.taskShader;
     report.compute_raster =
         !options.without_compute_raster && features.features.shaderInt64 && vulkan12.shaderBufferInt64Atomics;
-    if (!report.mesh_shader && !report.compute_raster)
-        report.lacks.emplace_back("VK_EXT_mesh_shader and 64-bit atomics (one of them is needed)");
-    if (!graphics_queue_family(physical))
-        report.lacks.emplace_back("a queue for graphics and compute with timestamps");
+    if (!report.mesh_shader && !report.compute_raster) report.lacks.push_back(DeviceLack::way_of_drawing);
+    if (!graphics_queue_family(physical)) report.lacks.push_back(DeviceLack::queue);
     if (!options.presents) return {};
     ORO_TRY(const bool presents, has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME));
-    if (!presents) report.lacks.emplace_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (!presents) report.lacks.push_back(DeviceLack::swapchain);
     return {};
 }
 
@@ -130,8 +106,7 @@ Result<DeviceReport> describe_device(VkPhysicalDevice physical, const GpuOptions
     vkGetPhysicalDeviceProperties(physical, &plain);
     report.name = plain.deviceName;
     report.kind = plain.deviceType;
-    report.type = type_name(plain.deviceType);
-    report.api = version_name(plain.apiVersion);
+    report.vulkan_version = plain.apiVersion;
     VkPhysicalDeviceMemoryProperties memory{};
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
@@ -139,7 +114,7 @@ Result<DeviceReport> describe_device(VkPhysicalDevice physical, const GpuOptions
             report.memory_bytes = std::max<std::uint64_t>(report.memory_bytes, memory.memoryHeaps[i].size);
     }
     if (plain.apiVersion < VK_API_VERSION_1_3) {
-        report.lacks.emplace_back("Vulkan 1.3");
+        report.lacks.push_back(DeviceLack::vulkan_1_3);
         return report;
     }
     if (!options.without_mesh_shader) {

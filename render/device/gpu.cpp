@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/device/device_report.h"
+#include "render/device/device_words.h"
 #include "render/device/software_driver.h"
 
 namespace oro {
@@ -44,7 +45,7 @@ int device_rank(const DeviceReport& report) {
                      : report.kind == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU ? 2
                      : report.kind == VK_PHYSICAL_DEVICE_TYPE_CPU            ? 0
                                                                              : 1;
-    return kind + (report.lacks.empty() ? 10 : 0);
+    return kind + (report.can_draw() ? 10 : 0);
 }
 
 struct Candidate {
@@ -96,7 +97,7 @@ Error nothing_suitable(const std::vector<Candidate>& all, const std::string& wan
         named = true;
         list += (list.empty() ? "" : "; ") + all[i].report.name + " lacks ";
         for (std::size_t k = 0; k < all[i].report.lacks.size(); ++k)
-            list += (k ? ", " : "") + all[i].report.lacks[k];
+            list += (k ? ", " : "") + lack_words(all[i].report.lacks[k]);
     }
     if (!named)
         return {ErrorKind::no_device, "OROGRAPH_DEVICE",
@@ -173,7 +174,7 @@ Result<void> Gpu::create_instance(const GpuOptions& options) {
 Result<void> Gpu::choose_device(const GpuOptions& options) {
     ORO_TRY(const std::vector<Candidate> all, candidates(instance_, options));
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!all[i].report.lacks.empty() || !is_named(all[i], i, options.device_name)) continue;
+        if (!all[i].report.can_draw() || !is_named(all[i], i, options.device_name)) continue;
         physical_ = all[i].physical;
         report_ = all[i].report;
         queue_family_ = *graphics_queue_family(physical_);

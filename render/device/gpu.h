@@ -22,20 +22,34 @@ struct MeshShaderLimits {
     std::uint32_t max_task_groups_total{};
 };
 
-// One device as the driver describes it.
+// What Orograph needs and a device may not have.
+enum class DeviceLack {
+    vulkan_1_3,
+    buffer_device_address,
+    scalar_block_layout,
+    synchronization2,
+    dynamic_rendering,
+    maintenance4,
+    way_of_drawing,  // mesh shaders or 64-bit atomics
+    queue,           // for graphics and compute, with timestamps
+    swapchain        // where a window is asked for
+};
+
+// One device as the driver describes it; device_words.h makes words of it.
 struct DeviceReport {
     std::string name;
     VkPhysicalDeviceType kind{};
-    std::string type;       // the kind in words: "discrete GPU", "software", ...
-    std::string driver;     // name and version as the driver gives them
-    std::string api;        // "1.3.274"
-    bool mesh_shader{};     // VK_EXT_mesh_shader with task shaders: the mesh path runs
-    bool compute_raster{};  // 64-bit integers and atomics in buffers: the compute path runs
+    std::string driver;              // name and version as the driver gives them
+    std::uint32_t vulkan_version{};  // packed, as VK_API_VERSION_MAJOR and its like take it
+    bool mesh_shader{};              // VK_EXT_mesh_shader with task shaders: the mesh path runs
+    bool compute_raster{};           // 64-bit integers and atomics in buffers: the compute path runs
     MeshShaderLimits mesh;
     std::uint32_t subgroup_size{};
     std::uint32_t max_picture_side_px{};  // largest image and framebuffer side
     std::uint64_t memory_bytes{};         // of the largest device-local heap
-    std::vector<std::string> lacks;       // what Orograph needs and the device has not; empty: it can draw
+    std::vector<DeviceLack> lacks;
+
+    [[nodiscard]] bool can_draw() const { return lacks.empty(); }
 };
 
 struct GpuOptions {
