@@ -99,10 +99,10 @@ void add_trade(CLI::App& app, oro::TradeOptions& options) {
     command.add_option(
         "--view", options.view_file,
         "Take sources and eye from a picture that carries its view, or from a view in a .json");
-    command.add_option("--views", options.views, "Views of the set (default 6)")->check(CLI::Range(1, 1000));
-    command
-        .add_option("--repeats", options.repeats,
-                    "Times each picture is drawn; the median counts (default 3)")
+    oro::only_decimal(command.add_option("--views", options.views, "Views of the set (default 6)"))
+        ->check(CLI::Range(1, 1000));
+    oro::only_decimal(command.add_option("--repeats", options.repeats,
+                                         "Times each picture is drawn; the median counts (default 3)"))
         ->check(CLI::Range(1, 1000));
     command.add_option("--out", options.out, "The folder to write into (default: this one)");
     command.add_flag("--overwrite", options.overwrite, "Replace files that are there");
@@ -136,24 +136,12 @@ void add_doctor(CLI::App& app, oro::DoctorOptions& options) {
     command.add_flag("--json", options.json, "Print one JSON object on standard output");
 }
 
-// The parser takes 010 for eight and 0x10 for sixteen, as C does.
-std::string plain_whole_number(std::string& text) {
-    const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
-    if (text.size() == sign || text.find_first_not_of("0123456789", sign) != std::string::npos)
-        return "'" + text + "' is no whole number in decimal digits";
-    const std::size_t first = text.find_first_not_of('0', sign);
-    text.erase(sign, (first == std::string::npos ? text.size() - 1 : first) - sign);
-    return {};
-}
-
 // `--tau "$TAU"` with nothing in TAU must not mean that there is no --tau.
 void check_values(CLI::App& app) {
     const auto fault = [](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); };
     for (CLI::App* command : app.get_subcommands({})) {
         for (CLI::Option* option : command->get_options()) {
             if (option->get_items_expected_max() > 0) option->check(fault);
-            if (option->get_type_name().starts_with("INT"))
-                option->transform(CLI::Validator(plain_whole_number, ""));
         }
     }
 }

@@ -29,7 +29,21 @@ void add_model_options(CLI::App& command, ViewOptions& options) {
         ->check(CLI::IsMember({"f32", "i16"}));
 }
 
+// The parser takes 010 for eight and 0x10 for sixteen, as C does.
+std::string plain_whole_number(std::string& text) {
+    const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+    if (text.size() == sign || text.find_first_not_of("0123456789", sign) != std::string::npos)
+        return "'" + text + "' is no whole number in decimal digits";
+    const std::size_t first = text.find_first_not_of('0', sign);
+    text.erase(sign, (first == std::string::npos ? text.size() - 1 : first) - sign);
+    return {};
+}
+
 }  // namespace
+
+CLI::Option* only_decimal(CLI::Option* option) {
+    return option->transform(CLI::Validator(plain_whole_number, ""));
+}
 
 void add_region_options(CLI::App& command, RegionOptions& options) {
     command.add_option("PATH", options.paths,
@@ -65,8 +79,8 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
     command.add_option("--sun", options.sun,
                        "Light from azimuth,elevation in degrees (default: the style's)");
     command.add_option("--exaggeration", options.exaggeration, "Heights times this (default 1)");
-    command.add_option("--samples", options.samples,
-                       "Samples per pixel, 1 to 64, for smooth edges (default 1)");
+    only_decimal(command.add_option("--samples", options.samples,
+                                    "Samples per pixel, 1 to 64, for smooth edges (default 1)"));
     command.add_option("--style", options.style,
                        "Style: a name in data/styles or a .json file (default: default)");
     command
@@ -95,15 +109,15 @@ void add_no_paths(CLI::App& command, bool& no_paths) {
 }
 
 void add_memory_options(CLI::App& command, MemoryOptions& options) {
-    command
-        .add_option("--gpu-memory", options.gpu_memory_mb,
-                    "Megabytes of terrain on the GPU at most (default: half of its memory, at most 2 GiB)")
+    only_decimal(command.add_option(
+                     "--gpu-memory", options.gpu_memory_mb,
+                     "Megabytes of terrain on the GPU at most (default: half of its memory, at most 2 GiB)"))
         ->check(CLI::Range(16, 1000000));
-    command
-        .add_option(
+    only_decimal(
+        command.add_option(
             "--memory", options.memory_mb,
             "Megabytes of terrain on its way to the GPU at most (default 64); a baked region needs no more, "
-            "tiles are held in memory besides")
+            "tiles are held in memory besides"))
         ->check(CLI::Range(16, 1000000));
 }
 

@@ -7,7 +7,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace oro {
 
@@ -126,6 +127,8 @@ struct DoctorOptions {
     bool json{false};
 };
 
+// For an option that is a whole number: decimal digits alone. Gives it back.
+CLI::Option* only_decimal(CLI::Option* option);
 void add_region_options(CLI::App& command, RegionOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
 void add_no_paths(CLI::App& command, bool& no_paths);
