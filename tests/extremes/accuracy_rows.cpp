@@ -4,7 +4,7 @@
 namespace oro::test {
 namespace {
 
-constexpr const char* px_error = "interior error";
+constexpr const char* px_error = "error of the ground";
 constexpr const char* wrong = "pixels off what is seen within 0.1 px";
 constexpr const char* oracle = "true surface";
 constexpr const char* rays = "oracle";
