@@ -1,5 +1,8 @@
 #include "apps/view/style.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -82,8 +85,11 @@ Result<Style> load_style(const std::string& name, const std::optional<SunDirecti
     const bool is_path = is_style_path(name);
     const std::string path = is_path ? name : (data_folder() / "styles" / (name + ".json")).string();
     const auto text = read_text_file(path);
-    if (!text.ok())
-        return Error{is_path ? ErrorKind::failed : ErrorKind::usage, "--style " + name, text.error().line()};
+    if (!text.ok()) {
+        const bool no_such = access(path.c_str(), F_OK) != 0 && (errno == ENOENT || errno == ENAMETOOLONG);
+        return Error{!is_path && no_such ? ErrorKind::usage : ErrorKind::failed, "--style " + name,
+                     text.error().line()};
+    }
     try {
         return read_style(parsed_json(*text), sun);
     } catch (const JsonFault& fault) {

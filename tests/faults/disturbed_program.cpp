@@ -56,8 +56,10 @@ bool library_ended_it(const Disturbed& run, const Fault& fault) {
            run.err.find("terminate called") == std::string::npos;
 }
 
-// What GDAL writes past every handler when it has no memory to find them.
+// What GDAL writes past every handler when it has no memory to find them, and the C library for the text of a
+// library's assertion (PROJ's, in proj_create_crs_to_crs_from_pj) that it has no memory for.
 bool is_last_words(const std::string& line) {
+    if (line == "Unexpected error.") return true;
     return line.rfind("CPL", 0) == 0 || line.rfind("FATAL: CPL", 0) == 0 ||
            line.rfind("Out of memory attempting", 0) == 0;
 }
@@ -215,6 +217,7 @@ std::string FaultRuns::judge_success(const Disturbed& run,
 
 std::string FaultRuns::judge_failure(const Disturbed& run,
                                      const std::map<std::string, std::string>& there) const {
+    if (run.exit_code == 2) return "told as a mistake of the user";
     const auto says = lines_of(run.err);
     const auto is_note = [](const std::string& line) {
         return line.rfind("note: ", 0) == 0 || is_last_words(line);
