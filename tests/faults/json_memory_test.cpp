@@ -112,7 +112,7 @@ oro::Region a_region() {
     region.notes = {"a note that is longer than what a string has room for itself"};
     oro::SourceReport source;
     source.path = "tiles of somewhere/N46E008.SRTMGL3.hgt";
-    source.vertical_datum = "EGM96 height (assumed: .hgt states none)";
+    source.vertical_datum.name = "EPSG:5773 EGM96 height, as its CRS says";
     region.sources = {source, source};
     return region;
 }
