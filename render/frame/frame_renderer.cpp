@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include "render/frame/frame_layout.h"
+
 namespace oro {
 namespace {
 
@@ -27,25 +29,6 @@ FrameLayout layout_of(const FramePlan& plan) {
     layout.size = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
     return layout;
 }
-
-// The choice of levels, in words: first LivePages, then for so many pages `live`, `accepted` and `edges`.
-constexpr VkDeviceSize live_pages_words = 16;
-static_assert(sizeof(gpu::LivePages) <= 4 * live_pages_words);
-constexpr VkDeviceSize live_words = 2;
-constexpr VkDeviceSize choice_words = live_words + gpu::accepted_words + gpu::edges_words;  // a page
-
-constexpr ImageUse unused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
-constexpr ImageUse as_colour{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                             VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                             VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
-constexpr ImageUse as_depth{
-    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-constexpr ImageUse shader_read{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                               VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
-constexpr ImageUse shader_write{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 
 constexpr std::uint32_t timestamp_count = 4;
 
@@ -381,99 +364,6 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     report.raster_s = between_s(1);
     report.shade_s = between_s(2);
     return report;
-}
-
-Result<std::vector<std::byte>> FrameRenderer::read_image(const Image& image, VkImageAspectFlags aspect,
-                                                         ImageUse last_use, std::uint32_t width,
-                                                         std::uint32_t height) {
-    const VkDeviceSize size = VkDeviceSize{4} * width * height;  // every format read back has four bytes
-    ORO_TRY(const Buffer buffer, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                               BufferPlace::readback, "image read back"));
-    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
-        const ImageUse as_source{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
-                                 VK_ACCESS_2_TRANSFER_READ_BIT};
-        image_barrier(commands, image.handle.get(), aspect, last_use, as_source);
-        VkBufferImageCopy copy{};
-        copy.imageSubresource = {aspect, 0, 0, 1};
-        copy.imageExtent = {width, height, 1};
-        vkCmdCopyImageToBuffer(commands, image.handle.get(), as_source.layout, buffer.handle.get(), 1, &copy);
-        image_barrier(commands, image.handle.get(), aspect, as_source, last_use);
-        memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-    }));
-    return std::vector<std::byte>(buffer.mapped, buffer.mapped + size);
-}
-
-namespace {
-template <class T>
-std::vector<T> as_vector(const std::vector<std::byte>& bytes) {
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    return values;
-}
-}  // namespace
-
-Result<std::vector<std::uint8_t>> FrameRenderer::read_picture(std::uint32_t width, std::uint32_t height) {
-    ORO_TRY(const std::vector<std::byte> bytes,
-            read_image(picture_, VK_IMAGE_ASPECT_COLOR_BIT, shader_write, width, height));
-    return as_vector<std::uint8_t>(bytes);
-}
-
-// Words of a buffer on the device.
-Result<std::vector<std::uint32_t>> FrameRenderer::read_words(const Buffer& source, VkDeviceSize first,
-                                                             std::size_t count) {
-    if (count == 0) return std::vector<std::uint32_t>{};
-    const VkDeviceSize size = 4 * static_cast<VkDeviceSize>(count);
-    ORO_TRY(const Buffer buffer,
-            create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::readback, "read back"));
-    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
-        memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                       VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-        const VkBufferCopy copy{4 * first, 0, size};
-        vkCmdCopyBuffer(commands, source.handle.get(), buffer.handle.get(), 1, &copy);
-        memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-    }));
-    std::vector<std::uint32_t> words(count);
-    std::memcpy(words.data(), buffer.mapped, size);
-    return words;
-}
-
-Result<std::vector<std::uint32_t>> FrameRenderer::read_ids(std::uint32_t width, std::uint32_t height) {
-    if (!compute_) {
-        ORO_TRY(const std::vector<std::byte> bytes,
-                read_image(ids_, VK_IMAGE_ASPECT_COLOR_BIT, shader_read, width, height));
-        return as_vector<std::uint32_t>(bytes);
-    }
-    assert(width == last_width_px_);
-    ORO_TRY(std::vector<std::uint32_t> words,
-            read_words(compute_->visibility(), 0, std::size_t{2} * width * height));
-    for (std::size_t i = 0; i < words.size() / 2; ++i) words[i] = words[2 * i];
-    words.resize(words.size() / 2);
-    return words;
-}
-
-Result<std::vector<float>> FrameRenderer::read_depths(std::uint32_t width, std::uint32_t height) {
-    assert(options_.keep_depths && width == last_width_px_);
-    ORO_TRY(const std::vector<std::uint32_t> bits, read_words(depths_, 0, std::size_t{width} * height));
-    std::vector<float> depths(bits.size());
-    std::memcpy(depths.data(), bits.data(), bits.size() * sizeof(float));
-    return depths;
-}
-
-Result<std::vector<std::uint32_t>> FrameRenderer::read_accepted(std::size_t pages) {
-    return read_words(choice_, live_pages_words + live_words * page_capacity_, pages * gpu::accepted_words);
-}
-
-Result<std::vector<std::uint32_t>> FrameRenderer::read_edges(std::size_t pages) {
-    return read_words(choice_, live_pages_words + (live_words + gpu::accepted_words) * page_capacity_,
-                      pages * gpu::edges_words);
-}
-
-std::vector<gpu::vec3> FrameRenderer::recorded() const {
-    std::vector<gpu::vec3> positions(recorded_.size / sizeof(gpu::vec3));
-    std::memcpy(positions.data(), recorded_.mapped, positions.size() * sizeof(gpu::vec3));
-    return positions;
 }
 
 }  // namespace oro

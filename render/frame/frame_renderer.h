@@ -79,8 +79,6 @@ class FrameRenderer {
     Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
                                                   std::size_t count);
     void record(VkCommandBuffer commands, const FramePlan& plan) const;
-    Result<std::vector<std::uint32_t>> read_visibility_words(std::uint32_t width, std::uint32_t height,
-                                                             std::size_t word);
     void record_upload(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_choice(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;

@@ -86,6 +86,58 @@ constexpr std::array<VkSpecializationMapEntry, 3> stage_constants_map{
     VkSpecializationMapEntry{1, offsetof(StageConstants, record_positions), sizeof(VkBool32)},
     VkSpecializationMapEntry{2, offsetof(StageConstants, meshlets_per_group), sizeof(std::uint32_t)}};
 
+// What of the terrain's pipeline is no shader: ids and reversed depth, nothing blended, nothing culled. Its
+// parts point at each other, so it stays where it is.
+class TerrainState {
+  public:
+    TerrainState() {
+        viewport_.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+        viewport_.viewportCount = viewport_.scissorCount = 1;
+        raster_.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+        raster_.cullMode = VK_CULL_MODE_NONE;  // seen from below, the ground still hides what is behind it
+        raster_.lineWidth = 1.0F;
+        samples_.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+        samples_.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+        depth_.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+        depth_.depthTestEnable = depth_.depthWriteEnable = VK_TRUE;
+        depth_.depthCompareOp = VK_COMPARE_OP_GREATER;
+        attachment_.colorWriteMask = VK_COLOR_COMPONENT_R_BIT;
+        blend_.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+        blend_.attachmentCount = 1;
+        blend_.pAttachments = &attachment_;
+        dynamics_.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+        dynamics_.dynamicStateCount = static_cast<std::uint32_t>(dynamic.size());
+        dynamics_.pDynamicStates = dynamic.data();
+        rendering_.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+        rendering_.colorAttachmentCount = 1;
+        rendering_.pColorAttachmentFormats = &id_format;
+        rendering_.depthAttachmentFormat = depth_format;
+    }
+    TerrainState(const TerrainState&) = delete;
+    TerrainState& operator=(const TerrainState&) = delete;
+
+    void put_into(VkGraphicsPipelineCreateInfo& info) const {
+        info.pNext = &rendering_;
+        info.pViewportState = &viewport_;
+        info.pRasterizationState = &raster_;
+        info.pMultisampleState = &samples_;
+        info.pDepthStencilState = &depth_;
+        info.pColorBlendState = &blend_;
+        info.pDynamicState = &dynamics_;
+    }
+
+  private:
+    static constexpr std::array dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    VkPipelineViewportStateCreateInfo viewport_{};
+    VkPipelineRasterizationStateCreateInfo raster_{};
+    VkPipelineMultisampleStateCreateInfo samples_{};
+    VkPipelineDepthStencilStateCreateInfo depth_{};
+    VkPipelineColorBlendAttachmentState attachment_{};
+    VkPipelineColorBlendStateCreateInfo blend_{};
+    VkPipelineDynamicStateCreateInfo dynamics_{};
+    VkPipelineRenderingCreateInfo rendering_{};
+};
+
 Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& pipelines,
                                               StageConstants task_constants, StageConstants mesh_constants) {
     ORO_TRY(const OwnedShader task, create_shader(gpu, terrain_task_spirv, "terrain.task"));
@@ -101,48 +153,12 @@ Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& p
     const std::array stages{stage(VK_SHADER_STAGE_TASK_BIT_EXT, task, &task_info),
                             stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, &mesh_info),
                             stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
-    VkPipelineViewportStateCreateInfo viewport{};
-    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
-    viewport.viewportCount = viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo raster{};
-    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    raster.cullMode = VK_CULL_MODE_NONE;  // seen from below, the ground still hides what is behind it
-    raster.lineWidth = 1.0F;
-    VkPipelineMultisampleStateCreateInfo samples{};
-    samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    VkPipelineDepthStencilStateCreateInfo depth{};
-    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-    depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
-    depth.depthCompareOp = VK_COMPARE_OP_GREATER;
-    VkPipelineColorBlendAttachmentState attachment{};
-    attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT;
-    VkPipelineColorBlendStateCreateInfo blend{};
-    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    blend.attachmentCount = 1;
-    blend.pAttachments = &attachment;
-    constexpr std::array dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    VkPipelineDynamicStateCreateInfo dynamics{};
-    dynamics.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
-    dynamics.dynamicStateCount = static_cast<std::uint32_t>(dynamic.size());
-    dynamics.pDynamicStates = dynamic.data();
-    VkPipelineRenderingCreateInfo rendering{};
-    rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
-    rendering.colorAttachmentCount = 1;
-    rendering.pColorAttachmentFormats = &id_format;
-    rendering.depthAttachmentFormat = depth_format;
-
+    const TerrainState state;
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-    info.pNext = &rendering;
     info.stageCount = static_cast<std::uint32_t>(stages.size());
     info.pStages = stages.data();
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &raster;
-    info.pMultisampleState = &samples;
-    info.pDepthStencilState = &depth;
-    info.pColorBlendState = &blend;
-    info.pDynamicState = &dynamics;
+    state.put_into(info);
     info.layout = pipelines.layout.get();
     VkPipeline handle{};
     ORO_VK(vkCreateGraphicsPipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));

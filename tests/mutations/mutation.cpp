@@ -136,6 +136,30 @@ Verdict judge(const std::function<Found(std::string& said)>& read) {
     return verdict;
 }
 
+// How a case ended, in words for the table, and whether it may end so.
+struct End {
+    std::string how;
+    bool is_wrong{};
+};
+static End end_of(const Verdict& verdict, bool must_tell) {
+    if (verdict.hung) return {"hangs", true};
+    if (verdict.by_signal) return {"signal " + std::to_string(verdict.signal), true};
+    switch (verdict.found) {
+        case Found::unclean:
+            return {"unclean", true};
+        case Found::other:
+            if (must_tell) return {"silently other terrain", true};
+            return {"as the file says", false};
+        case Found::same:
+            return {"same terrain", false};
+        case Found::noted:
+            return {"told in a note", false};
+        case Found::refused:
+            return {"refused", false};
+    }
+    return {"?", true};
+}
+
 void expect_no_silence(const Sample& sample, long cases,
                        const std::function<Found(const fs::path& file, std::string& said)>& read) {
     const fs::path folder = scratch_folder(), kept = fs::path(KEPT_FOLDER);
@@ -161,32 +185,16 @@ void expect_no_silence(const Sample& sample, long cases,
         write_bytes(folder / name, bytes);
         const Verdict verdict = judge([&](std::string& said) { return read(folder / sample.opened, said); });
         const bool must_tell = sample.has_checksum || mutation.cut;
-        std::string how = "refused";
-        std::string wrong;
-        if (verdict.hung) {
-            wrong = "hangs";
-        } else if (verdict.by_signal) {
-            wrong = "signal " + std::to_string(verdict.signal);
-        } else if (verdict.found == Found::unclean) {
-            wrong = "unclean";
-        } else if (verdict.found == Found::other && must_tell) {
-            wrong = "silently other terrain";
-        } else if (verdict.found == Found::other) {
-            how = "as the file says";
-        } else if (verdict.found == Found::same) {
-            how = "same terrain";
-        } else if (verdict.found == Found::noted) {
-            how = "told in a note";
-        }
-        ++ends[wrong.empty() ? how : wrong];
-        if (!wrong.empty()) {
+        const End end = end_of(verdict, must_tell);
+        ++ends[end.how];
+        if (end.is_wrong) {
             fs::create_directories(kept);
             const fs::path copy = kept / (sample.name + "-" + std::to_string(seed()) + "-" +
                                           std::to_string(number) + "-" + name);
             write_bytes(copy, bytes);
             if (++failures <= 20)
                 ADD_FAILURE() << sample.name << ", seed " << seed() << ", case " << number << " ("
-                              << mutation.what << ", " << name << "): " << wrong << ": " << verdict.said
+                              << mutation.what << ", " << name << "): " << end.how << ": " << verdict.said
                               << "\n  kept as " << copy;
         }
         write_bytes(folder / name, before);

@@ -121,6 +121,45 @@ TEST_F(DamagedRegion, ThePageOfTheEye) {
     EXPECT_EQ(names_in(folder), Words{"region.oro"});
 }
 
+struct Command {
+    Words words;
+    const char* writes;  // a file of its folder, which is compared
+};
+// Each command that reads a region, on this one or on a picture of it.
+std::vector<Command> commands_on(const fs::path& region, const fs::path& view) {
+    const std::string time = "2026-01-01T00:00:00Z";
+    return {{{"info", region, "--json"}, nullptr},
+            {{"info", region, "--check"}, nullptr},
+            {{"shot", region, "--size", "48x32", "--tau", "0", "--time", time, "-q", "--out", "out.png"},
+             "out.png"},
+            {{"shot", region, "--size", "48x32", "--tau", "200", "--at", "36.6,-84.2", "--time", time, "-q",
+              "--out", "out.jpg"},
+             "out.jpg"},
+            {{"plan", region, "--size", "48x32", "--at", "36.6,-84.2", "--above", "300", "--time", time, "-q",
+              "--json"},
+             nullptr},
+            {{"compare", view, "-q", "--json"}, nullptr},
+            {{"bake", region, "--bbox", "-84.3,36.5,-84.2,36.6", "-q", "--out", "out.oro"}, "out.oro"}};
+}
+
+struct Answer {
+    Outcome outcome;
+    std::string file;
+};
+// Runs it in a folder of its own, in which only what it writes may be left.
+Answer ask(const Command& command) {
+    oro::test::Circumstances there;
+    there.folder = scratch_folder();
+    Answer answer{run_orograph(command.words, there), ""};
+    const Words left = names_in(there.folder);
+    if (answer.outcome.exit_code != 0 || command.writes == nullptr) {
+        EXPECT_EQ(left, Words{}) << "left behind";
+    } else {
+        answer.file = bytes_of(there.folder / command.writes);
+    }
+    return answer;
+}
+
 // Each command over a file that was changed anywhere. The long run: OROGRAPH_TEST_MUTATIONS=2500.
 TEST_F(DamagedRegion, AnyMutationThroughEachCommand) {
     const fs::path region = baked();
@@ -131,40 +170,7 @@ TEST_F(DamagedRegion, AnyMutationThroughEachCommand) {
     for (const Payload& payload : payloads(bytes)) parts.push_back(payload.offset);
     const fs::path view = folder / "view.png";
     ASSERT_EQ(run_orograph({"shot", region, "--size", "48x32", "--out", view, "-q"}).exit_code, 0);
-    const std::string time = "2026-01-01T00:00:00Z";
-    struct Command {
-        Words words;
-        const char* writes;  // a file of its folder, which is compared
-    };
-    const std::vector<Command> commands{
-        {{"info", region, "--json"}, nullptr},
-        {{"info", region, "--check"}, nullptr},
-        {{"shot", region, "--size", "48x32", "--tau", "0", "--time", time, "-q", "--out", "out.png"},
-         "out.png"},
-        {{"shot", region, "--size", "48x32", "--tau", "200", "--at", "36.6,-84.2", "--time", time, "-q",
-          "--out", "out.jpg"},
-         "out.jpg"},
-        {{"plan", region, "--size", "48x32", "--at", "36.6,-84.2", "--above", "300", "--time", time, "-q",
-          "--json"},
-         nullptr},
-        {{"compare", view, "-q", "--json"}, nullptr},
-        {{"bake", region, "--bbox", "-84.3,36.5,-84.2,36.6", "-q", "--out", "out.oro"}, "out.oro"}};
-    struct Answer {
-        Outcome outcome;
-        std::string file;
-    };
-    const auto ask = [&](const Command& command) {
-        oro::test::Circumstances there;
-        there.folder = scratch_folder();
-        Answer answer{run_orograph(command.words, there), ""};
-        const Words left = names_in(there.folder);
-        if (answer.outcome.exit_code != 0 || command.writes == nullptr) {
-            EXPECT_EQ(left, Words{}) << "left behind";
-        } else {
-            answer.file = bytes_of(there.folder / command.writes);
-        }
-        return answer;
-    };
+    const std::vector<Command> commands = commands_on(region, view);
     std::vector<Answer> whole;
     for (const Command& command : commands) {
         whole.push_back(ask(command));

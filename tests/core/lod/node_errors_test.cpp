@@ -178,6 +178,15 @@ TEST(NodeErrors, VoidsThatEndWithAQuadDoNoHarm) {
     EXPECT_TRUE(std::isinf(NodeErrors(field.grid, heights, 5).height_error(0, 0).own_m));
 }
 
+// A place on a triangle, as (row, column): the middle of its longest edge, which sags most, or any.
+glm::dvec2 place_on(const test::PostTriangle& triangle, bool middle, std::mt19937_64& random) {
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const double u = middle ? 0.5 : std::sqrt(unit(random));
+    const double v = middle ? 1.0 : unit(random);
+    return {(1.0 - u) * triangle[0].row + u * (1.0 - v) * triangle[1].row + u * v * triangle[2].row,
+            (1.0 - u) * triangle[0].column + u * (1.0 - v) * triangle[1].column + u * v * triangle[2].column};
+}
+
 // In space: the sag of flat triangles over the ellipsoid, at all latitudes and spacings.
 TEST(NodeErrors, HoldInSpace) {
     const unsigned seed = 17;
@@ -220,15 +229,10 @@ TEST(NodeErrors, HoldInSpace) {
                 const double bound_m = largest_of(errors.error(row, column), edges);
                 for (const auto& triangle : test::drawn_triangles(heights, grid, row, column, edges)) {
                     for (int sample = 0; sample < 6; ++sample) {
-                        // The longest edge's middle sags most.
-                        const double u = sample == 0 ? 0.5 : std::sqrt(unit(random));
-                        const double v = sample == 0 ? 1.0 : unit(random);
-                        const double r = (1.0 - u) * triangle[0].row + u * (1.0 - v) * triangle[1].row +
-                                         u * v * triangle[2].row;
-                        const double c = (1.0 - u) * triangle[0].column + u * (1.0 - v) * triangle[1].column +
-                                         u * v * triangle[2].column;
-                        const auto finest = test::finest_triangle(heights, r, c);
-                        const double distance_m = glm::distance(on(triangle, r, c), on(*finest, r, c));
+                        const glm::dvec2 at = place_on(triangle, sample == 0, random);
+                        const auto finest = test::finest_triangle(heights, at.x, at.y);
+                        const double distance_m =
+                            glm::distance(on(triangle, at.x, at.y), on(*finest, at.x, at.y));
                         ASSERT_LE(distance_m, bound_m) << run << " level " << level << " at " << north_deg;
                         closest = std::max(closest, distance_m / bound_m);
                         ++places;
