@@ -270,7 +270,7 @@ void expect_order(FaultRuns& runs, const Fault& kind, long dense, long sparse) {
     std::vector<long> numbers;
     for (long number = 1; number <= std::min(dense, count); ++number) numbers.push_back(number);
     for (long i = 0; i < sparse && count > dense; ++i)
-        numbers.push_back(dense + 1 + i * (count - dense - 1) / sparse);
+        numbers.push_back(dense + 1 + i * (count - dense - 1) / std::max(1L, sparse - 1));
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     int wrong = 0;
     for (const long number : numbers) {

@@ -99,8 +99,8 @@ class FaultRuns {
     std::map<std::string, long> ends_;
 };
 
-// Runs a fault at `runs` places among all that there are: at each of the first, then evenly over the rest.
-// Failed expectations tell what was wrong; standard output gets the summary.
+// Runs a fault at places among all that there are: at each of the first `dense`, then at `sparse` of the
+// rest, evenly and to the last. Failed expectations tell what was wrong; standard output gets the summary.
 void expect_order(FaultRuns& runs, const Fault& kind, long dense, long sparse);
 
 // Runs for each kind of fault: OROGRAPH_FAULTS, or few.
