@@ -41,9 +41,9 @@ struct NodeSelection {
 
 // The nodes of a tile of a picture: each place of the region that can be seen is covered by exactly one of
 // them, the levels of two that share an edge differ by at most one, and every full-resolution place in the
-// picture is within tau_px of the one drawn in its stead (and of 3.2e-7 of its distance, the rounding
-// of its place). Pages that cannot be seen are left out with all below them; single nodes of the others are
-// not tested. Level 0 is drawn where nothing coarser will do; tau_px 0 draws it everywhere.
+// picture is within tau_px of the one drawn in its stead (and of placement_far_share of its distance, the
+// rounding of its place). Pages that cannot be seen are left out with all below them; single nodes of the
+// others are not tested. Level 0 is drawn where nothing coarser will do; tau_px 0 draws it everywhere.
 NodeSelection select_nodes(const LevelPyramid& pyramid, const Camera& camera, const Tile& tile,
                            double tau_px);
 

@@ -8,6 +8,7 @@
 
 #include "core/base/median.h"
 #include "core/base/parallel.h"
+#include "core/frame/placement_promise.h"
 #include "core/lod/sampled_detail.h"
 #include "core/terrain/drawn_heights.h"
 
@@ -279,9 +280,8 @@ std::optional<EffectSize> EffectPrediction::known_bound(EffectKind kind) const {
     switch (kind) {
         case EffectKind::steps_f32:
             return bounded([](const Sample&) { return 0.5 * height_step_m; });
-        // Measured: at most 3.2e-7 of the distance, in any direction (docs/ARCHITECTURE.md, Placement).
         case EffectKind::placement:
-            return of_distance(3.2e-7);
+            return of_distance(placement_far_share);
         // A depth is rounded twice, and the triangle's plane that it comes from.
         case EffectKind::depth:
             return of_distance(4.0 * float_rounding);

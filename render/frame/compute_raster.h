@@ -19,7 +19,7 @@ class ComputeRaster {
 
     // Puts its addresses into the frame's constants.
     void address(gpu::FrameConstants& constants) const;
-    // Records all steps, with the frame's push constants already set; `choice` holds LivePages. Leaves the
+    // Records all steps, with the frame's constants already bound; `choice` holds LivePages. Leaves the
     // visibility buffer ready for compute reads.
     void record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan,
                 VkBuffer choice) const;

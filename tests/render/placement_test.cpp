@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <random>
 
+#include "core/frame/placement_promise.h"
 #include "render/frame/picture_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/made_terrain.h"
@@ -98,8 +99,8 @@ TEST_F(PlacementOnGpu, AgreesWithGeographicLibAtAllLatitudes) {
     std::printf("placement on %s against GeographicLib (seed %u)\n", gpu_->report().name.c_str(), seed);
     std::printf("%10s %8s %8s %14s\n", "latitude", "page", "posts", "worst");
     std::size_t posts = 0;
-    for (const double page_m : {4000.0, 12000.0}) {
-        const double bound_m = page_m <= 4000.0 ? 0.001 : 0.002;
+    for (const double page_m : {placement_near_reach_m, 12000.0}) {
+        const double bound_m = page_m <= placement_near_reach_m ? placement_near_m : 0.002;
         for (const double lat_deg : {-89.99, -71.3, -45.0, -12.0, 0.0, 23.4, 46.5, 60.0, 80.0, 89.5, 89.99}) {
             const double lon_deg = std::uniform_real_distribution<double>(-180.0, 180.0)(random);
             const double h0_m = std::uniform_real_distribution<double>(-9000.0, 7000.0)(random);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/frame/frame_tables.h"
+#include "core/frame/placement_promise.h"
 #include "tests/core/terrain/placed_posts.h"
 #include "tests/support/made_terrain.h"
 
@@ -78,7 +79,8 @@ Worst worst_of_tables(const HeightField& field, const Geodetic& eye, Earth earth
                 model_offset_m(earth, eye, {field.grid.lat.at_deg(row), field.grid.lon.at_deg(column), h_m});
             const double error_m = glm::length(test::ecef_from_eye(eye) * glm::dvec3(at) - expected);
             worst.m = std::max(worst.m, error_m);
-            worst.share = std::max(worst.share, error_m / (0.001 + 3.2e-7 * glm::length(expected)));
+            worst.share = std::max(
+                worst.share, error_m / (placement_near_m + placement_far_share * glm::length(expected)));
         }
     }
     return worst;

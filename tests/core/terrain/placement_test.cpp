@@ -13,6 +13,7 @@
 #include <random>
 
 #include "core/frame/frame_tables.h"
+#include "core/frame/placement_promise.h"
 #include "core/terrain/page.h"
 #include "tests/core/terrain/placed_posts.h"
 #include "tests/core/truth/world_field.h"
@@ -211,9 +212,8 @@ TEST(Placement, HoldsForAllThatIsNear) {
     int over_pole = 0;
     for (const double lat_deg : latitudes_deg) {
         std::printf("%-10.2f", lat_deg);
-        // Up to 4 km a millimetre; beyond, another 3.2e-7 of the distance.
-        for (const auto& [reach_m, tolerance_m] :
-             {std::pair{4000.0, 1e-3}, {12000.0, 1e-3 + 3.2e-7 * 12000.0}}) {
+        for (const double reach_m : {placement_near_reach_m, 12000.0}) {
+            const double tolerance_m = placement_error_m(reach_m);
             Worst worst;
             for (int i = 0; i < 20; ++i)
                 place_posts_nearby(random_ground(lat_deg, page_on_the_earth_m(lat_deg, reach_m), random),
@@ -253,14 +253,15 @@ TEST(Placement, FromAfarTheErrorIsAShareOfTheDistance) {
                 for (int k = 0; k < 20; ++k) {
                     const Post post = k == 0 ? beside : random_post(random);
                     const double error_m = frame.error_m(post.row, post.column);
-                    worst = std::max(worst, (error_m - 1.0e-3) / frame.distance_m(post.row, post.column));
+                    worst = std::max(worst,
+                                     (error_m - placement_near_m) / frame.distance_m(post.row, post.column));
                     ++placed;
                 }
             }
         }
         std::printf("%8.0f .. %6.0f km %15.2e %8d\n", bands_m[band] * 1e-3, bands_m[band + 1] * 1e-3, worst,
                     placed);
-        EXPECT_LT(worst, 3.2e-7);
+        EXPECT_LT(worst, placement_far_share);
         EXPECT_GT(placed, 30000);
     }
 }
