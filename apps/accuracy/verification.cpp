@@ -17,8 +17,8 @@ ordered_json summary_json(const ErrorSummary& summary) {
 }
 
 // What is said of some only, where there are any.
-std::string counted(std::uint64_t count, const char* words) {
-    return count == 0 ? std::string() : "; " + std::to_string(count) + words;
+std::string if_any(std::uint64_t count, const char* words) {
+    return count == 0 ? std::string() : "; " + grouped(count) + words;
 }
 
 std::string table_line(const char* what, const ErrorSummary& of) {
@@ -62,12 +62,13 @@ std::string verification_text(const Verification& verification, double tau_px) {
     std::snprintf(
         text, sizeof text,
         "Ground: how far each drawn point is from the true ground at its latitude and longitude, in height "
-        "(m) and on the picture (px). %llu pixels%s.\n"
-        "Skyline: how far the drawn skyline is from the true one. %llu columns%s.\n",
-        static_cast<unsigned long long>(interior.drawn),
-        counted(interior.beyond_data, " of them where there are no data").c_str(),
-        static_cast<unsigned long long>(skyline.summary_px.count),
-        counted(skyline.in_one_only, " more have one in the picture or in truth alone").c_str());
+        "(m) and on the picture (px). %s%s.\n"
+        "Skyline: how far the drawn skyline is from the true one. %s%s.\n",
+        counted(interior.drawn, "pixel", "pixels").c_str(),
+        if_any(interior.beyond_data, " of them where there are no data").c_str(),
+        skyline.summary_px.count == 0 ? "None in view"
+                                      : counted(skyline.summary_px.count, "column", "columns").c_str(),
+        if_any(skyline.in_one_only, " more have one in the picture or in truth alone").c_str());
     std::string all = text;
     char head[120];
     std::snprintf(head, sizeof head, "%-14s%9s   %9s   %9s   %9s\n", "error", "largest", "99.99 %", "99 %",

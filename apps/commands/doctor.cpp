@@ -140,21 +140,12 @@ void print_device(std::size_t number, const Finding& finding) {
             joined(lacks_of(d)).c_str());
         return;
     }
-    if (d.mesh_shader) {
-        std::printf(
-            "             mesh path: task groups of %u (at most %u), mesh groups of %u (at most %u), %u "
-            "vertices, "
-            "%u triangles\n",
-            d.mesh.preferred_task_invocations, d.mesh.max_task_invocations, d.mesh.preferred_mesh_invocations,
-            d.mesh.max_mesh_invocations, d.mesh.max_output_vertices, d.mesh.max_output_primitives);
-    } else {
-        std::printf(
-            "             mesh path: not here (VK_EXT_mesh_shader is missing); the compute path draws\n");
-    }
-    std::printf("             compute path: %s\n",
-                d.compute_raster ? "here" : "not here (64-bit atomics are missing)");
-    std::printf("             auto: %s\n", finding.choice_text().c_str());
-    std::printf("             subgroups of %u, pictures up to %u px a tile, %llu MiB\n", d.subgroup_size,
+    std::printf("             draws with mesh shaders: %s\n",
+                d.mesh_shader ? "yes" : "no (VK_EXT_mesh_shader is missing); with compute shaders alone");
+    std::printf("             draws with compute shaders: %s\n",
+                d.compute_raster ? "yes" : "no (64-bit atomics are missing); with mesh shaders alone");
+    std::printf("             --pipeline auto: %s\n", finding.choice_text().c_str());
+    std::printf("             pictures in parts of up to %u px a side, %llu MiB of memory\n",
                 d.max_picture_side_px, static_cast<unsigned long long>(d.memory_bytes >> 20U));
     if (d.kind == VK_PHYSICAL_DEVICE_TYPE_CPU)
         std::printf("             draws on the processor: right, but slow\n");
