@@ -60,12 +60,12 @@ class Bake {
         hooks.recall = [this](const PageIndex& index, PyramidHooks::Measured& measured) {
             return recall(index, measured);
         };
-        hooks.work = [this](int place, const PyramidPage& page, const gpu::PageBlock&) {
+        hooks.work = [this](int slot, const PyramidPage& page, const gpu::PageBlock&) {
             if (!is_found(page.summary.index))
-                encoded_[static_cast<std::size_t>(place)] = encode_page(page, payload_of(field_, page));
+                encoded_[static_cast<std::size_t>(slot)] = encode_page(page, payload_of(field_, page));
         };
-        hooks.sink = [this](int place, const PyramidPage& page, const gpu::PageBlock&,
-                            const StitchedErrors& stitched) { return take(place, page, stitched); };
+        hooks.sink = [this](int slot, const PyramidPage& page, const gpu::PageBlock&,
+                            const StitchedErrors& stitched) { return take(slot, page, stitched); };
         return hooks;
     }
 
@@ -92,9 +92,9 @@ class Bake {
         return true;
     }
 
-    Result<void> take(int place, const PyramidPage& page, const StitchedErrors& stitched) {
+    Result<void> take(int slot, const PyramidPage& page, const StitchedErrors& stitched) {
         if (fault_) return *fault_;
-        std::optional<Result<EncodedPage>>& encoded = encoded_[static_cast<std::size_t>(place)];
+        std::optional<Result<EncodedPage>>& encoded = encoded_[static_cast<std::size_t>(slot)];
         if (!is_found(page.summary.index)) {
             if (!encoded->ok()) return encoded->error();
             ORO_CHECK(writer_.append(**encoded, stitched));

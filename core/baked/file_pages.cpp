@@ -88,13 +88,13 @@ class FilePosts : public PostSource {
     const Posts& posts_of(const PageIndex& page) const {
         const std::uint64_t number = file_->order().number(page);
         if (!kept_.empty() && kept_.front().number == number) return *kept_.front().posts;
-        const auto found = places_.find(number);
-        if (found != places_.end()) {
+        const auto found = kept_by_number_.find(number);
+        if (found != kept_by_number_.end()) {
             kept_.splice(kept_.begin(), kept_, found->second);
             return *kept_.front().posts;
         }
         if (kept_.size() >= capacity_) {
-            places_.erase(kept_.back().number);
+            kept_by_number_.erase(kept_.back().number);
             kept_.pop_back();
         }
         const auto payload = std::make_unique<PagePayload>();
@@ -103,7 +103,7 @@ class FilePosts : public PostSource {
             payload->H_m.fill(void_height_m);
         }
         kept_.push_front({number, std::make_unique<Posts>(payload->H_m)});
-        places_[number] = kept_.begin();
+        kept_by_number_[number] = kept_.begin();
         return *kept_.front().posts;
     }
 
@@ -111,7 +111,7 @@ class FilePosts : public PostSource {
     std::size_t capacity_;
     mutable std::mutex mutex_;
     mutable std::list<Kept> kept_;
-    mutable std::unordered_map<std::uint64_t, std::list<Kept>::iterator> places_;
+    mutable std::unordered_map<std::uint64_t, std::list<Kept>::iterator> kept_by_number_;
     mutable std::optional<Error> fault_;  // the first
 };
 

@@ -17,7 +17,7 @@
 
 namespace oro {
 
-// What a region file says of the whole region; with its places (core/baked/region_format.h) all that is kept
+// What a region file says of the whole region; with its offsets (core/baked/region_format.h) all that is kept
 // of it in memory.
 struct RegionOutline {
     PostGrid grid;  // up to 2^31 - 256 posts along an axis
@@ -56,7 +56,7 @@ class PageOrder {
 };
 
 // Where the parts of a region file lie; see core/baked/region_format.h.
-struct RegionPlaces {
+struct RegionOffsets {
     std::uint64_t undulation;
     std::uint64_t records;
     std::uint64_t payloads;
@@ -124,7 +124,7 @@ class RegionFileWriter {
     OpenFile partial_;
     OpenFile stitched_;
     PageOrder order_;
-    RegionPlaces places_{};
+    RegionOffsets offsets_{};
     std::vector<std::byte> header_;  // as it is while the file is unfinished
     std::uint64_t pages_done_{0};
     std::uint64_t end_{0};  // of the payloads that are there
@@ -161,7 +161,7 @@ class RegionFile {
     RegionOutline outline_;
     PageOrder order_;
     std::vector<std::byte> header_;  // as it was when the file was opened
-    RegionPlaces places_{};
+    RegionOffsets offsets_{};
     std::uint64_t fingerprint_{};
     std::uint64_t bytes_{};
 };

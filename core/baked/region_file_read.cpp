@@ -84,7 +84,7 @@ Result<void> check_part(const OpenFile& file, const Part& part) {
 }
 
 Result<RegionOutline> read_outline(const OpenFile& file, const RegionHeader& header) {
-    const RegionPlaces places = places_of(header);
+    const RegionOffsets offsets = offsets_of(header);
     RegionOutline outline;
     outline.grid = header.grid;
     outline.undulation.lat = header.undulation_lat;
@@ -95,7 +95,7 @@ Result<RegionOutline> read_outline(const OpenFile& file, const RegionHeader& hea
     outline.voids = header.voids;
     outline.triangles = header.triangles;
     const Part text{"description", header_bytes, header.description_bytes, header.description_checksum};
-    const Part nodes{"undulation", places.undulation, header.undulation_nodes * sizeof(float),
+    const Part nodes{"undulation", offsets.undulation, header.undulation_nodes * sizeof(float),
                      header.undulation_checksum};
     ORO_CHECK(check_part(file, text));
     ORO_CHECK(check_part(file, nodes));
@@ -108,7 +108,7 @@ Result<RegionOutline> read_outline(const OpenFile& file, const RegionHeader& hea
         for (std::size_t i = 0; i < piece.size(); i += sizeof(float))
             outline.undulation.N_m[(at + i) / sizeof(float)] = from_little_endian<float>(&piece[i]);
     }));
-    if (const auto wrong = implausible(outline.undulation.N_m, places.undulation))
+    if (const auto wrong = implausible(outline.undulation.N_m, offsets.undulation))
         return file.damaged(wrong->offset, wrong->what);
     return outline;
 }
@@ -158,7 +158,7 @@ Result<RegionFile> RegionFile::open(const std::string& path) {
     ORO_TRY(RegionOutline outline, read_outline(file, header));
     RegionFile region(std::move(file), std::move(outline));
     region.header_.assign(front.begin(), front.end());
-    region.places_ = places_of(header);
+    region.offsets_ = offsets_of(header);
     region.fingerprint_ = header.fingerprint;
     region.bytes_ = header.file_bytes;
     ORO_CHECK(region.check_end());
@@ -169,11 +169,11 @@ Result<RegionFile> RegionFile::open(const std::string& path) {
 // was stopped or a forgery, has no such record.
 Result<void> RegionFile::check_end() const {
     const std::uint64_t last = order_.count() - 1;
-    ORO_TRY(const StoredRecord stored, read_record(file_, places_, order_, last, bytes_));
+    ORO_TRY(const StoredRecord stored, read_record(file_, offsets_, order_, last, bytes_));
     const std::uint64_t end = stored.payload_offset + stored.payload_bytes;
     if (end == bytes_) return {};
     return file_.damaged(
-        places_.records + last * record_bytes,
+        offsets_.records + last * record_bytes,
         "its payloads end at byte " + std::to_string(end) + ", expected at byte " + std::to_string(bytes_));
 }
 
@@ -187,14 +187,14 @@ Result<void> RegionFile::check_unchanged() const {
 }
 
 Result<PageRecord> RegionFile::record(PageIndex index) const {
-    const auto stored = read_record(file_, places_, order_, order_.number(index), bytes_);
+    const auto stored = read_record(file_, offsets_, order_, order_.number(index), bytes_);
     ORO_CHECK(check_unchanged());
     if (!stored.ok()) return stored.error();
     return stored->page;
 }
 
 Result<void> RegionFile::payload(PageIndex index, PagePayload& payload) const {
-    const auto stored = read_record(file_, places_, order_, order_.number(index), bytes_);
+    const auto stored = read_record(file_, offsets_, order_, order_.number(index), bytes_);
     const Result<void> read =
         stored.ok() ? read_payload(file_, *stored, payload) : Result<void>(stored.error());
     ORO_CHECK(check_unchanged());
@@ -202,12 +202,12 @@ Result<void> RegionFile::payload(PageIndex index, PagePayload& payload) const {
 }
 
 Result<void> RegionFile::verify() const {
-    std::uint64_t end = places_.payloads;
+    std::uint64_t end = offsets_.payloads;
     const auto payload = std::make_unique<PagePayload>();
     for (std::uint64_t number = 0; number < order_.count(); ++number) {
-        ORO_TRY(const StoredRecord stored, read_record(file_, places_, order_, number, bytes_));
+        ORO_TRY(const StoredRecord stored, read_record(file_, offsets_, order_, number, bytes_));
         if (stored.payload_offset != end)
-            return file_.damaged(places_.records + number * record_bytes,
+            return file_.damaged(offsets_.records + number * record_bytes,
                                  "a payload from byte " + std::to_string(stored.payload_offset) +
                                      ", expected from byte " + std::to_string(end));
         ORO_CHECK(read_payload(file_, stored, *payload));

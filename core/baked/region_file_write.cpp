@@ -189,9 +189,9 @@ Result<RegionFileWriter> RegionFileWriter::create(const std::string& path, const
 
 Result<void> RegionFileWriter::start_or_resume(std::vector<std::byte> beginning) {
     header_.assign(beginning.begin(), beginning.begin() + header_bytes);
-    places_.records = beginning.size();
-    places_.payloads = places_.records + order_.count() * record_bytes;
-    end_ = places_.payloads;
+    offsets_.records = beginning.size();
+    offsets_.payloads = offsets_.records + order_.count() * record_bytes;
+    end_ = offsets_.payloads;
     ORO_TRY(const std::uint64_t found_bytes, partial_.size());
     bool same = found_bytes >= beginning.size();
     bool begun_to_finish = false;
@@ -223,11 +223,11 @@ Result<void> RegionFileWriter::start_or_resume(std::vector<std::byte> beginning)
 }
 
 Result<void> RegionFileWriter::find_pages_done(bool needs_stitched) {
-    end_ = places_.payloads;
+    end_ = offsets_.payloads;
     pages_done_ = 0;
     ORO_TRY(const std::uint64_t found_bytes, partial_.size());
     for (; pages_done_ < order_.count(); ++pages_done_) {
-        const auto record = read_record(partial_, places_, order_, pages_done_, found_bytes);
+        const auto record = read_record(partial_, offsets_, order_, pages_done_, found_bytes);
         if (!record.ok() || record->payload_offset != end_) break;
         if (!read_payload(partial_, *record).ok()) break;
         if (needs_stitched && !read_stitched(stitched_, pages_done_, nullptr).ok()) break;
@@ -238,12 +238,12 @@ Result<void> RegionFileWriter::find_pages_done(bool needs_stitched) {
 
 // These read nothing that append() changes, so that they may be called beside it.
 Result<PageRecord> RegionFileWriter::record(std::uint64_t number) const {
-    ORO_TRY(const StoredRecord stored, read_record(partial_, places_, order_, number, largest_file));
+    ORO_TRY(const StoredRecord stored, read_record(partial_, offsets_, order_, number, largest_file));
     return stored.page;
 }
 
 Result<void> RegionFileWriter::payload(std::uint64_t number, PagePayload& payload) const {
-    ORO_TRY(const StoredRecord stored, read_record(partial_, places_, order_, number, largest_file));
+    ORO_TRY(const StoredRecord stored, read_record(partial_, offsets_, order_, number, largest_file));
     return read_payload(partial_, stored, payload);
 }
 
@@ -269,7 +269,7 @@ Result<void> RegionFileWriter::append(const EncodedPage& page, const StitchedErr
     ORO_CHECK(stitched_.write(pages_done_ * stitched_bytes, errors));
     ORO_CHECK(partial_.write(end_, page.payload));
     const auto bytes = static_cast<std::uint32_t>(page.payload.size());
-    ORO_CHECK(partial_.write(places_.records + pages_done_ * record_bytes,
+    ORO_CHECK(partial_.write(offsets_.records + pages_done_ * record_bytes,
                              record_to_bytes({page.record, end_, bytes, page.checksum})));
     end_ += bytes;
     ++pages_done_;

@@ -193,12 +193,12 @@ RegionHeader header_from_bytes(const HeaderBytes& bytes) {
     return header;
 }
 
-RegionPlaces places_of(const RegionHeader& header) {
-    RegionPlaces places{};
-    places.undulation = header_bytes + header.description_bytes;
-    places.records = places.undulation + header.undulation_nodes * sizeof(float);
-    places.payloads = places.records + header.pages * record_bytes;
-    return places;
+RegionOffsets offsets_of(const RegionHeader& header) {
+    RegionOffsets offsets{};
+    offsets.undulation = header_bytes + header.description_bytes;
+    offsets.records = offsets.undulation + header.undulation_nodes * sizeof(float);
+    offsets.payloads = offsets.records + header.pages * record_bytes;
+    return offsets;
 }
 
 std::vector<std::byte> beginning_of(const RegionOutline& outline, std::uint64_t fingerprint) {
@@ -243,9 +243,9 @@ std::optional<std::string> implausible(const PageRecord& record, PageIndex expec
     return std::nullopt;
 }
 
-Result<StoredRecord> read_record(const OpenFile& file, const RegionPlaces& places, const PageOrder& order,
+Result<StoredRecord> read_record(const OpenFile& file, const RegionOffsets& offsets, const PageOrder& order,
                                  std::uint64_t number, std::uint64_t end) {
-    const std::uint64_t offset = places.records + number * record_bytes;
+    const std::uint64_t offset = offsets.records + number * record_bytes;
     RecordBytes bytes;
     ORO_CHECK(file.read(offset, bytes));
     const std::uint64_t computed = xxh64(std::span(bytes).first(record_bytes - 8));
@@ -261,11 +261,11 @@ Result<StoredRecord> read_record(const OpenFile& file, const RegionPlaces& place
     if (record.payload_bytes == 0 || record.payload_bytes > largest_payload_bytes)
         return file.damaged(offset, "a payload of " + std::to_string(record.payload_bytes) +
                                         " bytes, expected 1 to " + std::to_string(largest_payload_bytes));
-    if (record.payload_offset < places.payloads || record.payload_offset > end ||
+    if (record.payload_offset < offsets.payloads || record.payload_offset > end ||
         record.payload_bytes > end - record.payload_offset)
         return file.damaged(offset, "a payload of " + std::to_string(record.payload_bytes) +
                                         " bytes from byte " + std::to_string(record.payload_offset) +
-                                        ", expected between bytes " + std::to_string(places.payloads) +
+                                        ", expected between bytes " + std::to_string(offsets.payloads) +
                                         " and " + std::to_string(end));
     return record;
 }

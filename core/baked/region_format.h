@@ -72,7 +72,7 @@ struct Implausible {
 [[nodiscard]] std::optional<Implausible> implausible(std::span<const float> N_m, std::uint64_t offset);
 
 // For a header that is plausible.
-[[nodiscard]] RegionPlaces places_of(const RegionHeader& header);
+[[nodiscard]] RegionOffsets offsets_of(const RegionHeader& header);
 
 // The header of an unfinished file, the description and the undulation: all before the records. For an
 // outline that is plausible.
@@ -92,7 +92,7 @@ using RecordBytes = std::array<std::byte, record_bytes>;
 [[nodiscard]] std::optional<std::string> implausible(const PageRecord& record, PageIndex expected);
 
 // Reads the record of page `number`, whose payload must lie wholly before byte `end`.
-[[nodiscard]] Result<StoredRecord> read_record(const OpenFile& file, const RegionPlaces& places,
+[[nodiscard]] Result<StoredRecord> read_record(const OpenFile& file, const RegionOffsets& offsets,
                                                const PageOrder& order, std::uint64_t number,
                                                std::uint64_t end);
 // Reads a payload and checks it against its record; the bytes as they are, not decoded.

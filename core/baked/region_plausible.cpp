@@ -147,7 +147,7 @@ std::optional<Implausible> implausible(const RegionHeader& header) {
                      static_cast<std::uint64_t>(header.header_size), said(std::uint64_t{header_bytes}));
     const std::uint64_t pages = PageOrder(header.grid).count();
     findings.require(header.pages == pages, at_pages, "pages", header.pages, said(pages));
-    const std::uint64_t least = places_of(header).payloads;
+    const std::uint64_t least = offsets_of(header).payloads;
     if (header.file_bytes != 0)
         findings.require(header.file_bytes >= least && header.file_bytes <= largest_file, at_file_bytes,
                          "file bytes", header.file_bytes, said(least) + " or more");

@@ -18,7 +18,7 @@
 namespace oro {
 namespace {
 
-using Place = std::pair<int, int>;  // (row, column) of a page in its level
+using PageCoord = std::pair<int, int>;  // (row, column) of a page in its level
 
 // A page that can be seen and is needed.
 struct WantedPage {
@@ -29,7 +29,7 @@ struct WantedPage {
     double distance_m{};
     std::uint32_t number{gpu::no_page};  // in the frame
 };
-using WantedLevel = std::map<Place, WantedPage>;
+using WantedLevel = std::map<PageCoord, WantedPage>;
 
 // One frame's choice among a region's pages.
 class PageChoice {
@@ -122,7 +122,7 @@ Result<void> PageChoice::want(const PageIndex& index) {
     page.distance_m = std::max(0.0, glm::length(seen.centre_m) - seen.radius_m);
     page.address = residency_(index);
     page.record = std::move(record);
-    level(index.level).emplace(Place{index.row, index.column}, std::move(page));
+    level(index.level).emplace(PageCoord{index.row, index.column}, std::move(page));
     return {};
 }
 
@@ -147,7 +147,8 @@ Result<void> PageChoice::descend(WantedPage& page) {
 std::array<PageIndex, 4> PageChoice::beside_parents(const PageIndex& index,
                                                     std::array<bool, 4>& there) const {
     const PageLayout layout = pages_.layout(index.level);
-    constexpr std::array<Place, 4> steps{Place{-1, 0}, Place{0, 1}, Place{1, 0}, Place{0, -1}};
+    constexpr std::array<PageCoord, 4> steps{PageCoord{-1, 0}, PageCoord{0, 1}, PageCoord{1, 0},
+                                             PageCoord{0, -1}};
     std::array<PageIndex, 4> parents;
     for (std::size_t i = 0; i < 4; ++i) {
         const int row = index.row + steps[i].first;
@@ -164,7 +165,7 @@ std::array<PageIndex, 4> PageChoice::beside_parents(const PageIndex& index,
 // what is drawn beside it is then at most one level coarser.
 void PageChoice::open_level(int number) {
     const bool top = number == pages_.levels() - 1;
-    for (auto& [place, page] : level(number)) {
+    for (auto& [coord, page] : level(number)) {
         page.open = page.address != 0;
         if (top) continue;
         WantedLevel& above = level(number + 1);
@@ -189,7 +190,7 @@ Result<void> PageChoice::choose() {
     ORO_CHECK(want({0, 0, top}));
     for (int number = top; number >= 0; --number) {
         open_level(number);
-        for (auto& [place, page] : level(number)) ORO_CHECK(descend(page));
+        for (auto& [coord, page] : level(number)) ORO_CHECK(descend(page));
     }
     return {};
 }
@@ -199,7 +200,7 @@ void PageChoice::number_pages(FramePlan& plan) {
     std::vector<const WantedPage*> missing;
     for (WantedLevel& wanted : levels_) {
         plan.pages_wanted += wanted.size();
-        for (auto& [place, page] : wanted) {
+        for (auto& [coord, page] : wanted) {
             if (page.open) open.push_back(&page);
             if (page.address == 0) missing.push_back(&page);
         }

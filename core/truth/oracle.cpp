@@ -52,8 +52,8 @@ class Oracle::Search {
     std::optional<SightHit> first_hit();
 
   private:
-    // A place on the sight line, by grid: row and column fractional, column in the whole turn of a cell's.
-    struct Place {
+    // A point of the sight line, by grid: row and column fractional, column in the whole turn of a cell's.
+    struct RayPoint {
         double t_m;
         double row;
         double column;
@@ -65,13 +65,13 @@ class Oracle::Search {
         Span span;
     };
 
-    [[nodiscard]] Place place(double t_m, double near_column) const;
+    [[nodiscard]] RayPoint point_at(double t_m, double near_column) const;
     [[nodiscard]] Span between_meridians(const Block& block, Span span) const;
     void search_block(const Block& block, const Span& box);
-    void walk(const Block& block, const Place& from, const Place& to, int depth);
+    void walk(const Block& block, const RayPoint& from, const RayPoint& to, int depth);
     // A piece of the line that is all but straight in rows and columns, and a parabola in height: its places
     // at shares 0, 1/2 and 1.
-    using Piece = std::array<Place, 3>;
+    using Piece = std::array<RayPoint, 3>;
     // A triangle's plane in (row, column), h = h_m + down_m * row + right_m * column, both from the cell's
     // corner.
     struct Triangle {
@@ -81,10 +81,10 @@ class Oracle::Search {
         double h_m;
         double down_m;
         double right_m;
-        [[nodiscard]] double above_m(const Place& place) const {
-            return place.h_m - h_m - down_m * (place.row - row) - right_m * (place.column - column);
+        [[nodiscard]] double above_m(const RayPoint& point) const {
+            return point.h_m - h_m - down_m * (point.row - row) - right_m * (point.column - column);
         }
-        [[nodiscard]] bool holds(const Place& place, double slack) const;
+        [[nodiscard]] bool holds(const RayPoint& point, double slack) const;
     };
     void search_piece(const Block& block, const Piece& piece);
     void search_cell(int row, int column, const Piece& piece);
@@ -108,7 +108,7 @@ constexpr double search_slack = 0.02;
 
 }  // namespace
 
-Oracle::Search::Place Oracle::Search::place(double t_m, double near_column) const {
+Oracle::Search::RayPoint Oracle::Search::point_at(double t_m, double near_column) const {
     const Sight& sight = scenery_.sight;
     const Geodetic point = geodetic_from_ecef({sight.eye.m + sight.refraction.true_m(t_m * direction_)});
     const double turn = 360.0 * grid_.lon.posts_per_deg;
@@ -195,13 +195,14 @@ void Oracle::Search::search_block(const Block& block, const Span& box) {
     const Span span = between_meridians(block, {box.begin_m, std::min(box.end_m, nearest_m_)});
     if (!(span.begin_m <= span.end_m)) return;
     const double middle_column = (block.column + 0.5) * TrueSurface::block_cells;
-    walk(block, place(span.begin_m, middle_column), place(span.end_m, middle_column), 0);
+    walk(block, point_at(span.begin_m, middle_column), point_at(span.end_m, middle_column), 0);
 }
 
 // Cuts the line until it is all but straight in rows and columns.
-void Oracle::Search::walk(const Block& block, const Place& from, const Place& to, int depth) {
+void Oracle::Search::walk(const Block& block, const RayPoint& from, const RayPoint& to, int depth) {
     if (from.t_m >= nearest_m_) return;
-    const Place middle = place(0.5 * (from.t_m + to.t_m), (block.column + 0.5) * TrueSurface::block_cells);
+    const RayPoint middle =
+        point_at(0.5 * (from.t_m + to.t_m), (block.column + 0.5) * TrueSurface::block_cells);
     const bool straight = std::abs(middle.row - 0.5 * (from.row + to.row)) < 0.005 &&
                           std::abs(middle.column - 0.5 * (from.column + to.column)) < 0.005;
     constexpr double short_enough_m = 20000.0;  // what a parabola follows to 1 cm
@@ -264,8 +265,8 @@ void Oracle::Search::search_cell(int row, int column, const Piece& piece) {
             {row, column, false, *north_west, *south_east - *north_east, *north_east - *north_west}, piece);
 }
 
-bool Oracle::Search::Triangle::holds(const Place& place, double slack) const {
-    const double down = place.row - row, right = place.column - column;
+bool Oracle::Search::Triangle::holds(const RayPoint& point, double slack) const {
+    const double down = point.row - row, right = point.column - column;
     if (down < -slack || right < -slack || down > 1.0 + slack || right > 1.0 + slack) return false;
     return south_west ? down >= right - slack : right >= down - slack;
 }
@@ -302,11 +303,11 @@ bool Oracle::Search::take_root(const Triangle& triangle, const Piece& piece, dou
     double t_m = piece[0].t_m + share * length_m;
     if (t_m - nearest_m_ > search_slack * length_m) return false;
     const double exact_m = 1.0e-9 + 4.0e-16 * t_m;
-    Place here = place(t_m, triangle.column + 0.5);
+    RayPoint here = point_at(t_m, triangle.column + 0.5);
     if (!triangle.holds(here, 2.0 * search_slack)) return false;
     double above_m = triangle.above_m(here);
     for (int step = 0; step < 8 && std::abs(above_m) > exact_m && rise != 0.0; ++step) {
-        const Place next = place(t_m - above_m / rise, triangle.column + 0.5);
+        const RayPoint next = point_at(t_m - above_m / rise, triangle.column + 0.5);
         const double next_m = triangle.above_m(next);
         if (!(std::abs(next_m) < std::abs(above_m))) break;  // no better: as exact as doubles are here
         here = next;

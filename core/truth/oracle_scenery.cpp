@@ -30,11 +30,11 @@ Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from) : surface(of)
 }
 
 glm::dvec3 Oracle::Scenery::seen(int row, int column, double h_m) const {
-    const RowPlace& place = rows[static_cast<std::size_t>(row)];
+    const RowTerms& terms = rows[static_cast<std::size_t>(row)];
     const SineCosine& lon = columns[static_cast<std::size_t>(column)];
-    const double rho_m = (place.normal_m + h_m) * place.cosine;
+    const double rho_m = (terms.normal_m + h_m) * terms.cosine;
     const glm::dvec3 ecef(rho_m * lon.cosine, rho_m * lon.sine,
-                          (place.normal_m * (1.0 - wgs84_e2) + h_m) * place.sine);
+                          (terms.normal_m * (1.0 - wgs84_e2) + h_m) * terms.sine);
     return frame_from_ecef * sight.refraction.apparent_m(ecef - sight.eye.m);
 }
 

@@ -14,7 +14,7 @@ namespace oro {
 class Oracle::Scenery {
   public:
     // A row's posts are at ((N + h) cos lat cos lon, (N + h) cos lat sin lon, (N (1 - e2) + h) sin lat).
-    struct RowPlace {
+    struct RowTerms {
         double normal_m;
         double cosine;
         double sine;
@@ -25,7 +25,7 @@ class Oracle::Scenery {
     const TrueSurface& surface;
     const Sight sight;
     glm::dmat3 frame_from_ecef;
-    std::vector<RowPlace> rows;  // of the grid, each block_cells-th and the last
+    std::vector<RowTerms> rows;  // of the grid, each block_cells-th and the last
     std::vector<SineCosine> columns;
 
     // Where a point of the grid is seen from the eye, in the frame.

@@ -46,7 +46,7 @@ void mend(std::vector<std::byte>& bytes) {
     std::copy_n(bytes.begin(), header_bytes, front.begin());
     const RegionHeader header = header_from_bytes(front);
     if (!implausible(header)) {  // then the sizes fit the file
-        const RegionPlaces places = places_of(header);
+        const RegionOffsets places = offsets_of(header);
         const std::span<std::byte> all(bytes);
         to_little_endian(xxh64(all.subspan(header_bytes, header.description_bytes)), &bytes[232]);
         to_little_endian(xxh64(all.subspan(places.undulation, header.undulation_nodes * 4)), &bytes[240]);

@@ -272,7 +272,7 @@ void write_with_holes(const fs::path& path, const RegionOutline& outline, std::u
     header.pages = PageOrder(outline.grid).count();
     header.description_checksum = xxh64(std::as_bytes(std::span(outline.description)));
     header.undulation_checksum = nodes == 0 ? xxh64({}) : 0;
-    header.file_bytes = region_format::places_of(header).payloads + header.pages;
+    header.file_bytes = region_format::offsets_of(header).payloads + header.pages;
     const auto front = region_format::header_to_bytes(header);
     put(path, std::string(reinterpret_cast<const char*>(front.data()), front.size()) + outline.description);
     fs::resize_file(path, header.file_bytes);

@@ -39,8 +39,8 @@ class DamagedPosts : public testing::Test {
         const std::uint64_t records = region_format::header_bytes + file->outline().description.size() +
                                       4 * file->outline().undulation.N_m.size();
         const std::uint64_t count = file->order().count();
-        const RegionPlaces places{0, records, records + count * region_format::record_bytes};
-        const auto record = region_format::read_record(*input, places, file->order(),
+        const RegionOffsets offsets{0, records, records + count * region_format::record_bytes};
+        const auto record = region_format::read_record(*input, offsets, file->order(),
                                                        file->order().number({1, 1, 0}), file->bytes());
         EXPECT_TRUE(record.ok());
         std::string bytes = content(path_);
