@@ -1,11 +1,11 @@
-// The part of NodeErrors that is about single triangles and edges beside a coarser node.
+// The part of NodeDeviations that is about single triangles and edges beside a coarser node.
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "core/earth/extremes.h"
 #include "core/lod/levels_gpu.h"
-#include "core/lod/node_errors.h"
+#include "core/lod/node_deviations.h"
 
 namespace oro {
 namespace {
@@ -17,8 +17,9 @@ constexpr int node_quads = static_cast<int>(gpu::meshlet_quads);
 // Every triangle that some combination of stitched edges has and the node without them has not. One edge
 // changes the triangles along it; two change others only where they meet, so all pairs are gone through, and
 // all four together for nodes so narrow that opposite edges meet.
-std::vector<NodeErrors::Stitched> NodeErrors::stitched_triangles(std::uint32_t rows, std::uint32_t columns,
-                                                                 std::uint32_t edges) {
+std::vector<NodeDeviations::Stitched> NodeDeviations::stitched_triangles(std::uint32_t rows,
+                                                                         std::uint32_t columns,
+                                                                         std::uint32_t edges) {
     std::vector<Stitched> found;
     const auto known = [&](const Stitched& candidate) {
         return std::any_of(found.begin(), found.end(), [&](const Stitched& other) {
@@ -53,7 +54,7 @@ std::vector<NodeErrors::Stitched> NodeErrors::stitched_triangles(std::uint32_t r
 
 // Largest difference along an edge of a triangle that is none of the full-resolution surface's, in steps:
 // where it crosses that surface's edges.
-double NodeErrors::crossing_error(const Post& from, const Post& to) const {
+double NodeDeviations::crossing_deviation(const Post& from, const Post& to) const {
     const int down = to.row - from.row;
     const int right = to.column - from.column;
     if (down == 0 || right == 0 || down == right) return 0.0;
@@ -98,7 +99,7 @@ double NodeErrors::crossing_error(const Post& from, const Post& to) const {
 }
 
 // Largest difference over a triangle, in steps; infinite when a post in it is void.
-double NodeErrors::triangle_error(const Triangle& triangle) const {
+double NodeDeviations::triangle_deviation(const Triangle& triangle) const {
     const auto& [a, b, c] = triangle;
     const double h = heights_.at(a.row, a.column);
     const double hb = heights_.at(b.row, b.column) - h;
@@ -130,12 +131,13 @@ double NodeErrors::triangle_error(const Triangle& triangle) const {
             extremes.add(steps[column] - (in_row + per_column * (column - a.column)));
         }
     }
-    return std::max({extremes.magnitude(), crossing_error(a, b), crossing_error(b, c), crossing_error(c, a)});
+    return std::max(
+        {extremes.magnitude(), crossing_deviation(a, b), crossing_deviation(b, c), crossing_deviation(c, a)});
 }
 
 // Stitching joins two quads of an edge: with voids it keeps the covered area only where both are wholly
 // covered or both are not at all. The edges, as bits, where that is not so.
-std::uint32_t NodeErrors::unfit_edges(const std::array<Cover, 64>& covers, int rows, int columns) {
+std::uint32_t NodeDeviations::unfit_edges(const std::array<Cover, 64>& covers, int rows, int columns) {
     std::uint32_t unfit = 0;
     const auto join = [&](std::uint32_t edge, int row, int column, int next_row, int next_column) {
         const Cover cover = covers[static_cast<std::size_t>(row * node_quads + column)];
@@ -154,14 +156,14 @@ std::uint32_t NodeErrors::unfit_edges(const std::array<Cover, 64>& covers, int r
 }
 
 // In steps; infinite where a triangle is drawn over voids.
-PerEdge NodeErrors::stitched_error(int node_row, int node_column, std::uint32_t edges) const {
+PerEdge NodeDeviations::stitched_deviation(int node_row, int node_column, std::uint32_t edges) const {
     const int rows = level_.row.quads_of_node(node_row);
     const int columns = level_.column.quads_of_node(node_column);
     const bool whole = rows == node_quads && columns == node_quads;
     const std::vector<Stitched> own = whole ? std::vector<Stitched>{}
                                             : stitched_triangles(static_cast<std::uint32_t>(rows),
                                                                  static_cast<std::uint32_t>(columns), edges);
-    PerEdge error{};
+    PerEdge deviation{};
     for (const Stitched& stitched : whole ? whole_node_ : own) {
         if ((stitched.edges & edges) != stitched.edges) continue;
         Triangle triangle;
@@ -172,16 +174,16 @@ PerEdge NodeErrors::stitched_error(int node_row, int node_column, std::uint32_t 
                 level_.column.region_post(node_column * node_quads + static_cast<int>(stitched.posts[i][1]))};
             dropped = dropped || heights_.at(triangle[i].row, triangle[i].column) == void_height_steps;
         }
-        double& of_edge = error[static_cast<std::size_t>(std::countr_zero(stitched.edges))];
-        if (!dropped) of_edge = std::max(of_edge, triangle_error(triangle));
+        double& of_edge = deviation[static_cast<std::size_t>(std::countr_zero(stitched.edges))];
+        if (!dropped) of_edge = std::max(of_edge, triangle_deviation(triangle));
     }
-    return error;
+    return deviation;
 }
 
 // The same for a whole node of level 0 without voids, where only two places of a pair of quads can be the
 // worst: the post that is left out, and the one crossing of an edge that is new. In halves of a step, so that
 // it is exact.
-PerEdge NodeErrors::finest_stitched_error(int node_row, int node_column) const {
+PerEdge NodeDeviations::finest_stitched_deviation(int node_row, int node_column) const {
     const int north = node_row * node_quads;
     const int west = node_column * node_quads;
     std::array<std::int64_t, 4> twice{};
@@ -207,9 +209,9 @@ PerEdge NodeErrors::finest_stitched_error(int node_row, int node_column) const {
         compare(3, above[0], below[0], row[0], row[0]);
         compare(3, above[0], below[1], row[0], row[1]);
     }
-    PerEdge error{};
-    for (std::size_t i = 0; i < 4; ++i) error[i] = 0.5 * static_cast<double>(twice[i]);
-    return error;
+    PerEdge deviation{};
+    for (std::size_t i = 0; i < 4; ++i) deviation[i] = 0.5 * static_cast<double>(twice[i]);
+    return deviation;
 }
 
 }  // namespace oro

@@ -10,7 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/lod/levels_gpu.h"
-#include "core/lod/node_errors.h"
+#include "core/lod/node_deviations.h"
 
 namespace oro {
 namespace {
@@ -53,7 +53,7 @@ class LevelBuilder {
           level_(level),
           grid_(level_grid(region, level)),
           below_(level > 0 ? &pyramid.levels[static_cast<std::size_t>(level - 1)] : nullptr),
-          errors_(region, heights, level),
+          deviations_(region, heights, level),
           stitched_m_(grid_.pages().count()),
           stitched_below_m_(std::move(stitched_below_m)) {}
 
@@ -79,7 +79,7 @@ class LevelBuilder {
     int level_;
     LevelGrid grid_;
     const PyramidLevel* below_;
-    NodeErrors errors_;
+    NodeDeviations deviations_;
     std::vector<StitchedErrors> stitched_m_;
     std::vector<StitchedErrors> stitched_below_m_;
 };
@@ -110,12 +110,12 @@ void LevelBuilder::visit_nodes_below(int node_row, int node_column, const Visit&
 // by its word alone: its error is at least that of their stitched triangles.
 void LevelBuilder::finish_node(int node_row, int node_column, const PageSummary& page,
                                gpu::MeshletBounds& bounds) {
-    const NodeError error = errors_.error(node_row, node_column);
+    const NodeDeviation deviation = deviations_.deviation(node_row, node_column);
     for (std::size_t i = 0; i < 4; ++i)
         of_node(stitched_m_, grid_, node_row, node_column)[i] = std::min(
-            static_cast<float>(rounded_up(std::min<double>(error.stitched_m[i], gpu::unfit_error_m))),
+            static_cast<float>(rounded_up(std::min<double>(deviation.stitched_m[i], gpu::unfit_error_m))),
             gpu::unfit_error_m);
-    double error_m = std::min<double>(error.own_m, gpu::unfit_error_m);
+    double error_m = std::min<double>(deviation.own_m, gpu::unfit_error_m);
     const bool fits = error_m < gpu::unfit_error_m;
     if (bounds.radius < 0.0F) {
         // Nothing is drawn for it; it is unfit when there is something that should be.

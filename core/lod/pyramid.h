@@ -74,7 +74,7 @@ struct LevelPyramid {
 // caller's thread. The block is good during the call only.
 using PageSink = std::function<void(const PyramidPage& page, const gpu::PageBlock& block)>;
 
-// Errors of the four stitched edges of each node of a page (NodeError::stitched_m), rounded up.
+// Errors of the four stitched edges of each node of a page (NodeDeviation::stitched_m), rounded up.
 using StitchedErrors = std::array<std::array<float, 4>, gpu::meshlets_per_page>;
 
 // What a builder does beside building; any of them may be empty.

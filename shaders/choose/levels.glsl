@@ -7,7 +7,7 @@ ORO_CONST uint edge_east = 2u;
 ORO_CONST uint edge_south = 4u;
 ORO_CONST uint edge_west = 8u;
 
-// The error of a node that cannot stand for what it covers (see core/lod/node_errors.h).
+// The error of a node that cannot stand for what it covers (see core/lod/node_deviations.h).
 ORO_CONST float unfit_error_m = 1.0e30f;
 
 // Upper bound of the distance on the screen, in pixels, between a point and another at most error_m away, when one of the two

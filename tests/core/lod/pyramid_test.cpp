@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/lod/levels_gpu.h"
-#include "core/lod/node_errors.h"
+#include "core/lod/node_deviations.h"
 #include "tests/core/truth/world_field.h"
 #include "tests/support/rough_terrain.h"
 
@@ -140,13 +140,13 @@ TEST(Pyramid, ErrorsAreThoseOfTheNodesOrMore) {
     const DrawnHeights heights = drawn_heights(field, 1.0, 1);
     for (std::size_t k = 0; k < pyramid.levels.size(); ++k) {
         const PyramidLevel& level = pyramid.levels[k];
-        const NodeErrors errors(field.grid, heights, static_cast<int>(k));
+        const NodeDeviations deviations(field.grid, heights, static_cast<int>(k));
         double sum_m = 0.0, saturated_sum_m = 0.0;
         for (int row = 0; row < level.grid.row.nodes(); ++row) {
             for (int column = 0; column < level.grid.column.nodes(); ++column) {
                 ASSERT_GE(static_cast<double>(level.node(row, column).error_m),
-                          errors.error(row, column).own_m);
-                sum_m += errors.error(row, column).own_m;
+                          deviations.deviation(row, column).own_m);
+                sum_m += deviations.deviation(row, column).own_m;
                 saturated_sum_m += static_cast<double>(level.node(row, column).error_m);
             }
         }
@@ -161,19 +161,19 @@ TEST(Pyramid, ErrorsHoldWhatIsStitchedToTheNode) {
     const DrawnHeights heights = drawn_heights(field, 1.0, 1);
     for (std::size_t k = 0; k + 1 < pyramid.levels.size(); ++k) {
         const LevelGrid& grid = pyramid.levels[k].grid;
-        const NodeErrors errors(field.grid, heights, static_cast<int>(k));
+        const NodeDeviations deviations(field.grid, heights, static_cast<int>(k));
         for (int row = 0; row < grid.row.nodes(); ++row) {
             for (int column = 0; column < grid.column.nodes(); ++column) {
-                const NodeError error = errors.error(row, column);
+                const NodeDeviation deviation = deviations.deviation(row, column);
                 const int beyond[4][2] = {
                     {row - 1, column}, {row, column + 1}, {row + 1, column}, {row, column - 1}};
                 for (std::size_t edge = 0; edge < 4; ++edge) {
                     const auto& [r, c] = beyond[edge];
-                    if ((errors.edges(row, column) >> edge & 1U) == 0 ||
+                    if ((deviations.edges(row, column) >> edge & 1U) == 0 ||
                         (r / 2 == row / 2 && c / 2 == column / 2))
                         continue;
                     ASSERT_GE(static_cast<double>(pyramid.levels[k + 1].node(r / 2, c / 2).error_m),
-                              error.stitched_m[edge]);
+                              deviation.stitched_m[edge]);
                 }
             }
         }

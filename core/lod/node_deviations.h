@@ -16,7 +16,7 @@ using PerEdge = std::array<double, 4>;
 
 // Largest difference, metres, between a node's triangles and the full-resolution surface. Infinite where the
 // node's triangles do not cover the same area, because of voids.
-struct NodeError {
+struct NodeDeviation {
     double own_m{};        // of the node as it is
     PerEdge stitched_m{};  // of the triangles that are there when that edge is stitched to a coarser
                            // neighbour, whatever the other edges are; 0 for an edge without a neighbour. (A
@@ -25,19 +25,19 @@ struct NodeError {
 };
 inline constexpr double unfit_m = std::numeric_limits<double>::infinity();
 
-// The errors of one level's nodes. Reads `heights` where it is; safe to ask from several threads.
-class NodeErrors {
+// The deviations of one level's nodes. Reads `heights` where it is; safe to ask from several threads.
+class NodeDeviations {
   public:
-    NodeErrors(const PostGrid& grid, const DrawnHeights& heights, int level);
+    NodeDeviations(const PostGrid& grid, const DrawnHeights& heights, int level);
 
     // In height, both surfaces linear over their triangles in (row, column): over every place, not only the
     // posts (the corners of the difference are the posts and where the node's edges cross those of the full
     // resolution; all are asked). Exact; never too small where the region ends within a quad.
-    [[nodiscard]] NodeError height_error(int node_row, int node_column) const;
+    [[nodiscard]] NodeDeviation height_deviation(int node_row, int node_column) const;
     // Upper bound of the distance in space between a point of the full-resolution surface (flat triangles
     // between posts) and the point of the drawn node at the same (row, column); the rounding of the drawn
     // posts' places included. 0 for level 0 as it is.
-    [[nodiscard]] NodeError error(int node_row, int node_column) const;
+    [[nodiscard]] NodeDeviation deviation(int node_row, int node_column) const;
     // Edges (shaders/choose/levels.glsl) on which a node has a neighbour. Round the Earth the last column's
     // is the first.
     [[nodiscard]] std::uint32_t edges(int node_row, int node_column) const;
@@ -57,7 +57,7 @@ class NodeErrors {
     enum class Cover { full, empty, equal, unequal };
     struct Quad {
         Cover cover;
-        double error_steps;
+        double deviation_steps;
     };
     struct PostRange {
         double lowest;
@@ -80,15 +80,15 @@ class NodeErrors {
 
     static std::vector<Stitched> stitched_triangles(std::uint32_t rows, std::uint32_t columns,
                                                     std::uint32_t edges);
-    [[nodiscard]] double triangle_error(const Triangle& triangle) const;
-    [[nodiscard]] double crossing_error(const Post& from, const Post& to) const;
-    [[nodiscard]] Quad quad_error(int row, int column) const;
+    [[nodiscard]] double triangle_deviation(const Triangle& triangle) const;
+    [[nodiscard]] double crossing_deviation(const Post& from, const Post& to) const;
+    [[nodiscard]] Quad quad_deviation(int row, int column) const;
     [[nodiscard]] Quad quad_with_voids(int north, int west, int south, int east) const;
-    [[nodiscard]] double narrow_quad_error(int north, int west, int south, int east) const;
+    [[nodiscard]] double narrow_quad_deviation(int north, int west, int south, int east) const;
     [[nodiscard]] static std::uint32_t unfit_edges(const std::array<Cover, 64>& covers, int rows,
                                                    int columns);
-    [[nodiscard]] PerEdge stitched_error(int node_row, int node_column, std::uint32_t edges) const;
-    [[nodiscard]] PerEdge finest_stitched_error(int node_row, int node_column) const;
+    [[nodiscard]] PerEdge stitched_deviation(int node_row, int node_column, std::uint32_t edges) const;
+    [[nodiscard]] PerEdge finest_stitched_deviation(int node_row, int node_column) const;
     [[nodiscard]] PostRange post_range(int node_row, int node_column) const;
     [[nodiscard]] Sag sag(int node_row, double dh_m, double finest_dh_m) const;
 

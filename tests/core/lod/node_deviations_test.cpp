@@ -1,6 +1,6 @@
 // The errors of nodes against brute force: every place of a lattice four times as fine as the posts, in every
 // way of stitching.
-#include "core/lod/node_errors.h"
+#include "core/lod/node_deviations.h"
 
 #include <gtest/gtest.h>
 
@@ -83,17 +83,17 @@ Brute brute_force(const DrawnHeights& heights, const LevelGrid& grid, int node_r
     return brute;
 }
 
-double largest_of(const NodeError& error, std::uint32_t edges) {
-    double largest_m = error.own_m;
+double largest_of(const NodeDeviation& deviation, std::uint32_t edges) {
+    double largest_m = deviation.own_m;
     for (std::size_t i = 0; i < 4; ++i) {
-        if ((edges >> i & 1U) != 0) largest_m = std::max(largest_m, error.stitched_m[i]);
+        if ((edges >> i & 1U) != 0) largest_m = std::max(largest_m, deviation.stitched_m[i]);
     }
     return largest_m;
 }
 
-class NodeErrorsOnRoughGround : public testing::TestWithParam<bool> {};
+class NodeDeviationsOnRoughGround : public testing::TestWithParam<bool> {};
 
-TEST_P(NodeErrorsOnRoughGround, AreTheWorstOfEveryPlaceAndStitching) {
+TEST_P(NodeDeviationsOnRoughGround, AreTheWorstOfEveryPlaceAndStitching) {
     const unsigned seed = 91;
     std::mt19937_64 random(seed);
     int nodes = 0, unfit = 0, empty = 0, exact = 0;
@@ -105,13 +105,13 @@ TEST_P(NodeErrorsOnRoughGround, AreTheWorstOfEveryPlaceAndStitching) {
         const DrawnHeights heights = drawn_heights(field, 1.0, 1);
         for (int level = 0; level <= 2; ++level) {
             const LevelGrid grid = level_grid(field.grid, level);
-            const NodeErrors errors(field.grid, heights, level);
+            const NodeDeviations deviations(field.grid, heights, level);
             for (int i = 0; i < grid.row.nodes() * grid.column.nodes(); ++i) {
                 if (level == 0 && random() % 4 != 0) continue;
                 const int row = i / grid.column.nodes();
                 const int column = i % grid.column.nodes();
-                const NodeError error = errors.height_error(row, column);
-                const std::uint32_t around = errors.edges(row, column);
+                const NodeDeviation deviation = deviations.height_deviation(row, column);
+                const std::uint32_t around = deviations.edges(row, column);
                 const bool whole = grid.row.quads_of_node(row) == 8 && grid.column.quads_of_node(column) == 8;
                 // Where the last quad is cut short the error may be larger than the truth.
                 const bool regular = whole && ((grid.row.last_post >> level) >= 8 * (row + 1)) &&
@@ -120,9 +120,9 @@ TEST_P(NodeErrorsOnRoughGround, AreTheWorstOfEveryPlaceAndStitching) {
                 bool fits = true;
                 for (std::uint32_t edges = 0; edges < 16; ++edges) {
                     if ((edges & around) != edges) continue;
-                    if (error.empty && edges != 0) continue;  // never drawn
+                    if (deviation.empty && edges != 0) continue;  // never drawn
                     const Brute brute = brute_force(heights, grid, row, column, edges);
-                    const double bound_m = largest_of(error, edges);
+                    const double bound_m = largest_of(deviation, edges);
                     fits = fits && brute.same_area;
                     ASSERT_TRUE(brute.same_area || std::isinf(bound_m))
                         << level << " " << row << " " << column << " " << edges;
@@ -130,19 +130,19 @@ TEST_P(NodeErrorsOnRoughGround, AreTheWorstOfEveryPlaceAndStitching) {
                         << level << " " << row << " " << column << " " << edges;
                     worst_m = std::max(worst_m, brute.worst_m);
                     if (edges == 0 && !GetParam() && regular) {
-                        EXPECT_NEAR(brute.worst_m, error.own_m, 0.01);
+                        EXPECT_NEAR(brute.worst_m, deviation.own_m, 0.01);
                     }
                 }
                 ++nodes;
                 unfit += fits ? 0 : 1;
-                empty += error.empty ? 1 : 0;
-                const double bound_m = largest_of(error, 15);
+                empty += deviation.empty ? 1 : 0;
+                const double bound_m = largest_of(deviation, 15);
                 if (regular && fits && !std::isinf(bound_m)) {
                     ++exact;
                     EXPECT_NEAR(bound_m, worst_m, 0.01) << level << " " << row << " " << column;
                 }
                 if (level == 0) {
-                    EXPECT_EQ(error.own_m, 0.0);
+                    EXPECT_EQ(deviation.own_m, 0.0);
                 }
             }
         }
@@ -153,12 +153,12 @@ TEST_P(NodeErrorsOnRoughGround, AreTheWorstOfEveryPlaceAndStitching) {
     EXPECT_EQ(unfit > 0, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Core, NodeErrorsOnRoughGround, testing::Bool(), [](const auto& voids) {
+INSTANTIATE_TEST_SUITE_P(Core, NodeDeviationsOnRoughGround, testing::Bool(), [](const auto& voids) {
     return std::string(voids.param ? "WithVoids" : "WithoutVoids");
 });
 
 // Missing tiles: what ends on a coarse quad's edge is no reason to stay fine.
-TEST(NodeErrors, VoidsThatEndWithAQuadDoNoHarm) {
+TEST(NodeDeviations, VoidsThatEndWithAQuadDoNoHarm) {
     const HeightField field =
         test::world_field(1200.0, 47 * 1200, 8 * 1200, 129, 129, [](double lat_deg, double lon_deg) {
             return lat_deg < 47.0 - 32.5 / 1200.0 && lon_deg > 8.0 + 48.5 / 1200.0
@@ -167,15 +167,16 @@ TEST(NodeErrors, VoidsThatEndWithAQuadDoNoHarm) {
         });
     const DrawnHeights heights = drawn_heights(field, 1.0, 1);
     for (int level = 0; level <= 3; ++level) {
-        const NodeErrors errors(field.grid, heights, level);
+        const NodeDeviations deviations(field.grid, heights, level);
         const LevelGrid grid = level_grid(field.grid, level);
         for (int i = 0; i < grid.row.nodes() * grid.column.nodes(); ++i) {
-            const NodeError error = errors.height_error(i / grid.column.nodes(), i % grid.column.nodes());
-            EXPECT_EQ(largest_of(error, 15), 0.0) << level << " " << i;
+            const NodeDeviation deviation =
+                deviations.height_deviation(i / grid.column.nodes(), i % grid.column.nodes());
+            EXPECT_EQ(largest_of(deviation, 15), 0.0) << level << " " << i;
         }
     }
     // 48 is no multiple of 32: a quad of level 5 would have to be half void.
-    EXPECT_TRUE(std::isinf(NodeErrors(field.grid, heights, 5).height_error(0, 0).own_m));
+    EXPECT_TRUE(std::isinf(NodeDeviations(field.grid, heights, 5).height_deviation(0, 0).own_m));
 }
 
 // A place on a triangle, as (row, column): the middle of its longest edge, which sags most, or any.
@@ -188,7 +189,7 @@ glm::dvec2 place_on(const test::PostTriangle& triangle, bool middle, std::mt1993
 }
 
 // In space: the sag of flat triangles over the ellipsoid, at all latitudes and spacings.
-TEST(NodeErrors, HoldInSpace) {
+TEST(NodeDeviations, HoldInSpace) {
     const unsigned seed = 17;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -220,13 +221,13 @@ TEST(NodeErrors, HoldInSpace) {
         };
         for (int level = 1; level <= 3; ++level) {
             const LevelGrid grid = level_grid(field.grid, level);
-            const NodeErrors errors(field.grid, heights, level);
+            const NodeDeviations deviations(field.grid, heights, level);
             for (int i = 0; i < 8; ++i) {
                 const int row = static_cast<int>(random() % static_cast<unsigned>(grid.row.nodes()));
                 const int column = static_cast<int>(random() % static_cast<unsigned>(grid.column.nodes()));
                 const std::uint32_t edges =
-                    static_cast<std::uint32_t>(random() % 16) & errors.edges(row, column);
-                const double bound_m = largest_of(errors.error(row, column), edges);
+                    static_cast<std::uint32_t>(random() % 16) & deviations.edges(row, column);
+                const double bound_m = largest_of(deviations.deviation(row, column), edges);
                 for (const auto& triangle : test::drawn_triangles(heights, grid, row, column, edges)) {
                     for (int sample = 0; sample < 6; ++sample) {
                         const glm::dvec2 at = place_on(triangle, sample == 0, random);

@@ -1,4 +1,4 @@
-#include "core/lod/node_errors.h"
+#include "core/lod/node_deviations.h"
 
 #include <algorithm>
 #include <bit>
@@ -20,7 +20,7 @@ constexpr double rounding_m = 1.0e-8;
 
 }  // namespace
 
-NodeErrors::NodeErrors(const PostGrid& grid, const DrawnHeights& heights, int level)
+NodeDeviations::NodeDeviations(const PostGrid& grid, const DrawnHeights& heights, int level)
     : grid_(grid),
       heights_(heights),
       level_(level_grid(grid, level)),
@@ -43,7 +43,7 @@ NodeErrors::NodeErrors(const PostGrid& grid, const DrawnHeights& heights, int le
     }
 }
 
-std::uint32_t NodeErrors::edges(int node_row, int node_column) const {
+std::uint32_t NodeDeviations::edges(int node_row, int node_column) const {
     const bool first_column = node_column == 0;
     const bool last_column = node_column == level_.column.nodes() - 1;
     return (node_row > 0 ? gpu::edge_north : 0U) |
@@ -53,8 +53,9 @@ std::uint32_t NodeErrors::edges(int node_row, int node_column) const {
 }
 
 // A quad narrower than high (or lower than wide), where the region ends: its diagonal crosses cells of the
-// full resolution. Both triangles' planes are asked at the posts of those cells: never less than the error.
-double NodeErrors::narrow_quad_error(int north, int west, int south, int east) const {
+// full resolution. Both triangles' planes are asked at the posts of those cells: never less than the
+// deviation.
+double NodeDeviations::narrow_quad_deviation(int north, int west, int south, int east) const {
     const double height = south - north;
     const double width = east - west;
     const double nw = heights_.at(north, west);
@@ -76,7 +77,7 @@ double NodeErrors::narrow_quad_error(int north, int west, int south, int east) c
 }
 
 // Which part of a quad with void posts the full-resolution surface and the quad's triangles cover.
-NodeErrors::Quad NodeErrors::quad_with_voids(int north, int west, int south, int east) const {
+NodeDeviations::Quad NodeDeviations::quad_with_voids(int north, int west, int south, int east) const {
     const auto there = [&](int row, int column) { return heights_.at(row, column) != void_height_steps; };
     std::array<std::int64_t, 2> drawn{};  // cells' triangles on either side of the diagonal
     for (int row = north; row < south; ++row) {
@@ -94,18 +95,19 @@ NodeErrors::Quad NodeErrors::quad_with_voids(int north, int west, int south, int
     if (drawn[0] + drawn[1] == 0 && !present[0] && !present[1]) return {Cover::empty, 0.0};
     if (south - north != east - west) return {Cover::unequal, unfit_m};
     const std::int64_t whole = static_cast<std::int64_t>(south - north) * (south - north);
-    double error = 0.0;
+    double deviation = 0.0;
     for (const std::size_t side : {0U, 1U}) {
         if (drawn[side] != (present[side] ? whole : 0)) return {Cover::unequal, unfit_m};
         const Post third = side == 0 ? Post{south, west} : Post{north, east};
         if (present[side])
-            error = std::max(error, triangle_error({Post{north, west}, third, Post{south, east}}));
+            deviation =
+                std::max(deviation, triangle_deviation({Post{north, west}, third, Post{south, east}}));
     }
-    return {std::isinf(error) ? Cover::unequal : Cover::equal, error};
+    return {std::isinf(deviation) ? Cover::unequal : Cover::equal, deviation};
 }
 
 // Largest difference over one quad of the level, row and column counted over the level, in steps.
-NodeErrors::Quad NodeErrors::quad_error(int row, int column) const {
+NodeDeviations::Quad NodeDeviations::quad_deviation(int row, int column) const {
     const int north = level_.row.region_post(row), south = level_.row.region_post(row + 1);
     const int west = level_.column.region_post(column), east = level_.column.region_post(column + 1);
     bool any_void = false;
@@ -138,11 +140,11 @@ NodeErrors::Quad NodeErrors::quad_error(int row, int column) const {
         any_void = lowest == void_height_steps;
     }
     if (any_void) return quad_with_voids(north, west, south, east);
-    if (!square) return {Cover::full, narrow_quad_error(north, west, south, east)};
+    if (!square) return {Cover::full, narrow_quad_deviation(north, west, south, east)};
     return {Cover::full, std::max(south_west.magnitude(), north_east.magnitude())};
 }
 
-NodeError NodeErrors::height_error(int node_row, int node_column) const {
+NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column) const {
     const int rows = level_.row.quads_of_node(node_row);
     const int columns = level_.column.quads_of_node(node_column);
     std::array<Cover, 64> covers{};
@@ -154,31 +156,31 @@ NodeError NodeErrors::height_error(int node_row, int node_column) const {
     if (as_it_is) all_empty = false;
     for (int i = 0; i < rows && !as_it_is; ++i) {
         for (int j = 0; j < columns; ++j) {
-            const Quad quad = quad_error(node_row * node_quads + i, node_column * node_quads + j);
+            const Quad quad = quad_deviation(node_row * node_quads + i, node_column * node_quads + j);
             covers[static_cast<std::size_t>(i * node_quads + j)] = quad.cover;
             all_full = all_full && quad.cover == Cover::full;
             all_empty = all_empty && quad.cover == Cover::empty;
-            own_steps = std::max(own_steps, quad.error_steps);
+            own_steps = std::max(own_steps, quad.deviation_steps);
         }
     }
-    NodeError error;
-    error.empty = all_empty;
-    if (all_empty) return error;
-    error.own_m = own_steps * height_step_m;
+    NodeDeviation deviation;
+    deviation.empty = all_empty;
+    if (all_empty) return deviation;
+    deviation.own_m = own_steps * height_step_m;
     const std::uint32_t around = edges(node_row, node_column);
     const bool simple = as_it_is && rows == node_quads && columns == node_quads;
-    const PerEdge steps =
-        simple ? finest_stitched_error(node_row, node_column) : stitched_error(node_row, node_column, around);
+    const PerEdge steps = simple ? finest_stitched_deviation(node_row, node_column)
+                                 : stitched_deviation(node_row, node_column, around);
     const std::uint32_t unfit = all_full ? 0U : unfit_edges(covers, rows, columns);
     for (std::size_t i = 0; i < 4; ++i) {
         if ((around >> i & 1U) != 0)
-            error.stitched_m[i] = (unfit >> i & 1U) != 0 ? unfit_m : steps[i] * height_step_m;
+            deviation.stitched_m[i] = (unfit >> i & 1U) != 0 ? unfit_m : steps[i] * height_step_m;
     }
-    return error;
+    return deviation;
 }
 
 // Range of the node's own posts.
-NodeErrors::PostRange NodeErrors::post_range(int node_row, int node_column) const {
+NodeDeviations::PostRange NodeDeviations::post_range(int node_row, int node_column) const {
     PostRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), false};
     for (int i = 0; i <= level_.row.quads_of_node(node_row); ++i) {
         const std::int32_t* steps = heights_.row(level_.row.region_post(node_row * node_quads + i));
@@ -199,7 +201,7 @@ NodeErrors::PostRange NodeErrors::post_range(int node_row, int node_column) cons
 // t) - 2 (M+h) sin(lat) dlat dlon e + 2 dh (dlat t + cos(lat) dlon e), r = (N+h) cos(lat); and the mean
 // square of offsets within a range is at most a quarter of its square. M' is below 0.0102 M and at right
 // angles to the first term. A stitched triangle is up to two quads long along one axis.
-NodeErrors::Sag NodeErrors::sag(int node_row, double dh_m, double finest_dh_m) const {
+NodeDeviations::Sag NodeDeviations::sag(int node_row, double dh_m, double finest_dh_m) const {
     const Curvature& at = curvature_[static_cast<std::size_t>(node_row)];
     const auto bound_m = [&](double dlat, double dlon, double dh) {
         return 0.125 * (at.M_m * dlat * dlat + at.r_m * dlon * dlon + 2.0 * at.M_m * at.sine * dlat * dlon +
@@ -215,25 +217,25 @@ NodeErrors::Sag NodeErrors::sag(int node_row, double dh_m, double finest_dh_m) c
             placement_share * gpu::page_quads * (at.M_m * dlat + at.r_m * dlon)};
 }
 
-NodeError NodeErrors::error(int node_row, int node_column) const {
-    NodeError error = height_error(node_row, node_column);
-    if (error.empty) return error;
+NodeDeviation NodeDeviations::deviation(int node_row, int node_column) const {
+    NodeDeviation deviation = height_deviation(node_row, node_column);
+    if (deviation.empty) return deviation;
     const bool finest = level_.level() == 0;
-    // The full resolution's heights differ from the node's by the error, at either end of an edge.
+    // The full resolution's heights differ from the node's by the deviation, at either end of an edge.
     const PostRange range = post_range(node_row, node_column);
     const double dh_m = (range.highest - range.lowest) * height_step_m;
-    const Sag sag_m = sag(node_row, dh_m, std::isinf(error.own_m) ? dh_m : dh_m + 2.0 * error.own_m);
+    const Sag sag_m = sag(node_row, dh_m, std::isinf(deviation.own_m) ? dh_m : dh_m + 2.0 * deviation.own_m);
     // Where the region ends, the diagonals of narrow quads cross cells of the full resolution, as stitched
     // edges do.
     const bool narrow = node_row == level_.row.nodes() - 1 || node_column == level_.column.nodes() - 1;
     const double rest_m = rounding_m + (finest ? 0.0 : sag_m.placement_m);
-    error.own_m =
-        finest ? 0.0 : error.own_m + rest_m + (narrow ? sag_m.stitched_m + sag_m.finest_m : sag_m.own_m);
+    deviation.own_m =
+        finest ? 0.0 : deviation.own_m + rest_m + (narrow ? sag_m.stitched_m + sag_m.finest_m : sag_m.own_m);
     const std::uint32_t around = edges(node_row, node_column);
     for (std::size_t i = 0; i < 4; ++i) {
-        if ((around >> i & 1U) != 0) error.stitched_m[i] += sag_m.stitched_m + sag_m.finest_m + rest_m;
+        if ((around >> i & 1U) != 0) deviation.stitched_m[i] += sag_m.stitched_m + sag_m.finest_m + rest_m;
     }
-    return error;
+    return deviation;
 }
 
 }  // namespace oro
