@@ -32,15 +32,15 @@ Result<OwnedMemory> allocate(const Gpu& gpu, const VkMemoryRequirements& needs, 
     return OwnedMemory(gpu.device(), memory);
 }
 
-VkMemoryPropertyFlags properties_of(BufferPlace place) {
+VkMemoryPropertyFlags properties_of(MemoryKind memory_kind) {
     constexpr VkMemoryPropertyFlags host =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    switch (place) {
-        case BufferPlace::upload:
+    switch (memory_kind) {
+        case MemoryKind::upload:
             return host;
-        case BufferPlace::readback:
+        case MemoryKind::readback:
             return host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-        case BufferPlace::device:
+        case MemoryKind::device:
             break;
     }
     return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
@@ -48,8 +48,8 @@ VkMemoryPropertyFlags properties_of(BufferPlace place) {
 
 }  // namespace
 
-Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage, BufferPlace place,
-                             const std::string& name, bool* full) {
+Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage,
+                             MemoryKind memory_kind, const std::string& name, bool* full) {
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = size;
@@ -63,9 +63,9 @@ Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFla
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(gpu.device(), handle, &needs);
     const bool addressed = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
-    ORO_TRY(buffer.memory, allocate(gpu, needs, properties_of(place), addressed, name, full));
+    ORO_TRY(buffer.memory, allocate(gpu, needs, properties_of(memory_kind), addressed, name, full));
     ORO_VK(vkBindBufferMemory(gpu.device(), handle, buffer.memory.get(), 0));
-    if (place != BufferPlace::device) {
+    if (memory_kind != MemoryKind::device) {
         void* mapped = nullptr;
         ORO_VK(vkMapMemory(gpu.device(), buffer.memory.get(), 0, VK_WHOLE_SIZE, 0, &mapped));
         buffer.mapped = static_cast<std::byte*>(mapped);

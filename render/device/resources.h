@@ -23,11 +23,11 @@ struct Buffer {
 inline gpu::uvec2 address_words(VkDeviceAddress address) {
     return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32U)};
 }
-enum class BufferPlace { device, upload, readback };
+enum class MemoryKind { device, upload, readback };
 // Errors: the device is out of memory (the message says how much was asked for what; `full`, if given, is set
 // to true then).
-Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage, BufferPlace place,
-                             const std::string& name, bool* full = nullptr);
+Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage,
+                             MemoryKind memory_kind, const std::string& name, bool* full = nullptr);
 
 // A 2D image with its own memory and a view of all of it.
 struct Image {

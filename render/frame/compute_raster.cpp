@@ -23,13 +23,13 @@ Result<ComputeRaster> ComputeRaster::create(const Gpu& gpu, VkExtent2D extent) {
     ORO_TRY(raster.lists_,
             create_buffer(gpu, sizeof(gpu::RasterLists),
                           listed | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-                          BufferPlace::device, "raster lists"));
+                          MemoryKind::device, "raster lists"));
     ORO_TRY(raster.clips_, create_buffer(gpu, gpu::clips_max * sizeof(std::uint32_t), listed,
-                                         BufferPlace::device, "clip list"));
+                                         MemoryKind::device, "clip list"));
     ORO_TRY(raster.large_, create_buffer(gpu, gpu::large_max * sizeof(gpu::LargeTriangle), listed,
-                                         BufferPlace::device, "large triangles"));
+                                         MemoryKind::device, "large triangles"));
     ORO_TRY(raster.tasks_, create_buffer(gpu, gpu::tasks_max * sizeof(gpu::LargeTask), listed,
-                                         BufferPlace::device, "large tasks"));
+                                         MemoryKind::device, "large tasks"));
     ORO_CHECK(raster.resize(extent));
     return raster;
 }
@@ -38,7 +38,7 @@ Result<void> ComputeRaster::resize(VkExtent2D extent) {
     ORO_TRY(visibility_,
             create_buffer(*gpu_, VkDeviceSize{8} * extent.width * extent.height,
                           listed | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                          BufferPlace::device, "visibility"));
+                          MemoryKind::device, "visibility"));
     return {};
 }
 
@@ -46,7 +46,7 @@ Result<void> ComputeRaster::reserve_pages(std::size_t count) {
     if (count <= page_capacity_) return {};
     const std::size_t capacity = std::max(count, 2 * page_capacity_);
     ORO_TRY(meshlets_, create_buffer(*gpu_, capacity * gpu::meshlets_per_page * sizeof(std::uint32_t), listed,
-                                     BufferPlace::device, "meshlet list"));
+                                     MemoryKind::device, "meshlet list"));
     page_capacity_ = capacity;
     return {};
 }

@@ -22,7 +22,7 @@ Result<std::vector<std::byte>> FrameRenderer::read_image(const Image& image, VkI
                                                          std::uint32_t height) {
     const VkDeviceSize size = VkDeviceSize{4} * width * height;  // every format read back has four bytes
     ORO_TRY(const Buffer buffer, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                               BufferPlace::readback, "image read back"));
+                                               MemoryKind::readback, "image read back"));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         const ImageUse as_source{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                                  VK_ACCESS_2_TRANSFER_READ_BIT};
@@ -50,7 +50,7 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_words(const Buffer& sourc
     if (count == 0) return std::vector<std::uint32_t>{};
     const VkDeviceSize size = 4 * static_cast<VkDeviceSize>(count);
     ORO_TRY(const Buffer buffer,
-            create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::readback, "read back"));
+            create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::readback, "read back"));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);

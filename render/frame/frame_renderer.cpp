@@ -58,10 +58,10 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     ORO_TRY(renderer.counts_,
-            create_buffer(gpu, sizeof(gpu::FrameCounts), counted, BufferPlace::device, "counts"));
+            create_buffer(gpu, sizeof(gpu::FrameCounts), counted, MemoryKind::device, "counts"));
     ORO_TRY(renderer.counts_read_,
             create_buffer(gpu, sizeof(gpu::FrameCounts), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                          BufferPlace::readback, "counts read back"));
+                          MemoryKind::readback, "counts read back"));
     if (options.path == RasterPath::compute) {
         ORO_TRY(ComputeRaster compute, ComputeRaster::create(gpu, options.extent));
         renderer.compute_.emplace(std::move(compute));
@@ -153,11 +153,11 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     if (staging_.size < layout.size) {
         const VkDeviceSize size = std::max(layout.size, 2 * staging_.size);
         ORO_TRY(Buffer staging, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                              BufferPlace::upload, "frame staging"));
+                                              MemoryKind::upload, "frame staging"));
         constexpr VkBufferUsageFlags usage =
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
             VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-        ORO_TRY(frame_data_, create_buffer(*gpu_, size, usage, BufferPlace::device, "frame data"));
+        ORO_TRY(frame_data_, create_buffer(*gpu_, size, usage, MemoryKind::device, "frame data"));
         staging_ = std::move(staging);  // both are that large, or neither is
         bind_constants();
     }
@@ -170,7 +170,7 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
         ORO_TRY(choice_, create_buffer(*gpu_, 4 * (live_pages_words + capacity * choice_words), usage,
-                                       BufferPlace::device, "choice of levels"));
+                                       MemoryKind::device, "choice of levels"));
         page_capacity_ = capacity;
     }
     const VkDeviceSize pixels = VkDeviceSize{4} * options_.extent.width * options_.extent.height;
@@ -178,14 +178,14 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
         ORO_TRY(depths_, create_buffer(*gpu_, pixels,
                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                                       BufferPlace::device, "depths"));
+                                       MemoryKind::device, "depths"));
     }
     const VkDeviceSize positions = count * gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
     if (options_.record_positions && recorded_.size < positions) {
         ORO_TRY(recorded_,
                 create_buffer(*gpu_, positions,
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                              BufferPlace::readback, "recorded positions"));
+                              MemoryKind::readback, "recorded positions"));
     }
     return {};
 }

@@ -27,7 +27,7 @@ Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity, const 
     ORO_TRY(store.commands_, Commands::create(gpu, "page upload"));
     ORO_TRY(store.staging_,
             create_buffer(gpu, pages_in_staging * store.page_bytes_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                          BufferPlace::upload, "page staging"));
+                          MemoryKind::upload, "page staging"));
     return store;
 }
 
@@ -53,7 +53,7 @@ Result<void> PageStore::add_chunk(std::size_t first) {
                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     for (std::size_t count = std::min(pages_per_chunk, capacity_ - first);; count /= 2) {
         bool full = false;
-        auto chunk = create_buffer(*gpu_, count * page_bytes_, usage, BufferPlace::device,
+        auto chunk = create_buffer(*gpu_, count * page_bytes_, usage, MemoryKind::device,
                                    "pages " + std::to_string(chunks_.size()), &full);
         if (chunk.ok()) {
             capacity_ = std::min(capacity_, full_ ? first + count : capacity_);

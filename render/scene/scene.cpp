@@ -15,7 +15,7 @@ Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
     ORO_TRY(Buffer buffer,
             create_buffer(gpu, size,
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                          BufferPlace::upload, "undulation"));
+                          MemoryKind::upload, "undulation"));
     std::memcpy(buffer.mapped, field.N_m.data(), size);
     return buffer;
 }
