@@ -1,0 +1,33 @@
+// The third step to a region: its sources' posts are laid into its grid.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/terrain/post_grid.h"
+#include "geo/datum/vertical_datum.h"
+#include "geo/posts/seams.h"
+#include "geo/region/region.h"
+#include "geo/sources/source.h"
+
+namespace oro {
+
+// What all sources are laid into.
+struct LayingFor {
+    const PostGrid& grid;
+    const UndulationField& undulation;
+    const GeoidOfRegion& geoid;
+    bool strict_datum{};
+};
+
+// Reads all sources in their order of precedence, turns their heights into H and lays them into the surface.
+// Each source's report gets what was found in it; `notes` what a user must know. Errors: damage in a source;
+// a datum that cannot be honoured.
+Result<void> lay_sources(std::vector<Source>& sources, const LayingFor& region, JoinedSurface& surface,
+                         std::vector<std::string>& notes, const Progress& progress);
+
+// Adds a line that is not there yet and not empty.
+void add_note(std::vector<std::string>& notes, const std::string& note);
+
+}  // namespace oro

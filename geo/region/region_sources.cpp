@@ -1,0 +1,89 @@
+#include "geo/region/region_sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "geo/files/source_paths.h"
+#include "geo/region/region_grid.h"
+#include "geo/sources/hgt_source.h"
+#include "geo/sources/raster_source.h"
+
+namespace oro {
+namespace {
+
+constexpr std::size_t no_limit_notes = 8;
+
+Result<Finding> look_at_file(const SourcePath& path, const std::string& height_unit) {
+    if (!path.hgt) return inspect_raster(path, height_unit);
+    ORO_TRY(Source tile, inspect_hgt(path));
+    return Finding{std::move(tile), {}, {}};
+}
+
+}  // namespace
+
+Result<RegionSources> look_at_sources(const RegionRequest& request, const Progress& progress) {
+    ORO_TRY(const std::vector<SourcePath> paths, find_sources(request.paths));
+    std::optional<BoundingBox> box;
+    if (request.box) box = unwrapped(*request.box);
+    RegionSources found;
+    std::size_t skipped = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const SourcePath& path = paths[i];
+        if (progress && i % 64 == 0)
+            progress(0.1 * static_cast<double>(i) / static_cast<double>(paths.size()),
+                     "looking at " + path.shown);
+        if (path.hgt && box) {
+            ORO_TRY(const HgtName name, name_of_hgt(path));
+            Source tile;
+            tile.lon = {static_cast<double>(name.tile.lon_deg), name.tile.lon_deg + 1.0};
+            tile.south_deg = name.tile.lat_deg;
+            tile.north_deg = name.tile.lat_deg + 1.0;
+            if (!meets(tile, *box)) continue;
+        }
+        ORO_TRY(Finding finding, look_at_file(path, request.height_unit));
+        for (const std::string& doubt : finding.doubts) found.notes.push_back(doubt);
+        if (finding.source) {
+            found.sources.push_back(std::move(*finding.source));
+            continue;
+        }
+        if (path.named) return finding.unfit;
+        if (++skipped <= no_limit_notes) found.notes.push_back("passed over " + finding.unfit.line());
+        if (found.first_skipped.empty()) found.first_skipped = finding.unfit.line();
+    }
+    if (skipped > no_limit_notes)
+        found.notes.push_back("passed over " + std::to_string(skipped - no_limit_notes) +
+                              " more files that hold no elevation");
+    return found;
+}
+
+std::vector<std::string> cells_without(std::span<const Source> sources, const PostGrid& grid) {
+    constexpr double line_deg = 1e-7;
+    std::vector<std::string> missing;
+    const auto first_lat = static_cast<int>(std::floor(grid.south_deg() + line_deg));
+    const auto last_lat = static_cast<int>(std::ceil(grid.north_deg() - line_deg)) - 1;
+    const auto first_lon = static_cast<int>(std::floor(grid.west_deg() + line_deg));
+    const auto last_lon = static_cast<int>(std::ceil(grid.east_deg() - line_deg)) - 1;
+    // What the sources cover, cell by cell; a source's box is all that is asked, whatever shape it has
+    // inside.
+    std::set<std::pair<int, int>> covered;
+    for (const Source& source : sources) {
+        const auto south = std::max(first_lat, static_cast<int>(std::floor(source.south_deg + line_deg)));
+        const auto north = std::min(last_lat, static_cast<int>(std::ceil(source.north_deg - line_deg)) - 1);
+        for (int lat = south; lat <= north; ++lat) {
+            for (int lon = first_lon; lon <= last_lon; ++lon) {
+                if (source.full_circle || !turns_that_meet(source.lon, lon, lon + 1.0).empty())
+                    covered.insert({lat, lon});
+            }
+        }
+    }
+    for (int lat = first_lat; lat <= last_lat; ++lat) {
+        for (int lon = first_lon; lon <= last_lon; ++lon) {
+            if (!covered.contains({lat, lon}))
+                missing.push_back(tile_name(lat, lon >= 180 ? lon - 360 : lon));
+        }
+    }
+    return missing;
+}
+
+}  // namespace oro

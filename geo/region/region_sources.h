@@ -1,0 +1,30 @@
+// The first step to a region: which sources there are.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/terrain/post_grid.h"
+#include "geo/region/region.h"
+#include "geo/sources/source.h"
+
+namespace oro {
+
+struct RegionSources {
+    std::vector<Source> sources;     // files that hold elevation
+    std::vector<std::string> notes;  // what was passed over, and what is doubtful, one line each
+    std::string first_skipped;       // the first file that holds no elevation, and why; "" where each does
+};
+
+// Looks at names, sizes and headers. What the user named must open; in folders and archives, rasters that are
+// no elevation are passed over and noted, but a damaged file is an error wherever it lies (a hole in the
+// terrain is no way to hear of it). With a box, tiles that by their names lie elsewhere
+// are not opened. Errors: those of find_sources and of each file.
+Result<RegionSources> look_at_sources(const RegionRequest& request, const Progress& progress);
+
+// Whole-degree cells that the region touches and no source does. Names as N45E008.
+std::vector<std::string> cells_without(std::span<const Source> sources, const PostGrid& grid);
+
+}  // namespace oro
