@@ -134,6 +134,8 @@ class RegionFileWriter {
 // payload are read when they are asked for, from any number of threads at once. Every damage is an Error
 // with the name of the file and the byte at which it was found; so is a file that another program writes into
 // while it is open. (One that takes its name instead, as a bake does, does no harm.)
+//     ORO_TRY(const RegionFile file, RegionFile::open("alps.oro"));
+//     ORO_TRY(const PageRecord record, file.record({0, 0, 0}));  // row, column, level: the north-west page
 class RegionFile {
   public:
     // Errors: no region file, one of another version of the format, cut off, unfinished, damaged, or with a

@@ -44,6 +44,11 @@ struct Error {
 };
 
 // A T, or the Error that stood in its way. Asking for the one that is not there is a programmer's mistake.
+//     Result<Region> opened = open_region(request);
+//     if (!opened.ok()) return opened.error();
+//     const Region& region = *opened;
+// or, in one line:
+//     ORO_TRY(const Region region, open_region(request));
 template <class T>
 class [[nodiscard]] Result {
   public:

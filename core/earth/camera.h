@@ -18,7 +18,13 @@ struct Attitude {
     double roll_deg{};
 };
 
-// A pinhole eye. View axes are x right, y up, z backwards (the eye looks along -z).
+// A pinhole eye: from where a picture is taken, in which direction, and how many pixels it has. View axes are
+// x right, y up, z backwards (the eye looks along -z).
+//     Camera camera;
+//     camera.eye = {36.55, -84.25, 620.0};       // latitude, longitude, h
+//     camera.attitude = {30.0, -10.0, 0.0};      // heading, pitch, roll
+//     camera.width_px = 320, camera.height_px = 240;
+//     const glm::dvec3 towards = camera.ecef_direction_at({160.5, 180.5});
 struct Camera {
     Geodetic eye;
     Attitude attitude;

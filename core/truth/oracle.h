@@ -32,7 +32,11 @@ struct SightHit {
     double residual_m{};  // of the root: height of the point above its triangle
 };
 
-// Sight lines from one eye. Safe to ask from several threads.
+// Sight lines from one eye: tells where each truly meets the ground. Safe to ask from several threads.
+//     const TrueSurface surface(region.field, 1.0, thread_count());
+//     const Oracle oracle(surface, sight_from(camera.eye));
+//     const auto hit = oracle.first_hit(camera.ecef_direction_at({160.5, 180.5}), 1.0e6);
+//     if (hit) std::printf("%f %f\n", hit->point.lat_deg, hit->point.lon_deg);
 class Oracle {
   public:
     // `surface` outlives the oracle. Costs a sine and a cosine for each fourth row and column of posts.

@@ -10,7 +10,11 @@
 
 namespace oro {
 
-// A file without a name, or under a temporary one, in the same folder, which takes its real name on commit().
+// For files that a reader must never find half written: a file without a name, or under a temporary one, in
+// the same folder, which takes its real name on commit().
+//     ORO_TRY(WholeFile file, WholeFile::create(path, overwrite));
+//     ORO_CHECK(file.write(bytes.data(), bytes.size()));
+//     ORO_CHECK(file.commit());
 // Destroyed without commit, it is removed and whatever had the name before is untouched.
 class WholeFile {
   public:

@@ -34,6 +34,12 @@ struct FrameRendererOptions {
     RasterPath path{RasterPath::mesh};
 };
 
+// Turns a plan into pixels, by either way of drawing, and reads them back.
+//     FrameRendererOptions options;
+//     options.extent = {320, 240};
+//     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, options));
+//     ORO_TRY(const FrameReport report, renderer.draw(std::move(plan), style));
+//     ORO_TRY(const std::vector<std::uint8_t> rgba, renderer.read_picture(320, 240));
 class FrameRenderer {
   public:
     static Result<FrameRenderer> create(const Gpu& gpu, const FrameRendererOptions& options);
