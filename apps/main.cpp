@@ -171,13 +171,31 @@ void fill_standard_streams() {
     }
 }
 
-// The parser's words, or which command there is none of.
+// What of the command line no command takes.
+std::string left_over(const CLI::App& app) {
+    std::string all;
+    for (const std::string& word : app.remaining(true)) all += (all.empty() ? "" : " ") + word;
+    return all;
+}
+
+// Which command there is none of, which word or value is wrong; for the rest, the parser's own words.
 oro::Error usage_error(const CLI::App& app, int argc, char** argv, const CLI::ParseError& error) {
     const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
     if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty())
         return {oro::ErrorKind::usage, argv[1],
                 "is no command; these are shot, compare, plan, trade, view, bake, info and doctor"};
-    return {oro::ErrorKind::usage, "", std::string(error.what()) + " (orograph --help tells more)"};
+    const std::string more = " (orograph --help tells more)", raw = error.what();
+    if (dynamic_cast<const CLI::RequiredError*>(&error) && app.get_subcommands().empty())
+        return {oro::ErrorKind::usage, "",
+                "name a command: shot, compare, plan, trade, view, bake, info or doctor" + more};
+    if (dynamic_cast<const CLI::ExtrasError*>(&error))
+        return {oro::ErrorKind::usage, left_over(app), "there is no such option or path here" + more};
+    // "Could not convert: --above = 300m"; what is converted here are numbers.
+    const std::size_t name = raw.find(": "), value = raw.find(" = ");
+    if (dynamic_cast<const CLI::ConversionError*>(&error) && name < value && value != std::string::npos)
+        return {oro::ErrorKind::usage, raw.substr(name + 2, value - name - 2),
+                "'" + raw.substr(value + 3) + "' is not a number" + more};
+    return {oro::ErrorKind::usage, "", raw + more};
 }
 
 int told_unforeseen(const char* what) {

@@ -13,6 +13,9 @@
 
 namespace oro {
 
+// What placement and depths may add to what tau allows.
+inline constexpr double drawing_slack_px = 0.05;
+
 enum class Bundle { draft, balanced, survey };
 
 // What --accuracy stands for.

@@ -129,6 +129,14 @@ ordered_json doctor_json(const std::vector<Finding>& devices, const std::string&
     return json;
 }
 
+// "23.5 GiB"
+std::string memory_text(std::uint64_t bytes) {
+    constexpr double gib = 1024.0 * 1024.0 * 1024.0;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.1f GiB", static_cast<double>(bytes) / gib);
+    return text;
+}
+
 void print_device(std::size_t number, const Finding& finding) {
     const DeviceReport& d = finding.device;
     std::printf("GPU %zu        %s (%s), %s, Vulkan %s\n", number, d.name.c_str(), kind_words(d.kind).c_str(),
@@ -144,11 +152,12 @@ void print_device(std::size_t number, const Finding& finding) {
                 d.mesh_shader ? "yes" : "no (VK_EXT_mesh_shader is missing); with compute shaders alone");
     std::printf("             draws with compute shaders: %s\n",
                 d.compute_raster ? "yes" : "no (64-bit atomics are missing); with mesh shaders alone");
-    std::printf("             --pipeline auto: %s\n", finding.choice_text().c_str());
-    std::printf("             pictures in parts of up to %u px a side, %llu MiB of memory\n",
-                d.max_picture_side_px, static_cast<unsigned long long>(d.memory_bytes >> 20U));
+    std::printf("             --pipeline auto%s %s\n", finding.choice ? " takes" : ":",
+                finding.choice_text().c_str());
+    std::printf("             pictures in parts of up to %u px a side, %s of memory\n", d.max_picture_side_px,
+                memory_text(d.memory_bytes).c_str());
     if (d.kind == VK_PHYSICAL_DEVICE_TYPE_CPU)
-        std::printf("             draws on the processor: right, but slow\n");
+        std::printf("             draws without a GPU: correct, but slow\n");
 }
 
 void print_doctor(const std::vector<Finding>& devices, const std::string& no_device,

@@ -1,11 +1,14 @@
 #include "apps/commands/info_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "apps/report/figures.h"
 #include "core/baked/region_format.h"
+#include "core/earth/ellipsoid.h"
 #include "geo/region/source_words.h"
+#include "geo/sources/raster_source.h"
 
 namespace oro {
 namespace {
@@ -31,7 +34,8 @@ std::string box_text(double west_deg, double south_deg, double east_deg, double 
 
 // "137 to 4783 m"
 std::string heights_text(double lowest_m, double highest_m) {
-    return text_of("%.6g to %.6g m", lowest_m, highest_m);
+    const bool whole = lowest_m == std::round(lowest_m) && highest_m == std::round(highest_m);
+    return text_of(whole ? "%.0f to %.0f m" : "%.1f to %.1f m", lowest_m, highest_m);
 }
 
 std::string voids_text(const SourceReport& source) {
@@ -53,11 +57,43 @@ std::string placement_text(const Placement& placement) {
     return text + text_of(", moved by up to %.4f of their spacing", placement.moved_by_posts);
 }
 
+// "92.63 m", "27.67 km"
+std::string distance_text(double distance_m) {
+    return distance_m < 1000.0 ? text_of("%.4g m", distance_m) : text_of("%.4g km", distance_m / 1000.0);
+}
+
+// Whether the posts are a grid of degrees: it then fills its box in steps of degrees.
+bool is_on_degrees(const SourceReport& source) {
+    double across_deg = source.box.east_deg - source.box.west_deg;
+    if (across_deg < 0.0) across_deg += 360.0;
+    const auto fills = [](double extent_deg, int count, double spacing_deg) {
+        return std::abs(extent_deg - (count - 1) * spacing_deg) <= 1e-3 * spacing_deg;
+    };
+    return fills(across_deg, source.columns, source.lon_spacing_deg) &&
+           fills(source.box.north_deg - source.box.south_deg, source.rows, source.lat_spacing_deg);
+}
+
+// "92.63 m north-south and 63.97 m east-west", at the source's middle; "30 m" in a projection.
+std::string spacing_text(const SourceReport& source) {
+    if (!is_on_degrees(source)) return distance_text(source.spacing_m);
+    const double middle_deg = 0.5 * (source.box.south_deg + source.box.north_deg);
+    const double parallel_m =
+        prime_vertical_radius_m(middle_deg) * std::cos(radians_from_deg(middle_deg).rad);
+    return distance_text(source.spacing_m) + " north-south and " +
+           distance_text(radians_from_deg(source.lon_spacing_deg).rad * parallel_m) + " east-west";
+}
+
+// "m", whatever a file calls the metre.
+std::string short_unit(HeightUnit unit) {
+    if (metres_in(unit.name) == 1.0) unit.name = "m";
+    return unit_words(unit);
+}
+
 // What a file says of itself that many files often say alike.
 std::vector<std::string> common_facts(const SourceReport& source) {
     std::vector<std::string> facts{
         format_words(source), "posts are " + posts_words(source.posts_are), source.crs,
-        datum_words(source.vertical_datum) + " in " + unit_words(source.height_unit)};
+        datum_words(source.vertical_datum) + " in " + short_unit(source.height_unit)};
     facts.push_back(source.placement ? placement_text(*source.placement) : "");
     facts.push_back(source.attribution.empty() ? "attribution not stated" : source.attribution);
     return facts;
@@ -74,9 +110,10 @@ std::string one_file(const SourceReport& source, Posts posts) {
     std::string text = one_line(source.path) + "\n";
     text += line("format", format_words(source) + ", posts are " + posts_words(source.posts_are));
     text += line("coordinates", source.crs);
-    text += line("heights", datum_words(source.vertical_datum) + ", in " + unit_words(source.height_unit));
-    text += line("posts", text_of("%d x %d, every %.6g x %.6g degrees (%.4g m)", source.columns, source.rows,
-                                  source.lon_spacing_deg, source.lat_spacing_deg, source.spacing_m));
+    text += line("heights", datum_words(source.vertical_datum) + ", in " + short_unit(source.height_unit));
+    text += line("posts", text_of("%d x %d, every %.6g x %.6g degrees (", source.columns, source.rows,
+                                  source.lon_spacing_deg, source.lat_spacing_deg) +
+                              spacing_text(source) + ")");
     text += line("box", box_text(source.box.west_deg, source.box.south_deg, source.box.east_deg,
                                  source.box.north_deg));
     text += line("H", posts == Posts::read ? heights_text(source.lowest_m, source.highest_m) : "not read");
@@ -87,9 +124,10 @@ std::string one_file(const SourceReport& source, Posts posts) {
 
 std::string line_of_file(const SourceReport& source, Posts posts, const std::vector<std::string>& own_facts) {
     std::string text = one_line(source.path);
-    text += text_of("  box %.6g,%.6g,%.6g,%.6g; %d x %d posts, every %.4g m; H ", source.box.west_deg,
-                    source.box.south_deg, source.box.east_deg, source.box.north_deg, source.columns,
-                    source.rows, source.spacing_m);
+    text +=
+        text_of("  box %.6g,%.6g,%.6g,%.6g; %d x %d posts, every ", source.box.west_deg, source.box.south_deg,
+                source.box.east_deg, source.box.north_deg, source.columns, source.rows);
+    text += spacing_text(source) + "; H ";
     text += posts == Posts::read ? heights_text(source.lowest_m, source.highest_m) : "not read";
     if (source.voids > 0) text += "; void posts: " + voids_text(source);
     if (source.seams.disagreeing_posts > 0)

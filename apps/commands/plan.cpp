@@ -9,6 +9,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "core/base/parallel.h"
+#include "core/terrain/ground.h"
 
 namespace oro {
 namespace {
@@ -90,6 +91,14 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     return json;
 }
 
+PlanEye eye_of(const View& view, const Region& region) {
+    const Geodetic& eye = view.camera.eye;
+    PlanEye place{eye.h_m - region.field.undulation.at_m(eye.lat_deg, eye.lon_deg), {}};
+    const auto ground = ground_h_m(region.field, eye.lat_deg, eye.lon_deg, view.exaggeration);
+    if (ground) place.above_ground_m = eye.h_m - *ground;
+    return place;
+}
+
 }  // namespace
 
 Result<void> run_plan(const PlanOptions& options) {
@@ -119,7 +128,7 @@ Result<void> run_plan(const PlanOptions& options) {
         std::printf("%s\n", json_text(plan_json(budget, view, choice), true).c_str());
         return {};
     }
-    std::fputs(plan_text(budget, view, choice).c_str(), stdout);
+    std::fputs(plan_text(budget, view, eye_of(view, region), choice).c_str(), stdout);
     return {};
 }
 

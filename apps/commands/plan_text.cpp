@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "apps/report/figures.h"
@@ -63,15 +64,14 @@ const char* yes_or_no(bool yes) {
     return yes ? "yes" : "no";
 }
 
-std::string remark_on(const BudgetLine& line, const Budget& budget, const View& view) {
+std::string remark_on(const BudgetLine& line, const View& view) {
     std::string remark = facts_of(line.kind).left_out_by;
     if (line.kind == EffectKind::detail) {
         char tau[40];
         std::snprintf(tau, sizeof tau, " %g", view.tau_px > 0.0 ? view.tau_px : 1.0);
         remark += tau;
     }
-    if (budget.dominant != line.kind) return remark;
-    return remark + (remark.empty() ? "" : "  ") + "<- largest here";
+    return remark;
 }
 
 std::string rows(const Budget& budget, EffectGroup group, const View& view) {
@@ -83,7 +83,8 @@ std::string rows(const Budget& budget, EffectGroup group, const View& view) {
         const char* const judged =
             line.size ? yes_or_no(of_model ? line.needed() : line.within_tolerance) : "-";
         text += row(of_model ? facts.part : facts.name, yes_or_no(of_model ? line.modelled : line.in_picture),
-                    judged, line.size, remark_on(line, budget, view));
+                    judged, line.size, remark_on(line, view));
+        if (budget.dominant == line.kind) text += "  ^ largest error of this picture\n";
     }
     return text;
 }
@@ -93,9 +94,10 @@ std::string advice(const Budget& budget, const View& view, const AccuracyChoice&
     const bool within = budget.total.worst_px <= budget.tolerance_px;
     const std::string tolerance = pixels(budget.tolerance_px);
     const std::string option = "`--accuracy " + std::string(choice.bundle.name) + "`";
-    const std::string predicted = about(choice.predicted_px) + " px (" + choice.bundle.options + ")";
-    std::string text = "Good to " + about(budget.total.worst_px) + " px";
-    text += within ? ": within the tolerance of " + tolerance + "." : ".";
+    const std::string predicted =
+        about_beside(budget.tolerance_px, choice.predicted_px) + " px (" + choice.bundle.options + ")";
+    std::string text = "Good to " + about_beside(budget.tolerance_px, budget.total.worst_px) + " px: ";
+    text += (within ? "within the tolerance of " : "more than the tolerance of ") + tolerance + ".";
     if (is_drawn_as(choice.bundle, view))
         text += choice.holds ? "\nThat is what " + option + " draws, the cheapest within " + tolerance + "."
                              : "\nThat is what " + option + " draws, and nothing else is closer.";
@@ -126,19 +128,35 @@ std::string limit_of_data(const Budget& budget) {
            (stated ? "." : "; and the source does not say how accurate it is.");
 }
 
+std::string eye_text(const View& view, const PlanEye& eye) {
+    const Geodetic& place = view.camera.eye;
+    double heading_deg = std::fmod(std::round(view.camera.attitude.heading_deg * 10.0) / 10.0, 360.0);
+    if (heading_deg < 0.0) heading_deg += 360.0;
+    std::string above;
+    if (eye.above_ground_m)
+        above = ", " + metres(std::abs(*eye.above_ground_m)) + " m " +
+                (*eye.above_ground_m < 0.0 ? "below" : "above") + " the ground";
+    char text[240];
+    std::snprintf(text, sizeof text, "Eye: %.6f %.6f, H %s m%s, towards %.4g.\n", place.lat_deg,
+                  place.lon_deg, metres(eye.H_m).c_str(), above.c_str(), heading_deg);
+    return text;
+}
+
 }  // namespace
 
-std::string plan_text(const Budget& budget, const View& view, const AccuracyChoice& choice) {
-    if (budget.empty) return "nothing of the region is in view: there is nothing to predict\n";
+std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye,
+                      const AccuracyChoice& choice) {
+    if (budget.empty)
+        return eye_text(view, eye) + "nothing of the region is in view: there is nothing to predict\n";
     char text[240];
     std::snprintf(
         text, sizeof text,
         "Ground in view: from %s m on, half of it beyond %s m; %d x %d px, %g degrees; tolerance %g "
         "px.\n",
-        figure(budget.nearest_m).c_str(), figure(budget.median_distance_m).c_str(), view.camera.width_px,
+        metres(budget.nearest_m).c_str(), metres(budget.median_distance_m).c_str(), view.camera.width_px,
         view.camera.height_px, view.camera.vertical_fov_deg, budget.tolerance_px);
     const std::string limit = pixels(budget.tolerance_px);
-    std::string out = text;
+    std::string out = eye_text(view, eye) + text;
     out += "Worst: no point in view is off by more. Typical: half of the points are off by less.\n\n";
     out += "Switch off one part of the model to see how much error that causes:\n";
     out += headings("part of the model", "needed", "for " + limit, "left out by");

@@ -1,6 +1,7 @@
 // What `plan` prints for people.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "apps/accuracy/accuracy.h"
@@ -8,8 +9,15 @@
 
 namespace oro {
 
-// A table of all effects in three parts, and what they come to in some sentences. Lines of at most 120
-// columns with their line ends, but for the sentences, which are as long as they are.
-std::string plan_text(const Budget& budget, const View& view, const AccuracyChoice& choice);
+// Where the eye of a view is, for people.
+struct PlanEye {
+    double H_m;                            // above sea level
+    std::optional<double> above_ground_m;  // nothing where there are no data below it
+};
+
+// The eye, a table of all effects in three parts, and what they come to in some sentences. Lines of at most
+// 120 columns with their line ends, but for the sentences, which are as long as they are.
+std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye,
+                      const AccuracyChoice& choice);
 
 }  // namespace oro

@@ -92,6 +92,13 @@ Result<void> check_options(const TradeOptions& options, const std::string& csv, 
             "tries all settings itself: leave --tau, --earth, --refraction, --precision, --geoid, --heights, "
             "--accuracy and --tolerance out"};
     std::error_code ignored;
+    if (!fs::exists(options.out, ignored)) {
+        std::error_code failed;
+        fs::create_directory(options.out, failed);
+        if (failed)
+            return Error{ErrorKind::failed, options.out,
+                         "is no folder, nor can be made: " + failed.message()};
+    }
     if (!fs::is_directory(options.out, ignored)) return Error{ErrorKind::failed, options.out, "is no folder"};
     for (const std::string& file : {csv, html}) {
         if (!options.overwrite && fs::exists(file, ignored))
@@ -112,9 +119,29 @@ Result<void> write_report(const TradeReport& report, const std::string& csv, con
     return commit_together({&table, &page});
 }
 
+// Takes a folder that was made away again where nothing has come into it.
+class MadeFolder {
+  public:
+    explicit MadeFolder(fs::path folder) : folder_(std::move(folder)) {
+        std::error_code ignored;
+        was_there_ = fs::exists(folder_, ignored);
+    }
+    MadeFolder(const MadeFolder&) = delete;
+    MadeFolder& operator=(const MadeFolder&) = delete;
+    ~MadeFolder() {
+        std::error_code not_empty;
+        if (!was_there_ && fs::is_directory(folder_, not_empty)) fs::remove(folder_, not_empty);
+    }
+
+  private:
+    fs::path folder_;
+    bool was_there_{};
+};
+
 }  // namespace
 
 Result<void> run_trade(const TradeOptions& options) {
+    const MadeFolder made(options.out);
     const std::string csv = (fs::path(options.out) / "trade.csv").string();
     const std::string html = (fs::path(options.out) / "trade.html").string();
     ORO_CHECK(check_options(options, csv, html));

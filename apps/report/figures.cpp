@@ -27,6 +27,13 @@ std::string in_powers(double value) {
     return small ? power.insert(at, "-") : power;
 }
 
+// "2.50" is "2.5", "2.0" is "2".
+std::string without_last_zeros(std::string text) {
+    if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
 constexpr double finest = 0.001;
 
 }  // namespace
@@ -51,10 +58,33 @@ std::string about(double value) {
     if (value < finest) return "less than 0.001";
     const double step = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
     // The fewest digits that read back the same: what rounding left behind is cut off before.
-    std::string text = fixed(std::round(value / step) * step, step >= 1.0 ? 0 : 4);
-    if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text;
+    return without_last_zeros(fixed(std::round(value / step) * step, step >= 1.0 ? 0 : 4));
+}
+
+std::string about_beside(double limit, double value) {
+    const auto is_on_its_side = [&](double shown) { return (shown > limit) == (value > limit); };
+    if (!(value >= finest) || !std::isfinite(value)) return about(value);
+    double step = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+    if (is_on_its_side(std::round(value / step) * step)) return about(value);
+    for (int decimals = 1; decimals < 12; ++decimals) {
+        step = std::pow(10.0, -decimals);
+        if (is_on_its_side(std::round(value / step) * step))
+            return without_last_zeros(fixed(value, decimals));
+    }
+    return all_digits(value);
+}
+
+std::string metres(double value_m) {
+    const double size = std::abs(value_m);
+    if (!std::isfinite(value_m) || (size > 0.0 && size < 1.0)) return figure(value_m);
+    if (size < 100.0) return without_last_zeros(fixed(value_m, 1));
+    if (size < 9999.5) return fixed(value_m, 0);
+    if (size >= 1e15) return figure(value_m);
+    return (value_m < 0.0 ? "-" : "") + grouped(static_cast<std::uint64_t>(std::llround(size)));
+}
+
+std::string coarse_figure(double value) {
+    return value > 0.0 && value < finest ? "<0.001" : figure(value);
 }
 
 std::string point_aligned(double value, int before) {

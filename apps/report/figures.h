@@ -15,6 +15,12 @@ std::string figure(const std::optional<double>& value);
 // Two digits, as one says a size in a sentence: "0", "0.12", "2", "66", "3400"; below 0.001 "less than
 // 0.001".
 std::string about(double value);
+// The same with as many digits more as keep it on its side of `limit`: 1.03 beside 1 is "1.03".
+std::string about_beside(double limit, double value);
+// A distance or height in metres, as one says it in a sentence: "0.35", "2", "36.4", "2490", "297,974".
+std::string metres(double value_m);
+// As figure, but nothing finer than a thousandth: "<0.001".
+std::string coarse_figure(double value);
 // For tables: three digits, nothing finer than a thousandth, and the decimal point `before` characters from
 // the left: "  362    ", "   13.3  ", "   <0.001". Needs before + 4 characters; larger numbers need more.
 std::string point_aligned(double value, int before);

@@ -7,9 +7,6 @@ namespace {
 
 constexpr WorldModel true_air{Earth::ellipsoid, usual_refraction_k, Precision::relative};
 
-// What placement and depths may add to what tau allows.
-constexpr double slack_px = 0.05;
-
 void add_levels(std::vector<TradeCase>& cases) {
     struct Level {
         double tau_px;
@@ -19,7 +16,7 @@ void add_levels(std::vector<TradeCase>& cases) {
          {Level{0.5, "tau 0.5"}, Level{1.0, "tau 1"}, Level{2.0, "tau 2"}, Level{4.0, "tau 4"}}) {
         TradeCase one{level.name, "--tau" + std::string(level.name).substr(3), level.tau_px, true_air};
         one.options += " --refraction 0.13";
-        one.limit_px = level.tau_px + slack_px;
+        one.limit_px = level.tau_px + drawing_slack_px;
         one.effect = std::string(facts_of(EffectKind::detail).name) + ", " + level.name;
         cases.push_back(one);
     }
@@ -46,7 +43,7 @@ void add_models(std::vector<TradeCase>& cases) {
 
 std::vector<TradeCase> trade_cases() {
     std::vector<TradeCase> cases{{"full detail", "--tau 0 --refraction 0.13", 0.0, true_air}};
-    cases.front().limit_px = slack_px;
+    cases.front().limit_px = drawing_slack_px;
     cases.front().effect = "all that remains at full detail";
     add_levels(cases);
     add_models(cases);
@@ -55,6 +52,9 @@ std::vector<TradeCase> trade_cases() {
         one.world.refraction_k = bundle.refraction_k;
         one.heights = bundle.heights;
         one.bundle = bundle.kind;
+        // Where levels are all that is left out.
+        if (bundle.heights == HeightStorage::f32 && bundle.refraction_k == usual_refraction_k)
+            one.limit_px = bundle.tau_px + drawing_slack_px;
         one.effect = std::string(bundle.name) + ", all together";
         cases.push_back(one);
     }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 
 #include "apps/trade/trade_parts.h"
 
@@ -132,6 +133,13 @@ class Table {
     bool text_last_;
 };
 
+// All of it: rounded, 1.05 would not be what the line below the table says.
+std::string limit_text(double limit_px) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%g", limit_px);
+    return text;
+}
+
 std::string settings_text(const TradeReport& report) {
     Table table(
         {{"  setting", "time", "triangles", "terrain", "ground", "", "", "", "limit", "skyline"},
@@ -139,18 +147,20 @@ std::string settings_text(const TradeReport& report) {
         false);
     for (const TradeSetting& setting : report.settings) {
         const bool measured = setting.interior_pixels > 0;
-        const auto ground = [&](double value) { return measured ? figure(value) : std::string("n/a"); };
-        table.add({(setting.on_front ? "* " : "  ") + valid_text(setting.name), figure(setting.gpu_ms),
-                   grouped(setting.triangles), figure(megabytes(setting.bytes)), ground(setting.interior_m),
-                   ground(setting.interior_px), ground(setting.interior_p99_px),
-                   ground(setting.interior_mean_px), setting.limit_px ? figure(*setting.limit_px) : "",
-                   setting.skyline_columns > 0 ? figure(setting.skyline_px) : "n/a"});
+        const auto ground = [&](double value) {
+            return measured ? coarse_figure(value) : std::string("n/a");
+        };
+        table.add({(setting.on_front ? "* " : "  ") + valid_text(setting.name), coarse_figure(setting.gpu_ms),
+                   grouped(setting.triangles), coarse_figure(megabytes(setting.bytes)),
+                   ground(setting.interior_m), ground(setting.interior_px), ground(setting.interior_p99_px),
+                   ground(setting.interior_mean_px), setting.limit_px ? limit_text(*setting.limit_px) : "",
+                   setting.skyline_columns > 0 ? coarse_figure(setting.skyline_px) : "n/a"});
     }
     return table.text() +
            "* unbeaten: no other setting is both as fast and as close (worst px), and better in one of the "
            "two\n"
            "ground: how far each drawn point is from the true ground, in height (m) and on the picture (px)\n"
-           "99 %: so many of the points are off by no more\n"
+           "99 %: 99 of 100 points are off by no more than this\n"
            "skyline: how far the drawn skyline is from the true one\n"
            "limit: by how much --tau lets ground be off, and 0.05 px for what drawing rounds off\n"
            "terrain: what the GPU read of it\n";
@@ -166,8 +176,15 @@ std::string ratio_text(const std::optional<RatioRange>& ratio) {
 std::string remark_of(const EffectWorst& effect) {
     const std::string how = remark_on(effect.measured_by);
     if (effect.broken_in.empty()) return how;
-    return "MORE THAN PREDICTED in " + std::to_string(effect.broken_in.size()) + " of " +
-           std::to_string(effect.measured_views) + " views" + (how.empty() ? "" : "; ") + how;
+    const std::string where = effect.measured_views == 1
+                                  ? "the one view"
+                                  : std::to_string(effect.broken_in.size()) + " of " +
+                                        std::to_string(effect.measured_views) + " views";
+    return "MORE THAN PREDICTED in " + where + (how.empty() ? "" : "; ") + how;
+}
+
+std::string measured_text(const std::optional<double>& value) {
+    return value ? coarse_figure(*value) : "n/a";
 }
 
 std::string effects_text(const TradeReport& report) {
@@ -175,8 +192,9 @@ std::string effects_text(const TradeReport& report) {
                  {"(worst of the views)", "m", "m", "", "px", "px", "", ""}},
                 true);
     for (const EffectWorst& effect : worst_effects(report))
-        table.add({valid_text(effect.effect), figure(effect.predicted_m), figure(effect.measured_m),
-                   ratio_text(effect.ratio_m), figure(effect.predicted_px), figure(effect.measured_px),
+        table.add({valid_text(effect.effect), coarse_figure(effect.predicted_m),
+                   measured_text(effect.measured_m), ratio_text(effect.ratio_m),
+                   coarse_figure(effect.predicted_px), measured_text(effect.measured_px),
                    ratio_text(effect.ratio_px), remark_of(effect)});
     return table.text() +
            "predicted: a bound, worked out before anything is drawn; orograph plan tells it for one view\n"

@@ -2,10 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "apps/output/data_folder.h"
 #include "apps/report/json_fields.h"
@@ -75,6 +80,20 @@ Style read_style(const nlohmann::json& json, const std::optional<SunDirection>& 
     return {style, sun};
 }
 
+// "default, grey": of the styles that come with the program; "" where there are none.
+std::string style_names() {
+    std::vector<std::string> names;
+    std::error_code failed;
+    std::filesystem::directory_iterator entry(data_folder() / "styles", failed);
+    for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
+        if (entry->path().extension() == ".json") names.push_back(entry->path().stem().string());
+    }
+    std::ranges::sort(names);
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return all;
+}
+
 }  // namespace
 
 bool is_style_path(const std::string& style) {
@@ -87,6 +106,11 @@ Result<Style> load_style(const std::string& name, const std::optional<SunDirecti
     const auto text = read_text_file(path);
     if (!text.ok()) {
         const bool no_such = access(path.c_str(), F_OK) != 0 && (errno == ENOENT || errno == ENAMETOOLONG);
+        if (!is_path && no_such) {
+            if (const std::string names = style_names(); !names.empty())
+                return Error{ErrorKind::usage, "--style " + name,
+                             "no style is called '" + name + "'; there is: " + names};
+        }
         return Error{!is_path && no_such ? ErrorKind::usage : ErrorKind::failed, "--style " + name,
                      text.error().line()};
     }

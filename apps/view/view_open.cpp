@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "apps/view/view.h"
+#include "core/base/file_there.h"
 
 namespace oro {
 
@@ -10,6 +11,24 @@ void leave_geoid_out(Region& region) {
     region.field.undulation = {};
     region.geoid = "none";
 }
+
+namespace {
+
+// Where the data that a view names are gone: what to do about it.
+Error with_way_out(Error fault, const View& view, const RegionOptions& options) {
+    if (!options.paths.empty()) return fault;
+    for (const std::string& path : view.region.paths) {
+        const auto there = is_there(path);
+        if (!there.ok() || *there || path.starts_with("/vsi")) continue;
+        fault.what +=
+            "; name the data after the picture: orograph compare PICTURE PATH... (or shot --view PICTURE "
+            "PATH...)";
+        break;
+    }
+    return fault;
+}
+
+}  // namespace
 
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
@@ -21,7 +40,9 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         if (view.region.paths.empty())
             return Error{ErrorKind::usage, "--view " + view_file,
                          "does not tell where its elevation data lie: name them, too"};
-        ORO_TRY(region, open_region(view.region, progress));
+        auto opened = open_region(view.region, progress);
+        if (!opened) return with_way_out(opened.error(), view, region_options);
+        region = std::move(*opened);
         if (!view.has_geoid) leave_geoid_out(region);
         return {};
     }

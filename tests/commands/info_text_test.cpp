@@ -49,6 +49,7 @@ TEST(InfoText, OneFileTellsAllOfItself) {
     const std::string text = info_text(region_of({tile("a/N46E008.hgt")}));
     expect_words(text, {"region: 1 file\n", "void posts  none\n", "no data     none\n", "overlaps    none\n",
                         "\na/N46E008.hgt\n", "SRTM3 .hgt, posts are points", "in m\n", "190 to 4142 m\n",
+                        "degrees (92.63 m north-south and 63.97 m east-west)\n",
                         "its posts are the region's posts\n", "attribution somebody\n"});
     expect_none(text, {"1 files", "sources", " 0 of", "no cell", "note"});
     EXPECT_LT(text.find("region: "), text.find("N46E008.hgt"));
@@ -75,13 +76,29 @@ TEST(InfoText, ManyFilesAreALineEachAfterWhatTheyShare) {
          "1 post in 1 cell of a degree that no file covers: N46E009; 7 posts beyond the edges of the files\n",
          "1,201 posts are in more than one file, 12 of them with other heights, by up to 3.5 m",
          "files: 2, all of them: posts are points; EPSG:4326 WGS 84;",
-         "a/N46E008.hgt  box 8,46,9,47; 1201 x 1201 posts, every 92.63 m; H 190 to 4142 m; SRTM3 .hgt; "
+         "a/N46E008.hgt  box 8,46,9,47; 1201 x 1201 posts, every 92.63 m north-south and 63.97 m east-west; "
+         "H 190 to 4142 m; SRTM3 .hgt; "
          "somebody\n",
          "void posts: 1,500, 2 of them heights that no terrain has",
          "1 post differs from another file's, by up to 2.5 m; GTiff; attribution not stated\n"});
     const auto of_files =
         std::count(text.begin() + static_cast<std::ptrdiff_t>(text.find("files: 2")), text.end(), '\n');
     EXPECT_EQ(of_files, 3);
+}
+
+TEST(InfoText, LengthsAreInWordsAndUnitsShort) {
+    SourceReport coarse = tile("world.tif");
+    coarse.rows = coarse.columns = 5;
+    coarse.lat_spacing_deg = coarse.lon_spacing_deg = 0.25;
+    coarse.spacing_m = 27670.0;
+    coarse.height_unit.name = "metre";
+    coarse.lowest_m = -3.25;
+    coarse.highest_m = 4142.0;
+    expect_words(info_text(region_of({coarse})), {"degrees (27.67 km north-south and 19.19 km east-west)\n",
+                                                  ", in m\n", "-3.2 to 4142.0 m\n"});
+    // In a projection posts are as far apart both ways, and do not fill a box of degrees.
+    coarse.lon_spacing_deg = 0.3625;
+    expect_words(info_text(region_of({coarse})), {"degrees (27.67 km)\n"});
 }
 
 TEST(InfoText, FilledPostsAndPlacementsAreTold) {

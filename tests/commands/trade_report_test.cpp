@@ -127,6 +127,22 @@ TEST(TradeReport, FiguresHaveTheDigitsThatMatter) {
     EXPECT_EQ(grouped(12345678), "12,345,678");
 }
 
+TEST(TradeReport, FiguresBesideALimitStayOnTheirSide) {
+    EXPECT_EQ(about_beside(1.0, 1.03), "1.03");
+    EXPECT_EQ(about_beside(1.0, 1.0004), "1.0004");
+    EXPECT_EQ(about_beside(1.26, 1.256), "1.26");
+    EXPECT_EQ(about_beside(1.254, 1.2533), "1.25");
+    EXPECT_EQ(about_beside(1.0, 2.14), "2.1");
+    EXPECT_EQ(about_beside(1.0, 0.0), "0");
+    EXPECT_EQ(coarse_figure(0.0004), "<0.001");
+    EXPECT_EQ(coarse_figure(0.0), "0");
+    EXPECT_EQ(metres(297974.2), "297,974");
+    EXPECT_EQ(metres(2490.3), "2490");
+    EXPECT_EQ(metres(2.0), "2");
+    EXPECT_EQ(metres(-36.44), "-36.4");
+    EXPECT_EQ(metres(0.354), "0.35");
+}
+
 // RFC 4648, 10.
 TEST(TradeReport, Base64) {
     const auto of = [](const std::string& text) {
@@ -174,6 +190,10 @@ TEST(TradeReport, EffectsSayTheWorstAndTheirRatios) {
     const std::string text = trade_text(report);
     EXPECT_NE(text.find("MORE THAN PREDICTED in 1 of 3"), std::string::npos) << text;
     EXPECT_NE(text.find("stated by the source"), std::string::npos) << text;
+    report.effects = {{"a", "sphere", 1.0, 1.0, 0.0004, 8.0}};
+    const std::string one = trade_text(report);
+    EXPECT_NE(one.find("MORE THAN PREDICTED in the one view"), std::string::npos) << one;
+    EXPECT_NE(one.find("<0.001"), std::string::npos) << one;
 }
 
 // Figures of a column stand below each other by their points.

@@ -131,7 +131,7 @@ function viewsPlot(report, head, xTitle, error, withLimits) {
   var rows = report.settings.map(function (setting) {
     var limit = withLimits ? setting.limit_px : null;
     return {name: setting.name, points: [], joined: false, alarm: false, limit: limit,
-            limitTip: 'limit of ' + setting.name + ': ' + figure(limit) + ' px'};
+            limitTip: 'limit of ' + setting.name + ': ' + number(limit) + ' px'};
   });
   report.shots.forEach(function (shot) {
     var row = rows[shot.setting], summary = shot[error], view = report.views[shot.view];

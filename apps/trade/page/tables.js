@@ -69,7 +69,7 @@ function settingRow(setting) {
     cell([setting.best ? '\u25cf' : '']), rowHead(setting.name), numberCell(setting.gpu_ms),
     cell([grouped(setting.triangles)]), cell(figureParts(megabytes(setting.bytes))), numberCell(setting.ground_m),
     numberCell(setting.ground_px, setting.over_limit ? 'alarm' : ''),
-    setting.limit_px === null ? cell(['']) : numberCell(setting.limit_px), numberCell(setting.ground_p99_px),
+    setting.limit_px === null ? cell(['']) : cell([String(number(setting.limit_px))]), numberCell(setting.ground_p99_px),
     numberCell(setting.ground_mean_px), numberCell(setting.skyline_px), cell(optionParts(setting.options), 'text')
   ]);
 }
@@ -116,7 +116,8 @@ function effectsTable(report) {
                'hold, above ' + report.loose_ratio + ' it says little.',
                effectHeads([{name: 'Effect', rows: 2, text: true}]), report.effects.map(function (effect) {
     var over = effect.over_in > 0 ? element('strong', {}, [
-      'More than predicted in ' + effect.over_in + ' of ' + counted(effect.measured_views, 'view', 'views') + '. '
+      'More than predicted in ' + (effect.measured_views === 1 ? 'the one view' : effect.over_in + ' of ' +
+      counted(effect.measured_views, 'view', 'views')) + '. '
     ]) : null;
     return element('tr', over ? {'class': 'alarm'} : {}, [rowHead(effect.name)].concat(
       effectCells(effect, report.loose_ratio), [cell([over, effect.remark], 'text')]));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -140,7 +141,9 @@ TEST_F(TradeCommand, ReplacesOnlyWhenTold) {
 
 TEST_F(TradeCommand, FoldersThatAreNone) {
     write_bytes(folder / "file", "mine");
-    for (const fs::path& out : {folder / "missing", folder / "file", fs::path("/dev/null")})
+    expect_refusal(run_orograph({"trade", bundled(), "--out", folder / "missing" / "deeper"}), failed,
+                   {folder / "missing" / "deeper", "is no folder, nor can be made: No such file"});
+    for (const fs::path& out : {folder / "file", fs::path("/dev/null")})
         expect_refusal(run_orograph({"trade", bundled(), "--out", out}), failed, {out, "is no folder"});
     expect_refusal(run_orograph({"trade", bundled(), "--out", ""}), usage, {"--out"});
     ASSERT_TRUE(oro::test::permissions_bind()) << "this process cannot be made to heed permissions";
@@ -151,6 +154,34 @@ TEST_F(TradeCommand, FoldersThatAreNone) {
     expect_refusal(run_orograph({"trade", bundled(), "--out", folder / "locked"}, bound), failed,
                    {"locked", "ermission"});
     EXPECT_EQ(bytes_of(folder / "file"), "mine");
+}
+
+TEST_F(TradeCommand, MakesItsFolder) {
+    const fs::path made = folder / "new";
+    // One that comes to nothing leaves none.
+    expect_refusal(run_orograph({"trade", bundled() + ".none", "--out", made}), failed, {".none"});
+    EXPECT_EQ(names_in(folder), Words{});
+    const Outcome outcome = run_orograph(
+        {"trade", bundled(), "--views", "1", "--repeats", "1", "--size", "64x36", "--out", made, "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(names_in(made), (Words{"trade.csv", "trade.html"}));
+    std::vector<std::string> limits;
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        Words row{std::istream_iterator<std::string>(words), {}};
+        if (row.size() > 2 && row[0] == "*") row.erase(row.begin());
+        for (const char* name : {"full", "tau", "balanced", "survey", "draft"}) {
+            if (row.size() < 9 || row[0] != name) continue;
+            limits.push_back(row[row.size() - 2]);
+        }
+    }
+    // The draft has none, as it leaves refraction out and rounds heights: its mean stands there.
+    ASSERT_EQ(limits.size(), 8U) << outcome.out;
+    const std::string draft = limits[5];
+    EXPECT_NE(draft, "4.05");
+    limits.erase(limits.begin() + 5);
+    EXPECT_EQ(limits, (Words{"0.05", "0.55", "1.05", "2.05", "4.05", "0.55", "0.05"})) << outcome.out;
 }
 
 TEST_F(TradeCommand, RefusesWhatItTriesItself) {

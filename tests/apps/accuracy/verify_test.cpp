@@ -71,7 +71,8 @@ TEST_F(Verify, SaysHowFarOffThePictureIs) {
     expect_errors(said.at("error"), 1.0);
     EXPECT_EQ(said.at("error_picture"), error_picture.string());
     for (const char* words : {"largest", "99.99 %", "ground, m", "ground, px", "skyline, px", "p.error.png",
-                              "Ground: ", "Skyline: ", "99 %: ", "Allowed by --tau: 1 px"})
+                              "Ground: ", "Skyline: ", "99 %: 99 of 100 are off by no more than this.\n",
+                              "\nAllowed: 1.05 px (--tau 1, and 0.05 px that drawing rounds off)\n"})
         EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
     EXPECT_EQ(outcome.err.find("interior"), std::string::npos) << "a word that nothing explains";
     EXPECT_EQ(names_in(folder), (Words{"p.error.png", "p.png"}));

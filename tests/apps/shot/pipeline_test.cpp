@@ -78,8 +78,9 @@ TEST_F(Pipeline, IsMeasuredOnceAndRemembered) {
 
     pretend("mesh");
     const Outcome told = run_orograph({"doctor"}, here());
-    EXPECT_NE(told.out.find("auto: mesh: 2.0 times faster than compute here (measured 2026-11-21)"),
-              std::string::npos)
+    EXPECT_NE(
+        told.out.find("--pipeline auto takes mesh: 2.0 times faster than compute here (measured 2026-11-21)"),
+        std::string::npos)
         << told.out;
 
     json other_driver = json::parse(bytes_of(file));
@@ -128,7 +129,8 @@ TEST_F(Pipeline, NothingIsMeasuredWhereThereIsOneWay) {
         EXPECT_EQ(device["auto"]["measured"], nullptr);
         EXPECT_EQ(device["auto"]["measured_now"], false);
         const Outcome told = run_orograph({"doctor"}, one_way);
-        EXPECT_NE(told.out.find(std::string("auto: ") + way + ": the only way here\n"), std::string::npos)
+        EXPECT_NE(told.out.find(std::string("auto takes ") + way + ": the only way here\n"),
+                  std::string::npos)
             << told.out;
     }
     EXPECT_FALSE(fs::exists(cache));

@@ -183,6 +183,18 @@ TEST_F(ToldView, NoPathsWhereNoneAreWanted) {
     EXPECT_NE(again.err.find("draws the same bytes"), std::string::npos) << "it tells no paths again";
 }
 
+// Found: who had moved the data was told that they are gone, and not what to do.
+TEST_F(ToldView, DataThatAreGoneCanBeNamed) {
+    const fs::path picture = pictures / "p.png";
+    ASSERT_EQ(shoot({data / "land.tif", "--out", picture}).exit_code, 0);
+    fs::rename(data / "land.tif", data / "moved.tif");
+    const std::string way = "; name the data after the picture: orograph compare PICTURE PATH...";
+    expect_refusal(run_orograph({"compare", picture, "-q"}), 1, {"land.tif", way});
+    expect_refusal(run_orograph({"shot", "--view", picture, "--out", pictures / "q.png"}), 1,
+                   {"land.tif", way, "shot --view PICTURE PATH..."});
+    EXPECT_EQ(run_orograph({"compare", picture, data / "moved.tif", "-q"}).exit_code, 0);
+}
+
 // Found: again.jpg could not be drawn where there was an again.png, whose view had its name.
 TEST_F(ToldView, PicturesOfOneNameDoNotMeet) {
     for (const char* name : {"p.png", "p.jpg", "p.tif"}) {

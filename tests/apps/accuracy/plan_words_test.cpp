@@ -1,0 +1,69 @@
+// What `plan` says before and after its table: where the eye is, and how good the picture.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+using nlohmann::json;
+using oro::test::Outcome;
+using oro::test::run_orograph;
+using Words = std::vector<std::string>;
+
+Outcome plan(const Words& more) {
+    const auto land = oro::test::bundled_data() / "jacksboro.tif";
+    Words words{"plan",      land,    "--at",    "36.6,-84.2", "--above", "300",
+                "--heading", "200.5", "--pitch", "-5",         "--size",  "96x54"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_orograph(words);
+}
+
+bool says(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+}
+
+TEST(Plan, BeginsWithTheEye) {
+    const auto eye_of = [](const Words& more) {
+        const auto land = oro::test::bundled_data() / "jacksboro.tif";
+        Words words{"plan", land, "--size", "96x54"};
+        words.insert(words.end(), more.begin(), more.end());
+        const std::string text = run_orograph(words).out;
+        return text.substr(0, text.find('\n'));
+    };
+    EXPECT_EQ(eye_of({"--at", "36.6,-84.2", "--above", "300", "--heading", "200.5", "--pitch", "-5"}),
+              "Eye: 36.600000 -84.200000, H 688 m, 300 m above the ground, towards 200.5.");
+    EXPECT_EQ(eye_of({"--at", "36.6,-90.5", "--altitude", "12345", "--heading", "360", "--pitch", "-5"}),
+              "Eye: 36.600000 -90.500000, H 12,345 m, towards 0.");
+}
+
+// Found: "no" in the table for 1.03 px, and "Good to 1 px." below it.
+TEST(Plan, TheLastLineIsOnTheTablesSideOfTheTolerance) {
+    const json said = json::parse(plan({"--json", "-q", "--accuracy", "draft"}).out);
+    const double worst_px = said.at("total").at("worst_px").get<double>();
+    for (const double off : {-0.003, 0.003}) {
+        char tolerance[40];
+        std::snprintf(tolerance, sizeof tolerance, "%.4f", worst_px + off);
+        const std::string text = plan({"--accuracy", "draft", "--tolerance", tolerance}).out;
+        const std::size_t at = text.find("\nGood to ") + 9;
+        const double shown_px = std::stod(text.substr(at));
+        EXPECT_EQ(shown_px > std::stod(tolerance), off < 0.0) << text;
+        EXPECT_TRUE(says(text.substr(at),
+                         off < 0.0 ? " px: more than the tolerance of " : " px: within the tolerance of "))
+            << text;
+    }
+}
+
+TEST(Plan, QuietLeavesTheTableAlone) {
+    const Outcome outcome = plan({"-q"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_TRUE(says(outcome.out, "full detail")) << outcome.out;
+    EXPECT_EQ(plan({}).out, outcome.out);
+}
+
+}  // namespace
