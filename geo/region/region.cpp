@@ -66,6 +66,18 @@ void add_doubts(const RegionRequest& request, std::span<const Source> sources, c
                             ": that crosses the antimeridian, and most of the way round the Earth");
 }
 
+// Of large rasters, whether their last row is there: a file that says more than it holds is told before
+// memory is taken for its posts.
+Result<void> check_last_rows(std::span<const Source> sources) {
+    constexpr std::int64_t large = std::int64_t{1} << 26;
+    for (const Source& source : sources) {
+        const SourceReport& report = source.report;
+        if (std::int64_t{report.rows} * report.columns < large) continue;
+        ORO_TRY(const PostBlock row, read_posts(source, {report.rows - 1, 0, 1, report.columns}));
+    }
+    return {};
+}
+
 // The last step: counts the posts without a height, and why.
 void describe_voids(std::span<const Source> sources, const JoinedSurface& surface, Region& region) {
     region.missing_cells = cells_without(sources, region.field.grid);
@@ -97,6 +109,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     region.geoid = geoid.name();
     add_note(region.notes, geoid.note());
     add_doubts(request, sources, grid, region.notes);
+    ORO_CHECK(check_last_rows(sources));
 
     JoinedSurface surface(grid);
     ORO_CHECK(lay_sources(sources, {grid, region.field.undulation, geoid, request.strict_datum}, surface,

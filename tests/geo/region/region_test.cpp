@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <vector>
 
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
@@ -315,6 +319,32 @@ TEST(Region, RealWorldAndTooLargeRegions) {
     ASSERT_FALSE(all.ok());
     EXPECT_NE(all.error().line().find("--bbox"), std::string::npos) << all.error().line();
     EXPECT_NE(all.error().line().find("posts"), std::string::npos);
+}
+
+// A file that says it has 951 million posts and holds a few thousand is told at once: memory for them would
+// be 5 GB, and clearing it takes a while.
+TEST(Region, AClaimBeyondTheFileIsToldBeforeMemoryIsTaken) {
+    const std::filesystem::path folder = scratch_folder();
+    std::vector<unsigned char> bytes(256 + 2 * 60 * 60, 0);
+    const auto put = [&](std::size_t at, const auto& value) {
+        std::memcpy(&bytes[at], &value, sizeof value);
+    };
+    std::memcpy(bytes.data(), "binterr1.3", 10);
+    put(10, std::int32_t{60});
+    put(14, std::int32_t{15859772});  // rows; the file has 60
+    put(18, std::int16_t{2});         // bytes a post
+    put(28, -84.33), put(36, -84.28), put(44, 36.60), put(52, 36.65);
+    put(60, std::int16_t{1});  // the coordinate system is in the .prj
+    put(62, 1.0F);
+    write_bytes((folder / "r.bt").string(), bytes);
+    std::ofstream(folder / "r.prj") << "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
+                                       "84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
+                                       "UNIT[\"degree\",0.0174532925199433]]";
+    RegionRequest request;
+    request.paths = {(folder / "r.bt").string()};
+    const Result<Region> region = open_region(request);
+    ASSERT_FALSE(region.ok());
+    EXPECT_NE(region.error().line().find("near row 15859771"), std::string::npos) << region.error().line();
 }
 
 }  // namespace
