@@ -1,5 +1,4 @@
 // orograph view: a window to fly over a region.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -15,6 +14,7 @@
 #include "apps/view/style.h"
 #include "apps/window/flight.h"
 #include "apps/window/picking.h"
+#include "core/base/elapsed.h"
 #include "core/base/parallel.h"
 #include "core/terrain/ground.h"
 #include "core/truth/true_surface.h"
@@ -23,8 +23,6 @@
 
 namespace oro {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Everything that lives while the window is open.
 struct Viewer {
@@ -50,8 +48,7 @@ struct Viewer {
 // How long the user has waited for it.
 void say_waited(const Viewer& viewer, const char* what) {
     char text[100];
-    std::snprintf(text, sizeof text, "%s after %.2f s", what,
-                  std::chrono::duration<double>(Clock::now() - viewer.started).count());
+    std::snprintf(text, sizeof text, "%s after %.2f s", what, seconds_since(viewer.started));
     say(viewer.options.quiet, text);
 }
 

@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "tests/support/test_data.h"
+#include "tests/layers/source_files.h"
 
 namespace {
 namespace fs = std::filesystem;
@@ -46,21 +45,13 @@ std::vector<std::string> decisions_on_prose(const std::string& text) {
 }
 
 TEST(DisplayText, NothingIsDecidedOnIt) {
-    const fs::path root = oro::test::bundled_data().parent_path();
+    const fs::path root = oro::test::project_folder();
     int sources = 0;
-    for (const char* folder : {"core", "geo", "render", "apps"}) {
-        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-            const fs::path& file = entry.path();
-            if (file.extension() != ".cpp" && file.extension() != ".h") continue;
-            if (file.lexically_relative(root) == words_and_back) continue;
-            ++sources;
-            std::ifstream stream(file, std::ios::binary);
-            std::ostringstream text;
-            text << stream.rdbuf();
-            ASSERT_TRUE(stream.good()) << file;
-            for (const std::string& line : decisions_on_prose(text.str()))
-                ADD_FAILURE() << file << " decides on text made for people:" << line;
-        }
+    for (const fs::path& file : oro::test::sources_in({"core", "geo", "render", "apps"})) {
+        if (file.lexically_relative(root) == words_and_back) continue;
+        ++sources;
+        for (const std::string& line : decisions_on_prose(oro::test::text_of(file)))
+            ADD_FAILURE() << file << " decides on text made for people:" << line;
     }
     EXPECT_GT(sources, 200);
     EXPECT_TRUE(fs::exists(root / words_and_back));

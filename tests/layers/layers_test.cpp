@@ -3,17 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "tests/support/test_data.h"
+#include "tests/layers/source_files.h"
 
 namespace {
 namespace fs = std::filesystem;
+using oro::test::is_source;
+using oro::test::text_of;
 
 // What a folder may include and link, as regular expressions for whole names. Includes in <> and "" are one
 // kind here.
@@ -90,19 +91,6 @@ std::vector<std::string> forbidden_links(const Layer& layer, const std::string& 
     return found;
 }
 
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    EXPECT_TRUE(stream.good()) << file;
-    return text.str();
-}
-
-bool is_source(const fs::path& file) {
-    static const std::regex ending("\\.(h|hpp|cpp|cc|c|glsl|comp|task|mesh|frag|vert)");
-    return std::regex_match(file.extension().string(), ending);
-}
-
 const Layer& layer(const std::string& name) {
     return layers().at(name);
 }
@@ -110,7 +98,7 @@ const Layer& layer(const std::string& name) {
 class LayersTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(LayersTest, FolderKeepsToItsLayer) {
-    const fs::path folder = oro::test::bundled_data().parent_path() / GetParam();
+    const fs::path folder = oro::test::project_folder() / GetParam();
     int sources = 0, lists = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         if (is_source(entry.path())) {

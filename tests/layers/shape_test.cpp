@@ -3,35 +3,24 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "tests/support/test_data.h"
+#include "tests/layers/source_files.h"
 
 namespace {
 namespace fs = std::filesystem;
+using oro::test::text_of;
 
 constexpr std::size_t most_files_in_a_folder = 20;
 constexpr std::size_t most_lines_in_a_file = 400;
 constexpr std::size_t most_lines_in_a_function = 60;
 
-bool is_source(const fs::path& path) {
-    static const std::regex ending(R"(.*\.(h|cpp|glsl|comp|task|mesh|frag))");
-    return std::regex_match(path.filename().string(), ending);
-}
-
 std::vector<fs::path> sources() {
-    const fs::path root = oro::test::bundled_data().parent_path();
-    std::vector<fs::path> found;
-    for (const char* folder : {"apps", "core", "geo", "render", "shaders", "tests"}) {
-        for (const auto& entry : fs::recursive_directory_iterator(root / folder))
-            if (entry.is_regular_file() && is_source(entry.path())) found.push_back(entry.path());
-    }
-    return found;
+    return oro::test::sources_in({"apps", "core", "geo", "render", "shaders", "tests"});
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -39,11 +28,6 @@ std::vector<std::string> lines_of(const std::string& text) {
     std::istringstream in(text);
     for (std::string line; std::getline(in, line);) lines.push_back(line);
     return lines;
-}
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 struct Function {
