@@ -40,6 +40,13 @@ const std::vector<AccuracyBundle>& accuracy_bundles() {
     return bundles;
 }
 
+const char* bundle_name(Bundle kind) {
+    const auto& bundles = accuracy_bundles();
+    return std::find_if(bundles.begin(), bundles.end(),
+                        [&](const AccuracyBundle& one) { return one.kind == kind; })
+        ->name;
+}
+
 Result<AccuracyBundle> accuracy_bundle(const std::string& name) {
     for (const AccuracyBundle& bundle : accuracy_bundles()) {
         if (name == bundle.name) return bundle;

@@ -29,6 +29,7 @@ struct AccuracyBundle {
 };
 // draft, balanced, survey: the cheapest first.
 const std::vector<AccuracyBundle>& accuracy_bundles();
+const char* bundle_name(Bundle kind);
 // Usage errors: no such bundle.
 Result<AccuracyBundle> accuracy_bundle(const std::string& name);
 void apply_bundle(const AccuracyBundle& bundle, View& view);

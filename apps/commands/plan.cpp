@@ -49,7 +49,8 @@ ordered_json size_json(const EffectSize& size) {
 
 ordered_json effect_json(const BudgetLine& line) {
     const EffectFacts& facts = facts_of(line.kind);
-    ordered_json effect = json_object("effect", facts.name, "kind", facts.key, "group", key_of(facts.group));
+    ordered_json effect =
+        json_object("effect", error_name(line.kind), "kind", facts.key, "group", key_of(facts.group));
     effect["meaning"] = facts.meaning;
     effect["measured_by"] = key_of(facts.measured_by);
     effect["size"] = nullptr;
@@ -79,7 +80,7 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     json["dominates"] = nullptr;
     json["dominates_kind"] = nullptr;
     if (budget.dominant) {
-        json["dominates"] = facts_of(*budget.dominant).name;
+        json["dominates"] = error_name(*budget.dominant);
         json["dominates_kind"] = facts_of(*budget.dominant).key;
     }
     ordered_json left_out = ordered_json::array();

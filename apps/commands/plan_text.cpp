@@ -82,8 +82,8 @@ std::string rows(const Budget& budget, EffectGroup group, const View& view) {
         const bool of_model = group == EffectGroup::model;
         const char* const judged =
             line.size ? yes_or_no(of_model ? line.needed() : line.within_tolerance) : "-";
-        text += row(of_model ? facts.part : facts.name, yes_or_no(of_model ? line.modelled : line.in_picture),
-                    judged, line.size, remark_on(line, view));
+        text += row(facts.name, yes_or_no(of_model ? line.modelled : line.in_picture), judged, line.size,
+                    remark_on(line, view));
         if (budget.dominant == line.kind) text += "  ^ largest error of this picture\n";
     }
     return text;

@@ -76,7 +76,7 @@ void describe(const TradeOptions& options, const View& view, const Gpu& gpu, Ras
     report.height_px = view.camera.height_px;
     for (const TradeCase& one : trade_cases()) {
         TradeSetting setting;
-        setting.name = one.name;
+        setting.key = one.key;
         setting.options = one.options;
         setting.limit_px = one.limit_px;
         report.settings.push_back(setting);

@@ -33,7 +33,7 @@ std::string trade_csv(const TradeReport& report) {
     std::string csv(header);
     csv += "\r\n";
     for (const TradeShot& shot : report.shots) {
-        csv += field(shot.view) + "," + field(shot.setting) + "," + all_digits(shot.gpu_ms) + "," +
+        csv += field(shot.view) + "," + field(name_of(shot.setting)) + "," + all_digits(shot.gpu_ms) + "," +
                std::to_string(shot.triangles) + "," + std::to_string(shot.bytes);
         csv += summary_fields(shot.interior_m) + summary_fields(shot.interior_px) +
                summary_fields(shot.skyline_px);

@@ -15,12 +15,22 @@ Result<void> add_data_effects(const EffectPrediction& prediction, const std::str
                               TradeReport& report) {
     // What every second post would hide: predicted from every second post, and as it is.
     const EffectSize guess = prediction.interpolation(2), known = prediction.interpolation(1);
-    report.effects.push_back({view, facts_of(EffectKind::interpolation).name, guess.worst_m, guess.worst_px,
-                              known.worst_m, known.worst_px, EffectMeasure::thinned});
+    report.effects.push_back({view,
+                              {EffectKind::interpolation, {}, {}},
+                              guess.worst_m,
+                              guess.worst_px,
+                              known.worst_m,
+                              known.worst_px,
+                              EffectMeasure::thinned});
     ORO_TRY(const std::optional<EffectSize> source, prediction.size(EffectKind::source, 0.0));
     if (source)
-        report.effects.push_back({view, facts_of(EffectKind::source).name, source->worst_m, source->worst_px,
-                                  std::nullopt, std::nullopt, EffectMeasure::stated});
+        report.effects.push_back({view,
+                                  {EffectKind::source, {}, {}},
+                                  source->worst_m,
+                                  source->worst_px,
+                                  std::nullopt,
+                                  std::nullopt,
+                                  EffectMeasure::stated});
     return {};
 }
 
@@ -31,9 +41,9 @@ Result<void> add_pictures(const Verification& drawn, const TradeCase& one, const
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
         rgb.insert(rgb.end(), {picture.rgba[i], picture.rgba[i + 1], picture.rgba[i + 2]});
     ORO_TRY(std::vector<std::uint8_t> png, png_bytes(rgb, picture.width_px, picture.height_px));
-    report.pictures.push_back({view + ": " + one.name, one.options, std::move(png)});
+    report.pictures.push_back({view + ": " + name_of(one.key), one.options, std::move(png)});
     ORO_TRY(std::vector<std::uint8_t> errors, error_picture_png(drawn, one.tau_px));
-    report.pictures.push_back({view + ": errors of " + one.name,
+    report.pictures.push_back({view + ": errors of " + name_of(one.key),
                                "how far each pixel's ground is from the true ground", std::move(errors)});
     return {};
 }
@@ -98,7 +108,7 @@ Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const
     drawn.interior = interior_error(surface(), sight, camera, drawn.picture.centres(), thread_count());
     drawn.skyline = skyline_error(drawn.true_skyline, camera, drawn.picture.skylines());
     TradeShot shot;
-    shot.setting = one.name;
+    shot.setting = one.key;
     shot.gpu_ms = 1000.0 * median_of(std::move(times_s));
     shot.triangles = drawn.picture.report.counts.triangles_drawn;
     shot.bytes = drawn.picture.page_bytes;
@@ -114,7 +124,7 @@ Result<TradeEffect> Trade::predicted(const TradeCase& one, const EffectPredictio
     if (one.heights == HeightStorage::i16) drawing.coding = world_.sixteen;
     ORO_TRY(const EffectSize size, prediction.total(drawing));
     TradeEffect effect;
-    effect.effect = one.effect;
+    effect.key = one.key;
     effect.predicted_m = size.worst_m;
     effect.predicted_px = size.worst_px;
     return effect;
@@ -130,7 +140,7 @@ Result<void> Trade::measure(const Camera& camera, const std::string& name, bool 
         ORO_TRY(TradeShot shot, shoot(one, camera, sight, drawn));
         shot.view = name;
         report.shots.push_back(shot);
-        if (pictures && (one.bundle == Bundle::draft || one.bundle == Bundle::balanced))
+        if (pictures && (one.key.bundle == Bundle::draft || one.key.bundle == Bundle::balanced))
             ORO_CHECK(add_pictures(drawn, one, name, report));
         ORO_TRY(TradeEffect effect, predicted(one, prediction));
         effect.view = name;

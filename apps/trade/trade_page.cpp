@@ -40,7 +40,7 @@ std::size_t index_of(const Items& items, const Find& is_it) {
 ordered_json setting_json(const TradeSetting& setting) {
     const bool ground = setting.interior_pixels > 0;
     ordered_json json = ordered_json::object();
-    json["name"] = valid_text(setting.name);
+    json["name"] = name_of(setting.key);
     json["options"] = valid_text(setting.options);
     json["limit_px"] = number(setting.limit_px);
     json["gpu_ms"] = number(setting.gpu_ms);
@@ -65,7 +65,7 @@ ordered_json shot_json(const TradeReport& report, const std::vector<std::string>
                        const TradeShot& shot) {
     const auto view = index_of(views, [&](const std::string& name) { return name == shot.view; });
     const auto setting =
-        index_of(report.settings, [&](const TradeSetting& one) { return one.name == shot.setting; });
+        index_of(report.settings, [&](const TradeSetting& one) { return one.key == shot.setting; });
     ordered_json json = ordered_json::object();
     json["view"] = view;
     json["setting"] = setting;
@@ -81,7 +81,7 @@ ordered_json shot_json(const TradeReport& report, const std::vector<std::string>
 
 ordered_json effect_json(const EffectWorst& effect) {
     ordered_json json = ordered_json::object();
-    json["name"] = valid_text(effect.effect);
+    json["name"] = name_of(effect.key);
     json["predicted_m"] = number(effect.predicted_m);
     json["measured_m"] = number(effect.measured_m);
     json["ratio_m"] = range(effect.ratio_m);
@@ -97,7 +97,7 @@ ordered_json effect_json(const EffectWorst& effect) {
 ordered_json effect_json(const TradeEffect& effect) {
     ordered_json json = ordered_json::object();
     json["view"] = valid_text(effect.view);
-    json["name"] = valid_text(effect.effect);
+    json["name"] = name_of(effect.key);
     json["predicted_m"] = number(effect.predicted_m);
     json["measured_m"] = number(effect.measured_m);
     json["ratio_m"] = range(as_range(bound_ratio(effect.predicted_m, effect.measured_m)));
@@ -115,7 +115,7 @@ ordered_json limits_json(const TradeReport& report) {
     std::size_t over = 0;
     for (const TradeShot& shot : report.shots) {
         const auto at = std::find_if(report.settings.begin(), report.settings.end(),
-                                     [&](const TradeSetting& one) { return one.name == shot.setting; });
+                                     [&](const TradeSetting& one) { return one.key == shot.setting; });
         if (at == report.settings.end() || !at->limit_px || shot.interior_px.count == 0) continue;
         ++pictures;
         if (!(shot.interior_px.largest <= *at->limit_px)) ++over;

@@ -114,10 +114,10 @@ std::vector<EffectWorst> worst_effects(const TradeReport& report) {
     std::vector<EffectWorst> effects;
     for (const TradeEffect& effect : report.effects) {
         auto at = std::find_if(effects.begin(), effects.end(),
-                               [&](const EffectWorst& worst) { return worst.effect == effect.effect; });
+                               [&](const EffectWorst& worst) { return worst.key == effect.key; });
         if (at == effects.end()) {
             at = effects.emplace(effects.end());
-            at->effect = effect.effect;
+            at->key = effect.key;
         }
         add(*at, effect);
     }

@@ -36,7 +36,7 @@ inline constexpr double negligible_px = 0.1;
 
 // One effect over all views.
 struct EffectWorst {
-    std::string effect;
+    TradeKey key;
     double predicted_m{}, predicted_px{};
     std::optional<double> measured_m, measured_px;  // of the views where it was measured
     std::optional<RatioRange> ratio_m, ratio_px;

@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "apps/trade/trade_key.h"
 #include "core/base/result.h"
-#include "core/truth/effect_table.h"
 #include "core/truth/picture_error.h"
 
 namespace oro {
 
 // One view drawn with one setting.
 struct TradeShot {
-    std::string view;     // "far over the Alps"
-    std::string setting;  // "tau 2", "earth sphere", "balanced"
-    double gpu_ms{};      // timestamps: levels, triangles and shading of one sample, median of the repeats
+    std::string view;  // "far over the Alps"
+    TradeKey setting;
+    double gpu_ms{};  // timestamps: levels, triangles and shading of one sample, median of the repeats
     std::uint64_t triangles{};
     std::uint64_t bytes{};  // of the pages that the frame reads, on the GPU
     ErrorSummary interior_m, interior_px, skyline_px;
@@ -25,7 +25,7 @@ struct TradeShot {
 
 // All views with one setting.
 struct TradeSetting {
-    std::string name;
+    TradeKey key;
     std::string options;  // "--tau 2 --heights i16": how a user asks for it
     std::optional<double>
         limit_px;               // what the interior error must not exceed (tau and some more), if it has one
@@ -44,7 +44,7 @@ struct TradeSetting {
 // One effect in one view.
 struct TradeEffect {
     std::string view;
-    std::string effect;                             // "sphere for ellipsoid"
+    TradeKey key;                                   // the setting, or a limit of the data
     double predicted_m{}, predicted_px{};           // bounds
     std::optional<double> measured_m, measured_px;  // worst; nothing where it cannot be measured
     EffectMeasure measured_by{};                    // picture, thinned or stated
@@ -68,7 +68,7 @@ struct TradeReport {
 };
 
 // Fills `settings` from the shots: the settings in the order in which they first occur, `options` and
-// `limit_px` kept by name from those that are there already. An error that is no number stays the worst.
+// `limit_px` kept from those that are there already. An error that is no number stays the worst.
 void sum_up(TradeReport& report);
 
 // One line a shot, with a header; RFC 4180, numbers with all their digits ("nan", "inf" for what is none).

@@ -5,22 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "apps/accuracy/accuracy.h"
+#include "apps/trade/trade_key.h"
 #include "apps/view/view.h"
-#include "core/truth/effects.h"
 
 namespace oro {
 
 struct TradeCase {
-    std::string name;
-    std::string options;  // what a user would type; empty for what only measurements ask for
+    TradeKey key;
+    std::string options{};  // what a user would type; empty for what only measurements ask for
     double tau_px{0.0};
     WorldModel world;
     bool has_geoid{true};
     HeightStorage heights{HeightStorage::f32};
     std::optional<double> limit_px{};  // interior error that it must not exceed
-    std::optional<Bundle> bundle{};    // that this is
-    std::string effect{};              // that this measures
 };
 
 // Full detail first, then levels, then one thing left out or rounded at a time, then bundles. All but those

@@ -8,14 +8,14 @@
 namespace oro {
 namespace {
 
-TradeSetting sum_of(const std::vector<TradeShot>& shots, const std::string& name) {
+TradeSetting sum_of(const std::vector<TradeShot>& shots, const TradeKey& key) {
     TradeSetting sum;
-    sum.name = name;
+    sum.key = key;
     std::vector<double> times_ms;
     double means_px = 0.0;
     int measured = 0;
     for (const TradeShot& shot : shots) {
-        if (shot.setting != name) continue;
+        if (shot.setting != key) continue;
         times_ms.push_back(shot.gpu_ms);
         sum.triangles += shot.triangles;
         sum.bytes += shot.bytes;
@@ -47,15 +47,15 @@ bool better(const TradeSetting& a, const TradeSetting& b) {
 
 void sum_up(TradeReport& report) {
     const std::vector<TradeSetting> known = std::move(report.settings);
-    const auto named = [](const std::vector<TradeSetting>& settings, const std::string& name) {
+    const auto of = [](const std::vector<TradeSetting>& settings, const TradeKey& key) {
         return std::find_if(settings.begin(), settings.end(),
-                            [&](const TradeSetting& setting) { return setting.name == name; });
+                            [&](const TradeSetting& setting) { return setting.key == key; });
     };
     report.settings.clear();
     for (const TradeShot& shot : report.shots) {
-        if (named(report.settings, shot.setting) != report.settings.end()) continue;
+        if (of(report.settings, shot.setting) != report.settings.end()) continue;
         TradeSetting sum = sum_of(report.shots, shot.setting);
-        if (const auto at = named(known, shot.setting); at != known.end()) {
+        if (const auto at = of(known, shot.setting); at != known.end()) {
             sum.options = at->options;
             sum.limit_px = at->limit_px;
         }

@@ -150,7 +150,7 @@ std::string settings_text(const TradeReport& report) {
         const auto ground = [&](double value) {
             return measured ? coarse_figure(value) : std::string("n/a");
         };
-        table.add({(setting.on_front ? "* " : "  ") + valid_text(setting.name), coarse_figure(setting.gpu_ms),
+        table.add({(setting.on_front ? "* " : "  ") + name_of(setting.key), coarse_figure(setting.gpu_ms),
                    grouped(setting.triangles), coarse_figure(megabytes(setting.bytes)),
                    ground(setting.interior_m), ground(setting.interior_px), ground(setting.interior_p99_px),
                    ground(setting.interior_mean_px), setting.limit_px ? limit_text(*setting.limit_px) : "",
@@ -188,14 +188,13 @@ std::string measured_text(const std::optional<double>& value) {
 }
 
 std::string effects_text(const TradeReport& report) {
-    Table table({{"effect", "predicted", "measured", "ratio", "predicted", "measured", "ratio", "remark"},
+    Table table({{"setting", "predicted", "measured", "ratio", "predicted", "measured", "ratio", "remark"},
                  {"(worst of the views)", "m", "m", "", "px", "px", "", ""}},
                 true);
     for (const EffectWorst& effect : worst_effects(report))
-        table.add({valid_text(effect.effect), coarse_figure(effect.predicted_m),
-                   measured_text(effect.measured_m), ratio_text(effect.ratio_m),
-                   coarse_figure(effect.predicted_px), measured_text(effect.measured_px),
-                   ratio_text(effect.ratio_px), remark_of(effect)});
+        table.add({name_of(effect.key), coarse_figure(effect.predicted_m), measured_text(effect.measured_m),
+                   ratio_text(effect.ratio_m), coarse_figure(effect.predicted_px),
+                   measured_text(effect.measured_px), ratio_text(effect.ratio_px), remark_of(effect)});
     return table.text() +
            "predicted: a bound, worked out before anything is drawn; orograph plan tells it for one view\n"
            "ratio: predicted / measured, least and most of the views; below 1 a bound does not hold\n";
@@ -209,7 +208,7 @@ std::string trade_text(const TradeReport& report) {
                        (views_of(report).size() == 1 ? " view of " : " views of ") +
                        std::to_string(report.width_px) + " x " + std::to_string(report.height_px) + " px\n\n";
     text += report.settings.empty() ? "none\n" : settings_text(report);
-    text += "\nWhat each part of the model does that is left out, or rounded\n\n";
+    text += "\nWhat was predicted of each setting and of the data, and what was measured\n\n";
     text += report.effects.empty() ? "none\n" : effects_text(report);
     return text;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "core/earth/world_model.h"
 #include "core/terrain/height_quantization.h"
@@ -64,8 +65,7 @@ struct EffectFacts {
     EffectGroup group;
     EffectMeasure measured_by;
     const char* key;                         // for programs that read JSON
-    const char* name;                        // of the error, for people
-    const char* part;                        // group model: of what is left out, for people; else ""
+    const char* name;                        // for people: group model: of the part; else of the error
     const char* left_out_by;                 // the option that leaves the part out; "" where there is none
     const char* meaning;                     // of the error, in one sentence
     std::optional<EffectKind> contained_in;  // the larger effect that does this, too
@@ -73,6 +73,8 @@ struct EffectFacts {
 };
 const std::array<EffectFacts, effect_kinds>& effect_table();
 const EffectFacts& facts_of(EffectKind kind);
+// The effect's name as an error, made of the table's: "no geoid", "ground between the posts".
+std::string error_name(EffectKind kind);
 
 // Whether an effect is in a picture that is drawn so, and counts by itself: not the sphere on a flat Earth.
 bool is_in_picture(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world);

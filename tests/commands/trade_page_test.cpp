@@ -34,7 +34,7 @@ constexpr std::array<std::uint8_t, 274> small_png{
     117, 223, 0,   0,   0,   0,   73,  69,  78,  68,  174, 66,  96,  130};
 
 struct MadeSetting {
-    const char* name;
+    TradeKey key;
     const char* options;
     double limit_px;  // 0: nothing
     double ms;        // times the view's
@@ -43,20 +43,26 @@ struct MadeSetting {
     double px;  // times the view's roughness, but not above the limit
 };
 constexpr std::array<MadeSetting, 14> settings{
-    {{"tau 0.5", "--tau 0.5", 0.5, 1.9, 2.6, 2.2, 0.48},
-     {"tau 1", "--tau 1", 1.0, 1.25, 1.5, 1.5, 0.95},
-     {"tau 2", "--tau 2", 2.0, 0.9, 0.9, 1.05, 1.8},
-     {"tau 4", "--tau 4", 4.0, 0.7, 0.55, 0.75, 3.4},
-     {"earth sphere", "--earth sphere", 0.0, 1.24, 1.5, 1.5, 74.0},
-     {"earth flat", "--earth flat", 0.0, 1.19, 1.48, 1.5, 316.0},
-     {"geoid none", "--geoid none", 0.0, 1.25, 1.5, 1.5, 0.96},
-     {"refraction 0", "--refraction 0", 0.0, 1.23, 1.5, 1.5, 9.3},
-     {"precision naive", "--precision naive", 0.0, 1.31, 1.5, 1.5, 21.0},
-     {"heights i16", "--heights i16", 0.0, 1.2, 1.5, 0.8, 1.4},
-     {"all shortcuts", "--earth flat --geoid none --refraction 0 --heights i16", 0.0, 1.02, 1.5, 0.8, 340.0},
-     {"draft", "--accuracy draft", 4.0, 0.66, 0.55, 0.4, 3.9},
-     {"balanced", "--accuracy balanced", 1.0, 1.21, 1.5, 0.8, 0.97},
-     {"survey", "--accuracy survey", 0.5, 1.93, 2.6, 2.2, 0.47}}};
+    {{{EffectKind::detail, 0.5, {}}, "--tau 0.5", 0.5, 1.9, 2.6, 2.2, 0.48},
+     {{EffectKind::detail, 1.0, {}}, "--tau 1", 1.0, 1.25, 1.5, 1.5, 0.95},
+     {{EffectKind::detail, 2.0, {}}, "--tau 2", 2.0, 0.9, 0.9, 1.05, 1.8},
+     {{EffectKind::detail, 4.0, {}}, "--tau 4", 4.0, 0.7, 0.55, 0.75, 3.4},
+     {{EffectKind::sphere, {}, {}}, "--earth sphere", 0.0, 1.24, 1.5, 1.5, 74.0},
+     {{EffectKind::flat, {}, {}}, "--earth flat", 0.0, 1.19, 1.48, 1.5, 316.0},
+     {{EffectKind::geoid, {}, {}}, "--geoid none", 0.0, 1.25, 1.5, 1.5, 0.96},
+     {{EffectKind::refraction, {}, {}}, "--refraction 0", 0.0, 1.23, 1.5, 1.5, 9.3},
+     {{EffectKind::float32_view, {}, {}}, "--precision naive", 0.0, 1.31, 1.5, 1.5, 21.0},
+     {{EffectKind::steps_i16, {}, {}}, "--heights i16", 0.0, 1.2, 1.5, 0.8, 1.4},
+     {{EffectKind::float32_posts, {}, {}},
+      "--earth flat --geoid none --refraction 0 --heights i16",
+      0.0,
+      1.02,
+      1.5,
+      0.8,
+      340.0},
+     {{{}, {}, Bundle::draft}, "--accuracy draft", 4.0, 0.66, 0.55, 0.4, 3.9},
+     {{{}, {}, Bundle::balanced}, "--accuracy balanced", 1.0, 1.21, 1.5, 0.8, 0.97},
+     {{{}, {}, Bundle::survey}, "--accuracy survey", 0.5, 1.93, 2.6, 2.2, 0.47}}};
 struct MadeView {
     const char* name;
     double ms;
@@ -70,23 +76,23 @@ constexpr std::array<MadeView, 6> views{{{"far over the Alps", 1.31, 612345, 0.9
                                          {"plain at sunset", 0.37, 98211, 0.12},
                                          {"35,000 km", 0.21, 20110, 0.0}}};
 struct MadeEffect {
-    const char* name;
+    TradeKey key;
     double m, px;
     double ratio;  // predicted / measured; 0: not measured
     EffectMeasure measured_by{EffectMeasure::picture};
 };
 constexpr std::array<MadeEffect, 11> effects{
-    {{"geoid left out", 52.0, 0.0, 1.0},
-     {"Earth as a sphere", 1430.0, 96.0, 1.3},
-     {"Earth as a plane", 7850.0, 380.0, 1.2},
-     {"refraction (k = 0.13)", 1021.0, 12.4, 1.33},
-     {"float32 placement", 0.0009, 0.0021, 6.2},
-     {"float32 view transform", 0.00042, 0.00087, 13.0},
-     {"height quantisation", 0.5, 0.71, 1.6},
-     {"level of detail at tau 1", 213.0, 1.0, 1.05},
-     {"depth resolution", 0.031, 0.0004, 0.8},
-     {"ground between the posts", 11.2, 2.1, 1.5, EffectMeasure::thinned},
-     {"errors of the source", 16.0, 9.7, 0.0, EffectMeasure::stated}}};
+    {{{EffectKind::geoid, {}, {}}, 52.0, 0.0, 1.0},
+     {{EffectKind::sphere, {}, {}}, 1430.0, 96.0, 1.3},
+     {{EffectKind::flat, {}, {}}, 7850.0, 380.0, 1.2},
+     {{EffectKind::refraction, {}, {}}, 1021.0, 12.4, 1.33},
+     {{EffectKind::float32_posts, {}, {}}, 0.0009, 0.0021, 6.2},
+     {{EffectKind::float32_view, {}, {}}, 0.00042, 0.00087, 13.0},
+     {{EffectKind::steps_i16, {}, {}}, 0.5, 0.71, 1.6},
+     {{EffectKind::detail, 1.0, {}}, 213.0, 1.0, 1.05},
+     {{EffectKind::depth, {}, {}}, 0.031, 0.0004, 0.8},
+     {{EffectKind::interpolation, {}, {}}, 11.2, 2.1, 1.5, EffectMeasure::thinned},
+     {{EffectKind::source, {}, {}}, 16.0, 9.7, 0.0, EffectMeasure::stated}}};
 
 ErrorSummary summary(double largest, std::uint64_t count) {
     return {largest, largest * 0.83, largest * 0.41, largest * 0.087, count};
@@ -95,12 +101,12 @@ ErrorSummary summary(double largest, std::uint64_t count) {
 TradeShot shot_of(const MadeView& view, const MadeSetting& setting) {
     TradeShot shot;
     shot.view = view.name;
-    shot.setting = setting.name;
+    shot.setting = setting.key;
     shot.gpu_ms = view.ms * setting.ms;
     shot.triangles = static_cast<std::uint64_t>(view.triangles * setting.triangles);
     shot.bytes = static_cast<std::uint64_t>(view.triangles * 41.0 * setting.bytes);
     const bool sky_only =
-        std::string(view.name) == "plain at sunset" && std::string(setting.name) == "earth flat";
+        std::string(view.name) == "plain at sunset" && setting.key.effect == EffectKind::flat;
     const double px = setting.px * view.rough;
     shot.interior_px = sky_only ? ErrorSummary{} : summary(px, 180211);
     shot.interior_m = sky_only ? ErrorSummary{} : summary(px * 31.4, 180211);
@@ -125,7 +131,7 @@ TradeReport sample_report() {
     report.height_px = 360;
     for (const MadeSetting& setting : settings) {
         TradeSetting asked;
-        asked.name = setting.name;
+        asked.key = setting.key;
         asked.options = setting.options;
         if (setting.limit_px > 0.0) asked.limit_px = setting.limit_px;
         report.settings.push_back(asked);
@@ -133,8 +139,8 @@ TradeReport sample_report() {
     for (const MadeView& view : views) {
         for (const MadeSetting& setting : settings) report.shots.push_back(shot_of(view, setting));
         for (const MadeEffect& effect : effects) {
-            TradeEffect one{view.name, effect.name, effect.m,          effect.px * view.rough,
-                            {},        {},          effect.measured_by};
+            TradeEffect one{view.name, effect.key, effect.m,          effect.px * view.rough,
+                            {},        {},         effect.measured_by};
             if (effect.ratio > 0.0) {
                 one.measured_m = one.predicted_m / effect.ratio / (1.0 + 0.4 * view.rough);
                 one.measured_px = one.predicted_px / effect.ratio / (1.0 + 0.2 * (1.0 - view.rough));
@@ -143,9 +149,10 @@ TradeReport sample_report() {
         }
     }
     const std::vector<std::uint8_t> png(small_png.begin(), small_png.end());
-    report.pictures = {{"far over the Alps, survey", "As drawn with every model on.", png},
-                       {"far over the Alps, earth flat: error", "White: 0 px; black: 316 px and more.", png},
-                       {"summit, all round, survey", "As drawn with every model on.", png}};
+    report.pictures = {
+        {"far over the Alps, survey", "As drawn with every model on.", png},
+        {"far over the Alps, no curve of the Earth: error", "White: 0 px; black: 316 px and more.", png},
+        {"summit, all round, survey", "As drawn with every model on.", png}};
     sum_up(report);
     return report;
 }

@@ -18,7 +18,12 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-TradeShot shot(const std::string& view, const std::string& setting, double gpu_ms, double px) {
+// A setting for each number.
+TradeKey level(double tau_px) {
+    return {EffectKind::detail, tau_px, {}};
+}
+
+TradeShot shot(const std::string& view, const TradeKey& setting, double gpu_ms, double px) {
     TradeShot made;
     made.view = view;
     made.setting = setting;
@@ -31,19 +36,20 @@ TradeShot shot(const std::string& view, const std::string& setting, double gpu_m
     return made;
 }
 
-std::vector<std::string> front_of(const TradeReport& report) {
-    std::vector<std::string> names;
+std::vector<TradeKey> front_of(const TradeReport& report) {
+    std::vector<TradeKey> keys;
     for (const TradeSetting& setting : report.settings)
-        if (setting.on_front) names.push_back(setting.name);
-    return names;
+        if (setting.on_front) keys.push_back(setting.key);
+    return keys;
 }
 
 TEST(TradeReport, SumsSettingsOverTheViews) {
     TradeReport report;
-    report.shots = {shot("a", "tau 1", 3.0, 0.5), shot("a", "tau 2", 1.0, 1.5), shot("b", "tau 1", 1.0, 1.0),
-                    shot("b", "tau 2", 2.0, 2.0), shot("c", "tau 1", 2.0, 0.75)};
+    report.shots = {shot("a", level(1), 3.0, 0.5), shot("a", level(2), 1.0, 1.5),
+                    shot("b", level(1), 1.0, 1.0), shot("b", level(2), 2.0, 2.0),
+                    shot("c", level(1), 2.0, 0.75)};
     TradeSetting known;
-    known.name = "tau 2";
+    known.key = level(2);
     known.options = "--tau 2";
     known.limit_px = 2.0;
     known.interior_px = 99.0;
@@ -51,7 +57,7 @@ TEST(TradeReport, SumsSettingsOverTheViews) {
     sum_up(report);
     ASSERT_EQ(report.settings.size(), 2U);
     const TradeSetting& one = report.settings[0];
-    EXPECT_EQ(one.name, "tau 1");
+    EXPECT_EQ(one.key, level(1));
     EXPECT_EQ(one.options, "");
     EXPECT_EQ(one.gpu_ms, 2.0);  // of 1, 2, 3
     EXPECT_EQ(one.triangles, 3000U);
@@ -72,28 +78,32 @@ TEST(TradeReport, SumsSettingsOverTheViews) {
 
 TEST(TradeReport, TheFrontHoldsWhatNothingBeats) {
     TradeReport report;
-    report.shots = {shot("v", "fast", 1.0, 8.0),         shot("v", "even", 2.0, 4.0),
-                    shot("v", "beaten", 3.0, 5.0),       shot("v", "close", 4.0, 1.0),
-                    shot("v", "close too", 4.0, 1.0),    shot("v", "close, slower", 5.0, 1.0),
-                    shot("v", "even, farther", 2.0, 4.5)};
+    const TradeKey fast = level(1), even = level(2), beaten = level(3), close = level(4),
+                   close_too = level(5), close_slower = level(6), even_farther = level(7);
+    report.shots = {shot("v", fast, 1.0, 8.0),        shot("v", even, 2.0, 4.0),
+                    shot("v", beaten, 3.0, 5.0),      shot("v", close, 4.0, 1.0),
+                    shot("v", close_too, 4.0, 1.0),   shot("v", close_slower, 5.0, 1.0),
+                    shot("v", even_farther, 2.0, 4.5)};
     sum_up(report);
-    EXPECT_EQ(front_of(report), (std::vector<std::string>{"fast", "even", "close", "close too"}));
+    EXPECT_EQ(front_of(report), (std::vector<TradeKey>{fast, even, close, close_too}));
 }
 
 // A summary of nothing is all 0: that is not the closest picture of all.
 TEST(TradeReport, WhatWasNotMeasuredIsNotOnTheFront) {
     TradeReport report;
-    report.shots = {shot("v", "real", 2.0, 1.0), shot("v", "blank", 1.0, 0.0),
-                    shot("v", "broken", 0.5, no_number), shot("w", "broken", 0.5, 0.1)};
+    const TradeKey real = level(1), blank = level(2), broken = level(3);
+    report.shots = {shot("v", real, 2.0, 1.0), shot("v", blank, 1.0, 0.0), shot("v", broken, 0.5, no_number),
+                    shot("w", broken, 0.5, 0.1)};
     report.shots[1].interior_px = report.shots[1].interior_m = {};
     sum_up(report);
-    EXPECT_EQ(front_of(report), std::vector<std::string>{"real"});
+    EXPECT_EQ(front_of(report), std::vector<TradeKey>{real});
     EXPECT_TRUE(std::isnan(report.settings[2].interior_px)) << "a good view hid a bad one";
 }
 
 TEST(TradeReport, CsvIsRfc4180WithAllDigits) {
     TradeReport report;
-    report.shots = {shot("far, over \"the\" Alps", "tau 1", 0.1, 0.5), shot("b", "flat", 1.0 / 3.0, 256.0)};
+    report.shots = {shot("far, over \"the\" Alps", level(1), 0.1, 0.5),
+                    shot("b", {EffectKind::flat, {}, {}}, 1.0 / 3.0, 256.0)};
     report.shots[1].skyline_px = {};
     report.shots[1].skyline_in_one_only = 7;
     EXPECT_EQ(trade_csv(report),
@@ -102,9 +112,9 @@ TEST(TradeReport, CsvIsRfc4180WithAllDigits) {
               "interior_px_max,interior_px_p9999,interior_px_p99,interior_px_mean,interior_px_count,"
               "skyline_px_max,skyline_px_p9999,skyline_px_p99,skyline_px_mean,skyline_px_count,"
               "skyline_in_one_only\r\n"
-              "\"far, over \"\"the\"\" Alps\",tau 1,0.1,1000,250000,"
+              "\"far, over \"\"the\"\" Alps\",\"no full detail, tau 1\",0.1,1000,250000,"
               "5,4,2,0.5,100,0.5,0.375,0.25,0.125,100,1,1,0.5,0.25,16,0\r\n"
-              "b,flat,0.3333333333333333,1000,250000,"
+              "b,no curve of the Earth,0.3333333333333333,1000,250000,"
               "2560,2048,1024,256,100,256,192,128,64,100,0,0,0,0,0,7\r\n");
 }
 
@@ -168,11 +178,12 @@ TEST(TradeReport, TextThatIsNoneIsReplaced) {
 }
 
 TEST(TradeReport, EffectsSayTheWorstAndTheirRatios) {
+    const TradeKey sphere{EffectKind::sphere, {}, {}};
     TradeReport report;
-    report.effects = {{"a", "sphere", 100.0, 10.0, 50.0, 8.0},
-                      {"b", "sphere", 40.0, 2.0, 10.0, 4.0},
-                      {"a", "source", 16.0, 9.0, {}, {}, EffectMeasure::stated},
-                      {"b", "sphere", 0.0, 0.0, 0.0, 0.0}};
+    report.effects = {{"a", sphere, 100.0, 10.0, 50.0, 8.0},
+                      {"b", sphere, 40.0, 2.0, 10.0, 4.0},
+                      {"a", {EffectKind::source, {}, {}}, 16.0, 9.0, {}, {}, EffectMeasure::stated},
+                      {"b", sphere, 0.0, 0.0, 0.0, 0.0}};
     const std::vector<EffectWorst> effects = worst_effects(report);
     ASSERT_EQ(effects.size(), 2U);
     EXPECT_EQ(effects[0].predicted_m, 100.0);
@@ -190,7 +201,7 @@ TEST(TradeReport, EffectsSayTheWorstAndTheirRatios) {
     const std::string text = trade_text(report);
     EXPECT_NE(text.find("MORE THAN PREDICTED in 1 of 3"), std::string::npos) << text;
     EXPECT_NE(text.find("stated by the source"), std::string::npos) << text;
-    report.effects = {{"a", "sphere", 1.0, 1.0, 0.0004, 8.0}};
+    report.effects = {{"a", sphere, 1.0, 1.0, 0.0004, 8.0}};
     const std::string one = trade_text(report);
     EXPECT_NE(one.find("MORE THAN PREDICTED in the one view"), std::string::npos) << one;
     EXPECT_NE(one.find("<0.001"), std::string::npos) << one;
@@ -199,13 +210,14 @@ TEST(TradeReport, EffectsSayTheWorstAndTheirRatios) {
 // Figures of a column stand below each other by their points.
 TEST(TradeReport, FiguresOfTheTextAreAligned) {
     TradeReport report;
-    report.shots = {shot("v", "one", 1.3, 0.5), shot("v", "two", 123.0, 40.0),
-                    shot("v", "three", 12.5, 0.0125)};
+    report.shots = {shot("v", level(1), 1.3, 0.5), shot("v", level(2), 123.0, 40.0),
+                    shot("v", level(3), 12.5, 0.0125)};
     sum_up(report);
     const std::string text = trade_text(report);
     std::vector<std::size_t> units;  // where the units of the times stand
-    for (const auto& [setting, time] :
-         {std::pair{"\n* one ", "1.3"}, {"\n  two ", "123"}, {"\n* three ", "12.5"}}) {
+    for (const auto& [setting, time] : {std::pair{"\n* no full detail, tau 1 ", "1.3"},
+                                        {"\n  no full detail, tau 2 ", "123"},
+                                        {"\n* no full detail, tau 3 ", "12.5"}}) {
         const std::size_t from = text.find(setting);
         ASSERT_NE(from, std::string::npos) << text;
         const std::string line = text.substr(from + 1, text.find('\n', from + 1) - from - 1);
@@ -219,7 +231,7 @@ TEST(TradeReport, FiguresOfTheTextAreAligned) {
 // Loose is what is more than 10 times what was measured, where that is more than nobody asks for.
 TEST(TradeReport, ALooseBoundIsOneThatSaysLittle) {
     const auto effect = [](double predicted_px, std::optional<double> measured_px) {
-        return TradeEffect{"v", "e", 1.0, predicted_px, 1.0, measured_px};
+        return TradeEffect{"v", {}, 1.0, predicted_px, 1.0, measured_px};
     };
     EXPECT_TRUE(bound_loose(effect(1.0, 0.09)));
     EXPECT_FALSE(bound_loose(effect(1.0, 0.11)));
@@ -235,8 +247,8 @@ TEST(TradeReport, TextFitsATerminal) {
         EXPECT_LE(to - from, 120U) << text.substr(from, to - from);
         from = to + 1;
     }
-    EXPECT_NE(text.find("\n* tau 2 "), std::string::npos);
-    EXPECT_NE(text.find("\n  earth sphere "), std::string::npos);
+    EXPECT_NE(text.find("\n* no full detail, tau 2 "), std::string::npos);
+    EXPECT_NE(text.find("\n  no ellipsoid "), std::string::npos);
     // Each measure is explained where it is printed.
     for (const char* line : {"\n* unbeaten: ", "\nground: ", "\nskyline: ", "\nlimit: ", "\nterrain: ",
                              "\npredicted: ", "\nratio: "})

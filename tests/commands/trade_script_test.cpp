@@ -22,7 +22,12 @@ using test::drawn_page, test::evaluated;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-TradeShot shot(const std::string& view, const std::string& setting, double gpu_ms, double px) {
+// A setting for each number.
+TradeKey level(double tau_px) {
+    return {EffectKind::detail, tau_px, {}};
+}
+
+TradeShot shot(const std::string& view, const TradeKey& setting, double gpu_ms, double px) {
     TradeShot made;
     made.view = view;
     made.setting = setting;
@@ -181,9 +186,10 @@ TEST(TradeScript, ThePageHoldsEveryPoint) {
     EXPECT_EQ(times(html, "<g class=\"point"), 3U * 14 + 2U * 11 + 2U * 84);
     EXPECT_EQ(times(html, "src=\"data:image/png;base64,iVBORw0KGgo"), 3U);
     for (const TradeShot& one : report.shots)
-        EXPECT_EQ(times(html, "data-view=\"" + one.view + "\" data-setting=\"" + one.setting + "\""), 2U);
+        EXPECT_EQ(times(html, "data-view=\"" + one.view + "\" data-setting=\"" + name_of(one.setting) + "\""),
+                  2U);
     for (const TradeSetting& setting : report.settings)
-        EXPECT_EQ(times(html, " data-setting=\"" + setting.name + "\""), 3U + 2U * 6);
+        EXPECT_EQ(times(html, " data-setting=\"" + name_of(setting.key) + "\""), 3U + 2U * 6);
     // Every row of the tables: settings, effects, effects of views, shots, and their heads.
     EXPECT_EQ(times(html, "<tr"), 14U + 11U + 66U + 84U + 4U * 2);
     std::size_t below_1 = 0;
@@ -204,15 +210,9 @@ TEST(TradeScript, ThePageEscapesEverything) {
     const std::string evil = "<&\">'\x01</script>REPORT STATED>";
     report.region = report.command = report.machine = report.gpu = report.driver = evil;
     report.pipeline = report.version = report.time = evil;
-    for (TradeShot& one : report.shots) {
-        one.view = evil + one.view;
-        one.setting = evil + one.setting;
-    }
-    for (TradeSetting& setting : report.settings) {
-        setting.name = evil + setting.name;
-        setting.options = "--x " + evil;
-    }
-    for (TradeEffect& effect : report.effects) effect.view = effect.effect = evil;
+    for (TradeShot& one : report.shots) one.view = evil + one.view;
+    for (TradeSetting& setting : report.settings) setting.options = "--x " + evil;
+    for (TradeEffect& effect : report.effects) effect.view = evil;
     for (TradePicture& picture : report.pictures) picture.title = picture.caption = evil;
     sum_up(report);
     // As it is written: the data are JSON in which nothing looks like a tag.
@@ -239,10 +239,10 @@ TEST(TradeScript, ThePageEscapesEverything) {
 
 TEST(TradeScript, ZerosAndWhatIsMissingAreOnThePage) {
     TradeReport report;
-    report.shots = {shot("v", "exact", 0.0, 0.0), shot("v", "blank", 1.0, 0.0),
-                    shot("v", "wild", 1.0, no_number), shot("v", "plain", 2.0, 1.0)};
+    report.shots = {shot("v", level(1), 0.0, 0.0), shot("v", level(2), 1.0, 0.0),
+                    shot("v", level(3), 1.0, no_number), shot("v", level(4), 2.0, 1.0)};
     report.shots[1].interior_px = {};
-    report.effects = {{"v", "none", 0.0, 0.0, 0.0, 0.0}, {"v", "endless", 1e300, no_number, {}, {}}};
+    report.effects = {{"v", level(1), 0.0, 0.0, 0.0, 0.0}, {"v", level(2), 1e300, no_number, {}, {}}};
     report.pictures = {{"no PNG", "", {1, 2, 3}}};
     sum_up(report);
     const std::string html = drawn_page(report);
@@ -272,12 +272,12 @@ TEST(TradeScript, AnEmptyReportIsDrawnToo) {
 // What the page finds is said of the numbers, one and many.
 TEST(TradeScript, FindingsSayWhatIsOverItsLimit) {
     TradeReport report;
-    report.shots = {shot("v", "tau 1", 1.0, 1.5), shot("w", "tau 1", 1.0, 0.5), shot("v", "free", 2.0, 9.0)};
+    report.shots = {shot("v", level(1), 1.0, 1.5), shot("w", level(1), 1.0, 0.5), shot("v", {}, 2.0, 9.0)};
     TradeSetting limited;
-    limited.name = "tau 1";
+    limited.key = level(1);
     limited.limit_px = 1.05;
     report.settings = {limited};
-    report.effects = {{"v", "e", 1.0, 1.0, 2.0, 0.5}, {"w", "e", 1.0, 1.0, 0.5, 0.05}};
+    report.effects = {{"v", level(1), 1.0, 1.0, 2.0, 0.5}, {"w", level(1), 1.0, 1.0, 0.5, 0.05}};
     sum_up(report);
     std::string html = drawn_page(report);
     EXPECT_NE(html.find("Of the 2 pictures of settings that have a limit, 1 is over it."), std::string::npos);

@@ -134,14 +134,14 @@ TEST(JsonWithoutMemory, OfMeasurements) {
     expect_no_fall("errors", [] { return oro::verification_json({}).dump(); });
     oro::TradeReport report;
     report.settings.resize(1);
-    report.settings[0].name = "full detail";
+    report.settings[0].key = {oro::EffectKind::float32_view, {}, {}};
     report.settings[0].options = "--tau 0 --heights f32 --earth ellipsoid";
     report.shots.resize(1);
     report.shots[0].view = "far over the Alps";
-    report.shots[0].setting = "full detail";
+    report.shots[0].setting = report.settings[0].key;
     report.effects.resize(1);
     report.effects[0].view = "far over the Alps";
-    report.effects[0].effect = "sphere for ellipsoid";
+    report.effects[0].key = report.settings[0].key;
     report.effects[0].measured_m = 1.0;
     report.pictures = {{"far over the Alps", "as it is seen from 4,000 m", {}}};
     expect_no_fall("a trade", [&] { return oro::trade_page_json(report).dump(); });

@@ -51,7 +51,7 @@ class TradeOfViews : public test::GpuTest {
 
     void add(const TradeEffect& effect, const Camera& camera) {
         if (!effect.measured_px) return;
-        Held& held = held_[effect.effect];
+        Held& held = held_[name_of(effect.key)];
         ++held.views;
         held.predicted_px = std::max(held.predicted_px, effect.predicted_px);
         held.measured_px = std::max(held.measured_px, *effect.measured_px);
@@ -64,7 +64,7 @@ class TradeOfViews : public test::GpuTest {
         }
         if (*effect.measured_px <= effect.predicted_px && *effect.measured_m <= effect.predicted_m) return;
         ++held.broken;
-        ADD_FAILURE() << effect.view << ", " << effect.effect << ": " << *effect.measured_px
+        ADD_FAILURE() << effect.view << ", " << name_of(effect.key) << ": " << *effect.measured_px
                       << " px, predicted " << effect.predicted_px << "; " << *effect.measured_m
                       << " m, predicted " << effect.predicted_m << "; eye " << camera.eye.lat_deg << ","
                       << camera.eye.lon_deg << " h " << camera.eye.h_m << " heading "
@@ -74,9 +74,9 @@ class TradeOfViews : public test::GpuTest {
 
     void add(const AccuracyChoice& choice, const TradeReport& report) {
         ++chosen_[choice.bundle.name];
-        const std::string effect = choice.bundle.name + std::string(", all together");
+        const TradeKey bundle{{}, {}, choice.bundle.kind};
         const auto found = std::find_if(report.effects.begin(), report.effects.end(),
-                                        [&](const TradeEffect& one) { return one.effect == effect; });
+                                        [&](const TradeEffect& one) { return one.key == bundle; });
         ASSERT_NE(found, report.effects.end());
         EXPECT_NEAR(found->predicted_px, choice.predicted_px, 1.0e-9) << "plan and trade predict alike";
         if (!choice.holds) return;

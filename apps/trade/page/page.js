@@ -112,7 +112,7 @@ function effectRow(effect) {
 
 function effectsPlot(report) {
   put('keys-effects', [markKey(0, 'predicted bound'), markKey(1, 'measured worst')]);
-  put('plot-effects', rowPlot({id: 'effects', label: 'Predicted bound and measured worst of each effect, in pixels', width: fullWidth},
+  put('plot-effects', rowPlot({id: 'effects', label: 'Predicted bound and measured worst of each setting, in pixels', width: fullWidth},
                               'Error (px, worst of the views)', report.effects.map(effectRow), 1));
 }
 

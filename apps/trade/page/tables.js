@@ -114,7 +114,7 @@ function effectHeads(first) {
 function effectsTable(report) {
   return table('Worst of the views. Ratio: predicted / measured, least and most of the views; below 1 a bound does not ' +
                'hold, above ' + report.loose_ratio + ' it says little.',
-               effectHeads([{name: 'Effect', rows: 2, text: true}]), report.effects.map(function (effect) {
+               effectHeads([{name: 'Setting', rows: 2, text: true}]), report.effects.map(function (effect) {
     var over = effect.over_in > 0 ? element('strong', {}, [
       'More than predicted in ' + (effect.measured_views === 1 ? 'the one view' : effect.over_in + ' of ' +
       counted(effect.measured_views, 'view', 'views')) + '. '
@@ -125,8 +125,8 @@ function effectsTable(report) {
 }
 
 function effectsOfViewsTable(report) {
-  return folded('Each effect in each view',
-                effectHeads([{name: 'View', rows: 2, text: true}, {name: 'Effect', rows: 2, text: true}]),
+  return folded('Each setting in each view',
+                effectHeads([{name: 'View', rows: 2, text: true}, {name: 'Setting', rows: 2, text: true}]),
                 report.effects_of_views.map(function (effect) {
     return element('tr', effect.over ? {'class': 'alarm'} : {}, [textCell(effect.view), textCell(effect.name)].concat(
       effectCells(effect, report.loose_ratio), [textCell(effect.remark)]));

@@ -24,15 +24,15 @@ using Words = std::vector<std::string>;
 
 constexpr int failed = 1, usage = 2, no_data = 3;
 
-const std::set<std::string> effects{"geoid left out",
-                                    "Earth as a sphere",
-                                    "Earth as a plane",
-                                    "refraction left out",
-                                    "posts rounded to float32",
-                                    "posts and view in float32",
-                                    "heights in 16 bits",
+const std::set<std::string> effects{"no geoid",
+                                    "no ellipsoid",
+                                    "no curve of the Earth",
+                                    "no refraction",
+                                    "no double-precision posts",
+                                    "no double-precision view",
+                                    "no 32-bit heights",
                                     "heights in steps of 0.5 mm",
-                                    "level of detail",
+                                    "no full detail",
                                     "positions rounded to float32",
                                     "distances rounded to float32",
                                     "corners in steps of 1/256 px",
@@ -40,13 +40,13 @@ const std::set<std::string> effects{"geoid left out",
                                     "ground between the posts",
                                     "errors of the source"};
 // As the table has them: parts of the model by what they are, errors by their names.
-const Words parts{"geoid (heights above sea level)",
-                  "ellipsoid, not a sphere",
+const Words parts{"geoid",
+                  "ellipsoid",
                   "curve of the Earth",
-                  "refraction (air bends light)",
-                  "posts in double precision",
-                  "view in double precision",
-                  "heights finer than 16 bits",
+                  "refraction",
+                  "double-precision posts",
+                  "double-precision view",
+                  "32-bit heights",
                   "full detail"};
 const Words errors{"heights in steps of 0.5 mm",   "positions rounded to float32",
                    "distances rounded to float32", "corners in steps of 1/256 px",
@@ -136,9 +136,9 @@ TEST(Plan, TableNamesEveryEffectWithFiguresAndWhatIsLargest) {
     EXPECT_TRUE(
         says(outcome.out, line_of(outcome.out, "full detail") + "\n  ^ largest error of this picture\n"))
         << outcome.out;
-    begins("heights finer than 16 bits", {"no", "no"});
-    begins("geoid (heights above sea level)", {"yes", "no"});
-    begins("refraction (air bends light)", {"no", "no"});
+    begins("32-bit heights", {"no", "no"});
+    begins("geoid", {"yes", "no"});
+    begins("refraction", {"no", "no"});
     begins("heights in steps of 0.5 mm", {"no", "yes"});
     begins("positions rounded to float32", {"yes", "yes"});
     EXPECT_EQ(columns_of(outcome.out, "this picture, but for its data").front(), "no");
@@ -214,14 +214,14 @@ TEST(Plan, JsonHasEveryEffectWithNumbers) {
     EXPECT_LE(said.at("cheapest").at("predicted_px").get<double>(), 1.0);
     EXPECT_EQ(said.at("view").at("size_px"), json({96, 54}));
     // tau bounds what levels may do; the sphere is off by kilometres at the eye, and metres from it.
-    EXPECT_LE(effect_in(said, "level of detail")["size"]["worst_px"].get<double>(), 1.0);
+    EXPECT_LE(effect_in(said, "no full detail")["size"]["worst_px"].get<double>(), 1.0);
     EXPECT_TRUE(effect_in(said, "errors of the source")["size"].is_null());
     EXPECT_EQ(effect_in(said, "ground between the posts")["limit_of_the_data"], true);
-    EXPECT_EQ(effect_in(said, "refraction left out")["in_picture"], true);
-    EXPECT_EQ(effect_in(said, "refraction left out")["modelled"], false);
-    EXPECT_EQ(effect_in(said, "geoid left out")["in_picture"], false);
-    EXPECT_EQ(effect_in(said, "geoid left out")["modelled"], true);
-    EXPECT_EQ(effect_in(said, "geoid left out")["needed"], false);
+    EXPECT_EQ(effect_in(said, "no refraction")["in_picture"], true);
+    EXPECT_EQ(effect_in(said, "no refraction")["modelled"], false);
+    EXPECT_EQ(effect_in(said, "no geoid")["in_picture"], false);
+    EXPECT_EQ(effect_in(said, "no geoid")["modelled"], true);
+    EXPECT_EQ(effect_in(said, "no geoid")["needed"], false);
 }
 
 // Facts with names of their own, for programs: what is shown to people may be worded anew.
@@ -251,9 +251,9 @@ TEST(Plan, JsonHasTypedFacts) {
     EXPECT_EQ(effect_in(said, said.at("dominates")).at("kind"), said.at("dominates_kind"));
     EXPECT_EQ(said.at("cheapest").at("left_out"), json({"flat"}));
     // A plane is no ellipsoid either, though only the plane's error counts.
-    EXPECT_EQ(effect_in(said, "Earth as a sphere").at("modelled"), false);
-    EXPECT_EQ(effect_in(said, "Earth as a sphere").at("in_picture"), false);
-    EXPECT_EQ(effect_in(said, "Earth as a plane").at("modelled"), false);
+    EXPECT_EQ(effect_in(said, "no ellipsoid").at("modelled"), false);
+    EXPECT_EQ(effect_in(said, "no ellipsoid").at("in_picture"), false);
+    EXPECT_EQ(effect_in(said, "no curve of the Earth").at("modelled"), false);
 }
 
 TEST(Plan, ItsPageExplainsEveryErrorAndColumn) {
@@ -287,8 +287,8 @@ TEST(Plan, ToleranceJudges) {
     EXPECT_EQ(wide.at("cheapest").at("accuracy"), "draft");
     EXPECT_EQ(narrow.at("cheapest").at("accuracy"), "survey");
     const Outcome table = plan({"--tolerance", "0.01 px"});
-    EXPECT_EQ(columns_of(table.out, "view in double precision")[0], "yes") << table.out;
-    EXPECT_EQ(columns_of(table.out, "view in double precision")[1], "yes") << table.out;
+    EXPECT_EQ(columns_of(table.out, "double-precision view")[0], "yes") << table.out;
+    EXPECT_EQ(columns_of(table.out, "double-precision view")[1], "yes") << table.out;
     EXPECT_EQ(columns_of(table.out, "full detail")[0], "no") << table.out;
     EXPECT_EQ(columns_of(table.out, "full detail")[1], "yes") << table.out;
     EXPECT_TRUE(says(table.out, "for 0.01 px")) << table.out;
@@ -321,7 +321,7 @@ TEST(Plan, TakesAViewAndItsOwnOptionsOverIt) {
     const json survey =
         planned(run_orograph({"plan", "--view", folder / "v.json", "--json", "--accuracy", "survey"}));
     EXPECT_EQ(survey.at("view").at("tau_px"), 0.0);
-    EXPECT_EQ(effect_in(survey, "level of detail").at("in_picture"), false);
+    EXPECT_EQ(effect_in(survey, "no full detail").at("in_picture"), false);
     expect_refusal(run_orograph({"plan", "--view", folder / "v.json", "--at", "36.6,-84.2"}), usage,
                    {"--view", "--at"});
     EXPECT_EQ(names_in(folder), Words{"v.json"}) << "plan writes nothing";

@@ -45,8 +45,9 @@ std::vector<Words> table_of(const std::string& csv) {
     std::vector<Words> table(1, Words(1));
     bool quoted = false;
     for (const char c : csv) {
-        if (c == '"') quoted = !quoted;
-        if (quoted || (c != ',' && c != '\r' && c != '\n')) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (quoted || (c != ',' && c != '\r' && c != '\n')) {
             table.back().back() += c;
         } else if (c == ',') {
             table.back().emplace_back();
@@ -93,8 +94,8 @@ TEST_F(TradeCommand, WritesATableAndAPage) {
     EXPECT_EQ(table.size() - 1, views.size() * settings.size());
     const std::string page = bytes_of(folder / "trade.html");
     for (const char* setting :
-         {"full detail", "tau 0.5", "tau 1", "tau 2", "tau 4", "no geoid", "sphere", "flat", "no refraction",
-          "naive float32", "16-bit heights", "draft", "balanced", "survey"}) {
+         {"full detail", "no full detail, tau 0.5", "no full detail, tau 1", "no full detail, tau 2",
+          "no full detail, tau 4", "draft", "balanced", "survey"}) {
         EXPECT_TRUE(settings.contains(setting)) << setting;
         EXPECT_NE(outcome.out.find(setting), std::string::npos) << setting << " in\n" << outcome.out;
         EXPECT_NE(page.find(setting), std::string::npos) << setting;
@@ -108,6 +109,45 @@ TEST_F(TradeCommand, WritesATableAndAPage) {
     for (const char* elsewhere : {"src=\"http", "href=\"http", "url(http", "@import"})
         EXPECT_EQ(page.find(elsewhere), std::string::npos) << elsewhere;
     EXPECT_NE(page.find("--views 2 --size 96x54"), std::string::npos) << "the command that made it";
+}
+
+// One name for a part of the model: "geoid" in plan's table, "no geoid" wherever a picture is without it.
+TEST_F(TradeCommand, CallsPartsOfTheModelAsPlanDoes) {
+    const Words view{bundled(), "--at", "36.6,-84.2", "--above", "300", "--size", "64x36", "-q"};
+    const auto with_view = [&](Words words) {
+        words.insert(words.end(), view.begin(), view.end());
+        return run_orograph(words);
+    };
+    const std::string plan = with_view({"plan"}).out;
+    const nlohmann::json planned = nlohmann::json::parse(with_view({"plan", "--json"}).out, nullptr, false);
+    const Outcome outcome = with_view({"trade", "--repeats", "1", "--out", folder.string()});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string csv = bytes_of(folder / "trade.csv");
+    const nlohmann::json page = data_of(bytes_of(folder / "trade.html"));
+    std::set<std::string> settings, effects;
+    for (const nlohmann::json& one : page.at("settings")) settings.insert(one.at("name"));
+    for (const nlohmann::json& one : page.at("effects")) effects.insert(one.at("name"));
+    int of_model = 0;
+    for (const nlohmann::json& effect : planned.at("effects")) {
+        const std::string name = effect.at("effect");
+        SCOPED_TRACE(name);
+        if (effect.at("group") != "model") {
+            EXPECT_NE(plan.find("\n" + name + "  "), std::string::npos) << plan;
+            continue;
+        }
+        ++of_model;
+        ASSERT_EQ(name.rfind("no ", 0), 0U);
+        EXPECT_NE(plan.find("\n" + name.substr(3) + "  "), std::string::npos) << plan;
+        const std::string setting = name + (effect.at("kind") == "detail" ? ", tau 1" : "");
+        EXPECT_TRUE(settings.contains(setting));
+        EXPECT_TRUE(effects.contains(setting));
+        EXPECT_NE(csv.find(setting), std::string::npos) << csv;
+        EXPECT_NE(outcome.out.find(" " + setting + "  "), std::string::npos) << outcome.out;
+        EXPECT_NE(outcome.out.find("\n" + setting + "  "), std::string::npos) << outcome.out;
+    }
+    EXPECT_EQ(of_model, 8);
+    // Every setting has a prediction under its own name.
+    for (const std::string& setting : settings) EXPECT_TRUE(effects.contains(setting)) << setting;
 }
 
 TEST_F(TradeCommand, AViewOfTheSkyHasNoErrorsToTell) {
@@ -166,12 +206,13 @@ TEST_F(TradeCommand, MakesItsFolder) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(names_in(made), (Words{"trade.csv", "trade.html"}));
     std::vector<std::string> limits;
-    std::istringstream lines(outcome.out);
+    std::istringstream lines(outcome.out.substr(0, outcome.out.find("\nWhat was predicted ")));
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
         Words row{std::istream_iterator<std::string>(words), {}};
         if (row.size() > 2 && row[0] == "*") row.erase(row.begin());
-        for (const char* name : {"full", "tau", "balanced", "survey", "draft"}) {
+        if (row.size() > 2 && row[0] == "no" && row[1] == "full") row.erase(row.begin());
+        for (const char* name : {"full", "balanced", "survey", "draft"}) {
             if (row.size() < 9 || row[0] != name) continue;
             limits.push_back(row[row.size() - 2]);
         }

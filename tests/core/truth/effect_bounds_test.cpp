@@ -120,7 +120,7 @@ TEST(EffectTable, SaysAllOfEveryEffect) {
         EXPECT_TRUE(keys.insert(effect.key).second);
         EXPECT_TRUE(names.insert(effect.name).second);
         EXPECT_TRUE(std::string(effect.meaning).ends_with("."));
-        EXPECT_EQ(*effect.part != '\0', effect.group == EffectGroup::model);
+        EXPECT_EQ(error_name(effect.kind).starts_with("no "), effect.group == EffectGroup::model);
         EXPECT_TRUE(*effect.left_out_by == '\0' || effect.group == EffectGroup::model);
         EXPECT_TRUE(!effect.contained_in || facts_of(*effect.contained_in).group == EffectGroup::model);
     }

@@ -1,0 +1,25 @@
+// What a row of a trade is of, as a type: shots, settings and effects find each other by it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/accuracy/accuracy.h"
+#include "core/truth/effect_table.h"
+
+namespace oro {
+
+// Of full detail where it names nothing. A bundle leaves out several effects at a time, and names none.
+struct TradeKey {
+    std::optional<EffectKind> effect{};  // of the model: left out or rounded, alone; of the data: as it is
+    std::optional<double> tau_px{};      // how far `detail` may be off; nothing for all others
+    std::optional<Bundle> bundle{};
+
+    bool operator==(const TradeKey&) const = default;
+};
+
+// "full detail", "no geoid", "no full detail, tau 2", "draft", "ground between the posts": parts of the model
+// as plan calls them.
+std::string name_of(const TradeKey& key);
+
+}  // namespace oro
