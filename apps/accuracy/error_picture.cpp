@@ -7,6 +7,7 @@
 
 #include "apps/accuracy/verification.h"
 #include "apps/report/canvas.h"
+#include "apps/report/figures.h"
 #include "geo/pictures/png_bytes.h"
 
 namespace oro {
@@ -39,6 +40,10 @@ double scale_share(double error_px) {
     return std::log10(error_px / error_scale_from_px) / std::log10(error_scale_to_px / error_scale_from_px);
 }
 
+bool is_on_scale(double error_px) {
+    return error_px >= error_scale_from_px && error_px <= error_scale_to_px;
+}
+
 void draw_errors(Canvas& canvas, const Verification& verification) {
     const DepthPicture& picture = verification.picture;
     std::size_t pixel = 0;
@@ -67,15 +72,19 @@ void mark_skyline(Canvas& canvas, const Verification& verification, int scale) {
     }
 }
 
+// No exponents: what is finer than a thousandth is "<0.001".
 std::string figures_line(const char* what, const ErrorSummary& of) {
-    char line[80];
-    std::snprintf(line, sizeof line, "%-11s %9.3g %9.3g %9.3g %9.3g", what, of.largest, of.p9999, of.p99,
-                  of.mean);
+    std::string line = what;
+    line.resize(11, ' ');
+    for (const double value : {of.largest, of.p9999, of.p99, of.mean}) {
+        const std::string text = of.count == 0 ? "n/a" : value < 1.0e6 ? coarse_figure(value) : ">999,999";
+        line += std::string(text.size() < 10 ? 10 - text.size() : 0, ' ') + text;
+    }
     return line;
 }
 
-constexpr int line_dots = 10, margin_dots = 6, bar_dots = 10;
-constexpr int legend_dots = 2 * margin_dots + bar_dots + 6 + 7 * line_dots;
+constexpr int line_dots = 11, margin_dots = 6, bar_dots = 10;
+constexpr int legend_dots = 2 * margin_dots + bar_dots + 8 + 9 * line_dots;
 
 // The scale with its ticks and tau.
 void draw_scale(Canvas& canvas, int top, double tau_px, int scale) {
@@ -86,37 +95,28 @@ void draw_scale(Canvas& canvas, int top, double tau_px, int scale) {
         return left + static_cast<int>(std::lround(scale_share(error_px) * (width - 1)));
     };
     for (const auto& [error_px, label] :
-         {std::pair{0.001, "0.001"}, {0.01, "0.01"}, {0.1, "0.1"}, {1.0, "1"}, {10.0, "10+ px"}}) {
+         {std::pair{0.001, "0.001"}, {0.01, "0.01"}, {0.1, "0.1"}, {1.0, "1"}, {10.0, "10 px or more"}}) {
         const int x = place(error_px);
         canvas.fill(x, top + bar_dots * scale, scale, 2 * scale, ink);
         const int text_left = std::max(left, x - Canvas::text_width_px(label, scale) / 2);
         canvas.write(text_left, top + (bar_dots + 4) * scale, label, ink, scale);
     }
-    if (tau_px >= error_scale_from_px && tau_px <= error_scale_to_px)
+    if (is_on_scale(tau_px))
         canvas.fill(place(tau_px), top - 3 * scale, scale, (bar_dots + 3) * scale, skyline_mark);
 }
 
 void draw_legend(Canvas& canvas, const Verification& verification, double tau_px, int top, int scale) {
-    const int left = margin_dots * scale;
+    const std::vector<std::string> lines = error_legend(verification, tau_px);
     int y = top + margin_dots * scale;
-    draw_scale(canvas, y, tau_px, scale);
-    y += (bar_dots + 8 + line_dots) * scale;
-    char text[80];
-    std::snprintf(text, sizeof text, "error of ground, tau %g px (line)", tau_px);
-    const InteriorError& interior = verification.interior;
-    const SkylineError& skyline = verification.skyline;
-    char heads[80];
-    std::snprintf(heads, sizeof heads, "%-11s %9s %9s %9s %9s", "", "max", "99.99%", "99%", "mean");
-    const std::array<std::string, 6> lines{std::string(text),
-                                           heads,
-                                           figures_line("ground px", interior.summary_px),
-                                           figures_line("ground m", interior.summary_m),
-                                           figures_line("skyline px", skyline.summary_px),
-                                           "grey sky, orange skyline off >0.5, magenta no data"};
-    for (const std::string& line : lines) {
-        canvas.write(left, y, line, ink, scale);
+    const auto write = [&](const std::string& line) {
+        canvas.write(margin_dots * scale, y, line, ink, scale);
         y += line_dots * scale;
-    }
+    };
+    write(lines.front());
+    y += 3 * scale;
+    draw_scale(canvas, y, tau_px, scale);
+    y += (bar_dots + 5 + line_dots) * scale;
+    for (std::size_t i = 1; i < lines.size(); ++i) write(lines[i]);
 }
 
 Canvas error_canvas(const Verification& verification, double tau_px) {
@@ -131,6 +131,24 @@ Canvas error_canvas(const Verification& verification, double tau_px) {
 }
 
 }  // namespace
+
+std::vector<std::string> error_legend(const Verification& verification, double tau_px) {
+    char tau[80], heads[80], skyline[80];
+    const bool tiny = tau_px > 0.0 && tau_px < error_scale_from_px;
+    std::snprintf(tau, sizeof tau, "%stau %s%g px", is_on_scale(tau_px) ? "line: " : "",
+                  tiny ? "less than " : "", tiny ? error_scale_from_px : tau_px);
+    std::snprintf(heads, sizeof heads, "%-11s%10s%10s%10s%10s", "", "largest", "99.99 %", "99 %", "mean");
+    std::snprintf(skyline, sizeof skyline, "orange: skyline off by more than %g px",
+                  static_cast<double>(marked_from_px));
+    return {"colour: how far off the ground is, in pixels (px)",
+            tau,
+            heads,
+            figures_line("ground, px", verification.interior.summary_px),
+            figures_line("ground, m", verification.interior.summary_m),
+            figures_line("skyline, px", verification.skyline.summary_px),
+            skyline,
+            "grey: sky, magenta: could not be measured"};
+}
 
 Result<std::vector<std::uint8_t>> error_picture_png(const Verification& verification, double tau_px) {
     const Canvas canvas = error_canvas(verification, tau_px);

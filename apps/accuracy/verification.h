@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/accuracy/truth.h"
 #include "apps/view/view.h"
@@ -36,5 +37,7 @@ Result<std::vector<std::uint8_t>> error_picture_png(const Verification& verifica
 // The same as a file.
 Result<void> write_error_picture(const std::string& path, const Verification& verification, double tau_px,
                                  bool overwrite);
+// The legend's lines: what the colours mean, then what stands below the scale.
+std::vector<std::string> error_legend(const Verification& verification, double tau_px);
 
 }  // namespace oro

@@ -21,11 +21,13 @@ class Canvas {
 
     void set(int x, int y, const Rgb& colour);
     void fill(int x, int y, int width, int height, const Rgb& colour);
-    // Letters of 5 x 7 dots, `scale` pixels each, in cells of 6 x 7 with (x, y) at the top left: A to Z
-    // (small letters are drawn as large ones), 0 to 9 and . , : % - + / < > = ( ). Others are blank.
+    // Letters of 5 x 9 dots, `scale` pixels each, in cells of 6 x 9 with (x, y) at the top left, two dots
+    // of them below the line: a to z, 0 to 9 and . , : % - + / < > = ( ). Others are blank.
     void write(int x, int y, std::string_view text, const Rgb& colour, int scale);
+    // Whether no letter of it would be blank but spaces.
+    static bool can_write(std::string_view text);
     static int text_width_px(std::string_view text, int scale);
-    static constexpr int text_height_dots = 7;
+    static constexpr int text_height_dots = 9;
 
   private:
     int width_px_;

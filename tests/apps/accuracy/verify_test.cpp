@@ -81,16 +81,16 @@ TEST_F(Verify, SaysHowFarOffThePictureIs) {
 TEST_F(Verify, TheErrorPictureHasALegend) {
     ASSERT_EQ(shoot({"-q", "--tau", "8"}).exit_code, 0);
     const Pixels pixels = pixels_of(error_picture);
-    // 400 px wide as the picture is; below its 200 rows a legend of 2 * 6 + 16 + 7 * 10 = 98.
+    // 400 px wide as the picture is; below its 200 rows a legend of 2 * 6 + 18 + 9 * 11 = 129.
     ASSERT_EQ(pixels.width, 400U);
-    ASSERT_EQ(pixels.height, 298U);
+    ASSERT_EQ(pixels.height, 329U);
     const auto colours = [&](std::size_t from_row, std::size_t to_row) {
         std::set<std::vector<png_byte>> found;
         for (std::size_t i = 3 * 400 * from_row; i < 3 * 400 * to_row; i += 3)
             found.insert({pixels.rgb[i], pixels.rgb[i + 1], pixels.rgb[i + 2]});
         return found;
     };
-    const auto drawn = colours(0, 200), legend = colours(200, 298);
+    const auto drawn = colours(0, 200), legend = colours(200, 329);
     EXPECT_TRUE(drawn.contains({190, 190, 190})) << "sky is grey";
     EXPECT_GT(drawn.size(), 50U) << "errors of many sizes";
     EXPECT_FALSE(drawn.contains({255, 0, 255})) << "all of it could be measured";

@@ -1,0 +1,51 @@
+// The legend of an error picture: small letters, no exponents, and all of it on the narrowest picture.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "apps/accuracy/verification.h"
+#include "apps/report/canvas.h"
+
+namespace oro {
+namespace {
+
+constexpr int narrowest_px = 320;
+
+Verification measured(double largest) {
+    Verification made;
+    made.interior.summary_px = {largest, 0.5 * largest, 0.1 * largest, 0.001 * largest, 1000};
+    made.interior.summary_m = {1e6 * largest, 200.0 * largest, largest, 0.0, 1000};
+    return made;
+}
+
+void expect_readable(const std::string& line) {
+    SCOPED_TRACE(line);
+    EXPECT_TRUE(Canvas::can_write(line)) << "a letter is blank";
+    EXPECT_TRUE(std::none_of(line.begin(), line.end(), [](unsigned char c) { return std::isupper(c) != 0; }));
+    EXPECT_LE(Canvas::text_width_px(line, 1), narrowest_px - 6);
+    for (std::size_t at = line.find('e'); at != std::string::npos; at = line.find('e', at + 1))
+        EXPECT_FALSE(at > 0 && std::isdigit(static_cast<unsigned char>(line[at - 1])) != 0) << "an exponent";
+}
+
+TEST(ErrorLegend, IsReadableWhateverWasMeasured) {
+    for (const double largest : {0.0, 1e-9, 0.0042, 1.25, 4871.0, 1e7}) {
+        for (const double tau_px : {0.0, 1e-7, 0.01, 1.0, 1000.0})
+            for (const std::string& line : error_legend(measured(largest), tau_px)) expect_readable(line);
+    }
+}
+
+TEST(ErrorLegend, SaysWhatColoursMeanAndItsUnits) {
+    const std::vector<std::string> lines = error_legend(measured(0.0042), 0.5);
+    ASSERT_EQ(lines.size(), 8U);
+    EXPECT_EQ(lines[0], "colour: how far off the ground is, in pixels (px)");
+    EXPECT_EQ(lines[1], "line: tau 0.5 px");
+    EXPECT_EQ(error_legend(measured(0.0042), 0.0)[1], "tau 0 px") << "beyond the scale";
+    EXPECT_EQ(lines[2], "              largest   99.99 %      99 %      mean");
+    EXPECT_EQ(lines[3], "ground, px     0.0042    0.0021    <0.001    <0.001");
+    EXPECT_EQ(lines[5], "skyline, px       n/a       n/a       n/a       n/a") << "none in view";
+}
+
+}  // namespace
+}  // namespace oro
