@@ -42,7 +42,7 @@ void add_shot(CLI::App& app, oro::ShotOptions& options) {
     oro::add_no_paths(command, options.no_paths);
     command.add_flag("--overwrite", options.overwrite, "Replace files that are there");
     command.add_flag("--json", options.json, "Print one JSON object about the picture on standard output");
-    command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
+    command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors, and the table of --verify");
 }
 
 void add_compare(CLI::App& app, oro::CompareOptions& options) {
@@ -58,7 +58,7 @@ void add_compare(CLI::App& app, oro::CompareOptions& options) {
     command.add_option("--out", options.out, "The picture of errors to write (.png)");
     command.add_flag("--overwrite", options.overwrite, "Replace a file that is there");
     command.add_flag("--json", options.json, "Print one JSON object about the errors on standard output");
-    command.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
+    command.add_flag("-q,--quiet", options.quiet, "Say nothing but the table and errors");
 }
 
 void add_view(CLI::App& app, oro::WindowOptions& options) {

@@ -74,7 +74,9 @@ Result<void> run_compare(const CompareOptions& options) {
         ORO_CHECK(write_error_picture(options.out, verification, view.tau_px, options.overwrite));
     bar.clear();
     if (!options.out.empty()) say(options.quiet, "wrote " + options.out);
-    if (!options.quiet) std::fputs(verification_text(verification, view.tau_px).c_str(), stderr);
+    // What was asked for: as a table, or with -q as JSON alone.
+    if (!options.quiet || !options.json)
+        std::fputs(verification_text(verification, view.tau_px).c_str(), stderr);
     if (options.json)
         std::printf("%s\n", json_text(compare_json(options, view, path, *gpu, verification), true).c_str());
     return {};

@@ -168,7 +168,8 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
     if (!checks) say(options.quiet, "wrote " + files.picture);
     if (shot.verification) {
         say(options.quiet, "wrote " + files.error);
-        if (!options.quiet)
+        // What was asked for: as a table, or with -q as JSON alone.
+        if (!options.quiet || !options.json)
             std::fputs(verification_text(*shot.verification, shot.view.tau_px).c_str(), stderr);
     }
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, gpu, style), true).c_str());

@@ -98,12 +98,23 @@ TEST_F(Verify, TheErrorPictureHasALegend) {
     EXPECT_TRUE(legend.contains({68, 1, 84}) && legend.contains({253, 231, 37})) << "both ends of the scale";
 }
 
-TEST_F(Verify, IsSilentWhenTold) {
-    const Outcome outcome = shoot({"-q"});
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_EQ(outcome.err, "");
-    EXPECT_EQ(outcome.out, "");
+// What was asked for stays: the table, or the same as JSON.
+TEST_F(Verify, QuietLeavesWhatWasAskedFor) {
+    const Outcome loud = shoot({}), quiet = shoot({"-q", "--overwrite"});
+    ASSERT_EQ(loud.exit_code, 0) << loud.err;
+    EXPECT_EQ(quiet.exit_code, 0);
+    EXPECT_EQ(quiet.out, "");
+    EXPECT_EQ(quiet.err.rfind("Ground: ", 0), 0U) << quiet.err;
+    EXPECT_NE(loud.err.find(quiet.err), std::string::npos) << loud.err;
     EXPECT_GT(pixels_of(error_picture).width, 0U);
+    const Outcome compared = run_orograph({"compare", picture, "-q", "--out", folder / "again.png"});
+    EXPECT_EQ(compared.exit_code, 0);
+    EXPECT_EQ(compared.out, "");
+    EXPECT_EQ(compared.err, quiet.err);
+    EXPECT_EQ(shoot({"-q", "--overwrite", "--json"}).err, "") << "it is all in the JSON";
+    const Outcome as_json = run_orograph({"compare", picture, "-q", "--json"});
+    EXPECT_EQ(as_json.err, "");
+    EXPECT_TRUE(one_object(as_json.out).contains("error"));
 }
 
 TEST_F(Verify, ReplacesOnlyWhenTold) {
