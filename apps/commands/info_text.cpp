@@ -189,14 +189,18 @@ std::string overlaps(const SeamReport& seams) {
 
 std::string baked_text(const RegionFile& file) {
     const auto posts = static_cast<double>(file.outline().grid.post_count());
+    const int levels = file.order().levels();
+    std::string detail = std::to_string(levels) + ": full detail (" +
+                         counted(file.outline().triangles, "triangle", "triangles") + ")";
+    if (levels > 1)
+        detail += ", and " + counted(static_cast<std::uint64_t>(levels - 1), "coarser one", "coarser ones") +
+                  " for ground that is far away";
     std::string text = one_line(file.path()) + "\n";
     text += line("format", "baked region (.oro), version " + std::to_string(region_format::version));
-    text +=
-        line("levels",
-             std::to_string(file.order().levels()) + ", " + counted(file.order().count(), "page", "pages") +
-                 ", " + counted(file.outline().triangles, "triangle", "triangles") + " at full resolution");
-    return text + line("bytes", grouped(file.bytes()) +
-                                    text_of(", %.2f a post", static_cast<double>(file.bytes()) / posts));
+    text += line("levels", detail);
+    return text +
+           line("size", counted(file.bytes(), "byte", "bytes") +
+                            text_of(", %.2f for each post", static_cast<double>(file.bytes()) / posts));
 }
 
 }  // namespace

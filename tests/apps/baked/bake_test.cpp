@@ -76,7 +76,9 @@ TEST_F(Bake, InfoTellsTheSameAsOfItsSources) {
     EXPECT_EQ(tiles["checked"], true);
     EXPECT_EQ(json::parse(run_orograph({"info", file, "--json", "--check"}).out)["checked"], true);
     const Outcome lines = run_orograph({"info", file, "--check"});
-    for (const char* words : {"baked region", "levels      3", "USGS", "every page was read"})
+    for (const char* words : {"baked region", "\n  levels      3: full detail (",
+                              " triangles), and 2 coarser ones for ground that is far away\n",
+                              "\n  size        ", " for each post\n", "USGS", "every page was read"})
         EXPECT_NE(lines.out.find(words), std::string::npos) << lines.out;
 }
 
