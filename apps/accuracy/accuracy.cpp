@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/command_line/refusals.h"
 #include "core/base/parallel.h"
 
 namespace oro {
@@ -51,7 +52,9 @@ Result<AccuracyBundle> accuracy_bundle(const std::string& name) {
     for (const AccuracyBundle& bundle : accuracy_bundles()) {
         if (name == bundle.name) return bundle;
     }
-    return Error{ErrorKind::usage, "--accuracy", "'" + name + "' is none of draft, balanced and survey"};
+    std::vector<std::string> names;
+    for (const AccuracyBundle& bundle : accuracy_bundles()) names.emplace_back(bundle.name);
+    return refused("--accuracy", name, choose_words(names));
 }
 
 void apply_bundle(const AccuracyBundle& bundle, View& view) {
@@ -77,8 +80,7 @@ Result<double> parse_tolerance(const std::string& text) {
     std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
     if (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
     if (error != std::errc() || !(rest.empty() || rest == "px") || !(px >= 0.001 && px <= 1000.0))
-        return Error{ErrorKind::usage, "--tolerance",
-                     "'" + text + "' is no number of pixels from 0.001 to 1000, e.g. 1px"};
+        return refused("--tolerance", text, "must be a number of pixels from 0.001 to 1000, e.g. 1px");
     return px;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 
+#include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_object.h"
@@ -46,9 +47,8 @@ Result<std::vector<std::string>> input_files(const std::vector<std::string>& pat
 // Before anything takes time: that the file can be written where it shall be, and is none that is read.
 Result<void> check_out(const BakingOptions& options) {
     const std::string& out = options.out;
-    if (out.empty()) return Error{ErrorKind::usage, "--out", "is missing: name the file to write (.oro)"};
-    if (!lower_case(out).ends_with(".oro"))
-        return Error{ErrorKind::usage, "--out", "'" + out + "' does not end in .oro, as baked regions do"};
+    if (out.empty()) return refused("--out", "", "is missing: name the file to write (.oro)");
+    if (!lower_case(out).ends_with(".oro")) return refused("--out", out, "the file's name must end in .oro");
     // What a bake writes on its way is no less lost than what it replaces.
     const std::vector<std::string> written = files_of_bake(out);
     if (std::ranges::any_of(written, [](const auto& file) { return access(file.c_str(), F_OK) == 0; })) {

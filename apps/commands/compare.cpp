@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/accuracy/verification.h"
+#include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
@@ -37,7 +38,7 @@ Result<void> check_error_picture(const CompareOptions& options) {
     if (options.out.empty()) return {};
     ORO_TRY(const PictureFormat format, picture_format(options.out));
     if (format != PictureFormat::png)
-        return Error{ErrorKind::usage, "--out " + options.out, "an error picture is a .png"};
+        return refused("--out", options.out, "the picture of errors must be a .png");
     if (const auto trial = WholeFile::create(options.out, options.overwrite); !trial.ok())
         return trial.error();
     return {};

@@ -1,124 +1,169 @@
 #include "apps/commands/options.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "apps/accuracy/accuracy.h"
+#include "apps/command_line/option_group.h"
+#include "apps/view/view_limits.h"
 
 namespace oro {
 namespace {
 
-// What of the world is modelled, and how exactly.
-void add_model_options(CLI::App& command, ViewOptions& options) {
-    command
-        .add_option("--earth", options.earth,
-                    "The Earth's figure: ellipsoid (WGS84, the default), sphere, or flat from the eye on")
-        ->check(CLI::IsMember({"ellipsoid", "sphere", "flat"}));
-    command.add_option("--refraction", options.refraction_k,
-                       "Coefficient of refraction of the air, -1 to 0.9 (default 0; by day usually 0.13)");
-    command
-        .add_option(
-            "--precision", options.precision,
-            "relative: posts are placed relative to the eye (default); naive: in float32 ECEF, to see "
-            "what that costs")
-        ->check(CLI::IsMember({"relative", "naive"}));
-    command
-        .add_option("--geoid", options.geoid,
-                    "What heights are above: egm96 (default), or none: the ellipsoid")
-        ->check(CLI::IsMember({"egm96", "none"}));
-    command
-        .add_option("--heights", options.heights,
-                    "Heights on the GPU: f32 (default), or i16: half the bytes, coarser steps")
-        ->check(CLI::IsMember({"f32", "i16"}));
+// "0.05 to 120"
+std::string span(const Limits& limits) {
+    char text[80];
+    std::snprintf(text, sizeof text, "%.15g to %.15g", limits.low, limits.high);
+    return text;
 }
 
-// The parser takes 010 for eight and 0x10 for sixteen, as C does.
-std::string plain_whole_number(std::string& text) {
-    const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
-    if (text.size() == sign || text.find_first_not_of("0123456789", sign) != std::string::npos)
-        return "'" + text + "' is no whole number in decimal digits";
-    const std::size_t first = text.find_first_not_of('0', sign);
-    text.erase(sign, (first == std::string::npos ? text.size() - 1 : first) - sign);
-    return {};
+void add_eye_options(CLI::App& command, ViewOptions& options) {
+    OptionGroup eye(command, "The eye");
+    eye.option(
+        "--at", options.at, "PLACE",
+        "Where the eye is: latitude,longitude as in 46.57,7.99; or degrees, minutes and seconds, UTM, MGRS, "
+        "a geohash, geo:46.57,7.99 or a cell (N46E008). Default: where all the data can be seen.");
+    CLI::Option& above =
+        eye.number("--above", options.above_m, "METRES",
+                   "Height of the eye over the ground there (default 2). Needs --at. Not with --altitude.");
+    eye.number("--altitude", options.altitude_m, "METRES",
+               "Height of the eye above sea level instead. Needs --at. Not with --above.")
+        .excludes(&above);
+    eye.number("--heading", options.heading_deg, "DEGREES",
+               "Where the eye looks, clockwise from true north: 90 is east (default 0).");
+    eye.number("--pitch", options.pitch_deg, "DEGREES",
+               "How far up or down it looks: 0 is level, -90 straight down, 90 straight up. Default: 0; "
+               "without --at, down to the data.");
+    eye.number("--roll", options.roll_deg, "DEGREES",
+               "Tilt of the eye, " + span(view_limits::roll_deg) +
+                   ": above 0 its right side goes down (default 0).");
+    eye.option("--look-at", options.look_at, "PLACE",
+               "Look at this place on the ground. Needs --at. Not with --heading or --pitch.");
+    eye.number("--fov", options.vertical_fov_deg, "DEGREES",
+               "Angle of view from the bottom of the picture to its top, " + span(view_limits::fov_deg) +
+                   " (default 45).");
+    eye.option(
+        "--size", options.size, "WIDTHxHEIGHT",
+        "Size of the picture in pixels, each side " + span(view_limits::side_px) + " (default 1280x720).");
+}
+
+void add_look_options(CLI::App& command, ViewOptions& options) {
+    OptionGroup looks(command, "Looks");
+    looks.option("--style", options.style, "NAME",
+                 "Colours of the ground and the sky: a style that comes with the program (default: default), "
+                 "or a .json file of your own.");
+    looks.option("--sun", options.sun, "AZIMUTH,ELEVATION",
+                 "Where light comes from, in degrees: clockwise from north, and above the horizon; 315,45 is "
+                 "from the north-west. Default: the style's.");
+    looks.whole_number("--samples", options.samples, static_cast<int>(view_limits::samples.low),
+                       static_cast<int>(view_limits::samples.high), "N",
+                       "How many samples make a pixel, " + span(view_limits::samples) +
+                           " (default 1). More make edges smoother, and take longer.");
+    looks.number("--exaggeration", options.exaggeration, "FACTOR",
+                 "Multiply all heights by this, " + span(view_limits::exaggeration) +
+                     ". Default: 1, as high as in nature.");
+}
+
+// "draft (--tau 4 --heights i16 --refraction 0), balanced (...) or survey (...)"
+std::string bundle_words() {
+    std::vector<std::string> all;
+    for (const AccuracyBundle& bundle : accuracy_bundles())
+        all.push_back(std::string(bundle.name) + " is " + bundle.options);
+    return joined(all, " and ");
+}
+
+std::vector<std::string> bundle_names() {
+    std::vector<std::string> names;
+    for (const AccuracyBundle& bundle : accuracy_bundles()) names.emplace_back(bundle.name);
+    return names;
+}
+
+// What of the world is modelled, and how exactly.
+void add_model_options(OptionGroup& detail, ViewOptions& options) {
+    detail.choice("--earth", options.earth, {"ellipsoid", "sphere", "flat"},
+                  "Shape of the Earth: ellipsoid (WGS84, as GPS has it; default), sphere, or flat around the "
+                  "eye. The last two are there to show how far off they are.");
+    detail.number("--refraction", options.refraction_k, "K",
+                  "How much the air bends light (coefficient of refraction), " +
+                      span(view_limits::refraction_k) + ": 0 is not at all (default), 0.13 is usual by day.");
+    detail.choice("--precision", options.precision, {"relative", "naive"},
+                  "relative (default): positions are counted from the eye, and exact near it. naive: they "
+                  "are counted from the Earth's centre with 7 digits, to show how far off that is.");
+    detail.choice("--geoid", options.geoid, {"egm96", "none"},
+                  "egm96 (default): sea level is where the EGM96 model has it. none: it is the ellipsoid "
+                  "itself, to show how far off that is.");
+    detail.choice("--heights", options.heights, {"f32", "i16"},
+                  "How the GPU keeps heights: f32 in steps of 0.5 mm (default), or i16 in half the memory "
+                  "and coarser steps.");
+    detail.choice(
+        "--accuracy", options.accuracy, bundle_names(),
+        "Set several options together: " + bundle_words() + ". Options given one by one win over it.");
+    detail.option("--tolerance", options.tolerance, "PIXELS",
+                  "Take the cheapest --accuracy that is predicted to be off by no more than this, 0.001 to "
+                  "1000, e.g. 1px. Not with --accuracy.");
 }
 
 }  // namespace
 
-CLI::Option* only_decimal(CLI::Option* option) {
-    return option->transform(CLI::Validator(plain_whole_number, ""));
-}
-
 void add_region_options(CLI::App& command, RegionOptions& options) {
-    command.add_option("PATH", options.paths,
-                       "Elevation data: files, folders, .zip, .gz; what GDAL opens and .hgt; or one .oro");
-    CLI::Option* bbox = command.add_option(
-        "--bbox", options.bbox, "Region as west,south,east,north in degrees; west > east crosses 180");
-    command
-        .add_option("--tile", options.tile, "Region as a cell N46E008 or a range of cells N46E006:N47E010")
-        ->excludes(bbox);
-    command.add_option("--height-unit", options.height_unit, "Unit of the heights, over what the files say")
-        ->check(CLI::IsMember({"m", "ft", "us-ft", "cm"}));
-    command.add_flag("--strict-datum", options.strict_datum,
-                     "Refuse when a vertical datum cannot be honoured");
-    command.add_flag("--fill-voids", options.fill_voids,
-                     "Fill void posts from their neighbours instead of leaving holes");
+    OptionGroup data(command, "Elevation data");
+    data.option("PATH", options.paths, "...",
+                "Files or folders: SRTM tiles (.hgt), GeoTIFF and other rasters, also in .zip, .tar.gz or "
+                ".gz; or one file that orograph bake wrote (.oro).");
+    CLI::Option& bbox = data.option("--bbox", options.bbox, "WEST,SOUTH,EAST,NORTH",
+                                    "Take only the part between these edges, in degrees. West may be more "
+                                    "than east: the part then crosses the 180th meridian. Not with --tile.");
+    data.option("--tile", options.tile, "CELL",
+                "Take only a cell of one degree, e.g. N46E008, or a range of them, N46E006:N47E010. Not with "
+                "--bbox.")
+        .excludes(&bbox);
+    data.choice("--height-unit", options.height_unit, {"m", "ft", "us-ft", "cm"},
+                "Take heights in this unit, whatever a file says. Default: the file's, or metres where it "
+                "says nothing. ft is the international foot, us-ft the US survey foot.");
+    data.flag("--strict-datum", options.strict_datum,
+              "Stop where heights cannot be converted from a file's vertical datum (what they are heights "
+              "above). Without this they count as heights above sea level (EGM96), and a note says so.");
+    data.flag("--fill-voids", options.fill_voids,
+              "Give points without a height (voids) one from their neighbours. Without this they are holes.");
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
-    command.add_option(
-        "--at", options.at,
-        "The eye's place: 46.57,7.99 (lat,lon), DMS, UTM, MGRS, geohash, geo:46.57,7.99 or a cell N46E008");
-    CLI::Option* above = command.add_option("--above", options.above_m,
-                                            "The eye's height over the ground, metres (default 2)");
-    command.add_option("--altitude", options.altitude_m, "The eye's height above sea level (H), metres")
-        ->excludes(above);
-    command.add_option("--heading", options.heading_deg, "Degrees clockwise from true north");
-    command.add_option("--pitch", options.pitch_deg, "Degrees: 0 level, negative down");
-    command.add_option("--roll", options.roll_deg, "Degrees: positive tilts the right side down");
-    command.add_option("--fov", options.vertical_fov_deg, "Vertical field of view, degrees (default 45)");
-    command.add_option("--look-at", options.look_at,
-                       "Look at this place on the ground instead of along a heading and pitch");
-    command.add_option("--size", options.size, "Picture size, WIDTHxHEIGHT pixels (default 1280x720)");
-    command.add_option("--sun", options.sun,
-                       "Light from azimuth,elevation in degrees (default: the style's)");
-    command.add_option("--exaggeration", options.exaggeration, "Heights times this (default 1)");
-    only_decimal(command.add_option("--samples", options.samples,
-                                    "Samples per pixel, 1 to 64, for smooth edges (default 1)"));
-    command.add_option("--style", options.style,
-                       "Style: a name in data/styles or a .json file (default: default)");
-    command
-        .add_option(
-            "--pipeline", options.pipeline,
-            "How triangles are drawn: mesh shaders, compute, or auto (default: the faster, measured once)")
-        ->check(CLI::IsMember({"auto", "mesh", "compute"}));
-    command.add_option(
-        "--tau", options.tau_px,
-        "Largest error of what is drawn, pixels (default 1, in a window 0.5; 0: every post that there is)");
-    add_model_options(command, options);
-    command
-        .add_option("--accuracy", options.accuracy,
-                    "A bundle of --tau, --heights and --refraction; single ones win over it")
-        ->check(CLI::IsMember({"draft", "balanced", "survey"}));
-    command.add_option("--tolerance", options.tolerance,
-                       "Largest error on the picture, e.g. 1px: takes the cheapest bundle that holds it");
-    command.add_option("--time", options.time,
-                       "The picture's time, e.g. 2026-11-21T09:00:00Z (default: now)");
+    add_eye_options(command, options);
+    add_look_options(command, options);
+    OptionGroup detail(command, "Detail and models");
+    detail.number("--tau", options.tau_px, "PIXELS",
+                  "How far left-out detail may move anything on the picture, " + span(view_limits::tau_px) +
+                      ". Default: 1; in a window 0.5. 0 leaves nothing out.");
+    detail.choice("--pipeline", options.pipeline, {"auto", "mesh", "compute"},
+                  "How the GPU draws triangles: with mesh shaders or with compute shaders. auto (default) "
+                  "takes the faster, measured once on this machine.");
+    add_model_options(detail, options);
 }
 
-void add_no_paths(CLI::App& command, bool& no_paths) {
-    command.add_flag(
-        "--no-paths", no_paths,
-        "Leave the paths of data and style out of the picture; --view then needs the data named");
+void add_time(CLI::App& command, const std::string& heading, ViewOptions& options) {
+    OptionGroup(command, heading)
+        .option("--time", options.time, "TIME",
+                "The time that is written down, in UTC, e.g. 2026-11-21T09:00:00Z (default: now). It does "
+                "not move the sun: --sun does.");
+}
+
+void add_no_paths(CLI::App& command, const std::string& heading, bool& no_paths) {
+    OptionGroup(command, heading)
+        .flag("--no-paths", no_paths,
+              "Keep the paths of data and style out of pictures. To draw one again with --view, name the "
+              "data, too.");
 }
 
 void add_memory_options(CLI::App& command, MemoryOptions& options) {
-    only_decimal(command.add_option(
-                     "--gpu-memory", options.gpu_memory_mb,
-                     "Megabytes of terrain on the GPU at most (default: half of its memory, at most 2 GiB)"))
-        ->check(CLI::Range(16, 1000000));
-    only_decimal(
-        command.add_option(
-            "--memory", options.memory_mb,
-            "Megabytes of terrain on its way to the GPU at most (default 64); a baked region needs no more, "
-            "tiles are held in memory besides"))
-        ->check(CLI::Range(16, 1000000));
+    constexpr int least_mb = 16, most_mb = 1000000;
+    OptionGroup detail(command, "Detail and models");
+    detail.whole_number("--gpu-memory", options.gpu_memory_mb, least_mb, most_mb, "MB",
+                        "How much of the GPU's memory terrain may take, in megabytes, 16 to 1000000. "
+                        "Default: half of it, at most 2147.");
+    detail.whole_number(
+        "--memory", options.memory_mb, least_mb, most_mb, "MB",
+        "How much main memory terrain may take on its way to the GPU, in megabytes, 16 to 1000000 (default "
+        "64). Files other than .oro need more: all their heights are read at once.");
 }
 
 }  // namespace oro

@@ -7,7 +7,6 @@
 
 namespace CLI {
 class App;
-class Option;
 }  // namespace CLI
 
 namespace oro {
@@ -127,11 +126,11 @@ struct DoctorOptions {
     bool json{false};
 };
 
-// For an option that is a whole number: decimal digits alone. Gives it back.
-CLI::Option* only_decimal(CLI::Option* option);
+// Options that several commands have, each under its heading in help.
 void add_region_options(CLI::App& command, RegionOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
-void add_no_paths(CLI::App& command, bool& no_paths);
 void add_memory_options(CLI::App& command, MemoryOptions& options);
+void add_time(CLI::App& command, const std::string& heading, ViewOptions& options);
+void add_no_paths(CLI::App& command, const std::string& heading, bool& no_paths);
 
 }  // namespace oro

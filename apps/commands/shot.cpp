@@ -8,6 +8,7 @@
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/verification.h"
+#include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/shot_json.h"
 #include "apps/drawing/region_scene.h"
@@ -33,7 +34,7 @@ namespace fs = std::filesystem;
 // Without --out a view goes back to the picture that it came from.
 Result<PictureFiles> shot_files(const ShotOptions& options) {
     if (options.out.empty() && options.view_file.empty())
-        return Error{ErrorKind::usage, "--out", "is missing: name the picture to write (.png, .jpg or .tif)"};
+        return refused("--out", "", "is missing: name the picture to write (.png, .jpg or .tif)");
     std::string out = options.out.empty() ? options.view_file : options.out;
     if (options.out.empty() && fs::path(out).extension() == ".json") {
         for (const char* ending : {".png", ".jpg", ".jpeg", ".tif", ".tiff"}) {
@@ -204,7 +205,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     ORO_CHECK(check_out(options, files));
     if (options.view.tolerance) {
         if (options.view.accuracy)
-            return Error{ErrorKind::usage, "--tolerance", "chooses what --accuracy says: give one of them"};
+            return refused("--tolerance", "", either_words("--tolerance", "--accuracy"));
         ORO_CHECK(parse_tolerance(*options.view.tolerance));
     }
     ProgressBar bar(options.quiet);

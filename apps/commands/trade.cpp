@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <thread>
+#include <utility>
 
 #include "apps/accuracy/accuracy.h"
+#include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/output/overwrite_guard.h"
@@ -83,14 +85,23 @@ void describe(const TradeOptions& options, const View& view, const Gpu& gpu, Ras
     }
 }
 
+// A trade draws with all of them.
+Result<void> leave_settings_out(const ViewOptions& view) {
+    for (const auto& [option, is_given] : {std::pair{"--tau", view.tau_px.has_value()},
+                                           {"--earth", view.earth.has_value()},
+                                           {"--refraction", view.refraction_k.has_value()},
+                                           {"--precision", view.precision.has_value()},
+                                           {"--geoid", view.geoid.has_value()},
+                                           {"--heights", view.heights.has_value()},
+                                           {"--accuracy", view.accuracy.has_value()},
+                                           {"--tolerance", view.tolerance.has_value()}}) {
+        if (is_given) return refused(option, "", "trade chooses this itself: leave it out");
+    }
+    return {};
+}
+
 Result<void> check_options(const TradeOptions& options, const std::string& csv, const std::string& html) {
-    const ViewOptions& view = options.view;
-    if (view.tau_px || view.earth || view.refraction_k || view.precision || view.geoid || view.heights ||
-        view.accuracy || view.tolerance)
-        return Error{
-            ErrorKind::usage, "trade",
-            "tries all settings itself: leave --tau, --earth, --refraction, --precision, --geoid, --heights, "
-            "--accuracy and --tolerance out"};
+    ORO_CHECK(leave_settings_out(options.view));
     std::error_code ignored;
     if (!fs::exists(options.out, ignored)) {
         std::error_code failed;
@@ -156,7 +167,8 @@ Result<void> run_trade(const TradeOptions& options) {
     ORO_CHECK(spare_inputs({csv, html}, view, region));
     if (!options.view_file.empty()) ORO_CHECK(spare_view({csv, html}, options.view_file));
     if (!view.has_geoid)
-        return Error{ErrorKind::usage, "--view", "is drawn without a geoid: a trade begins with it"};
+        return refused("--view", options.view_file,
+                       "was drawn with --geoid none; trade needs one that was not");
     ORO_TRY(const Style style, load_style(view.style, view.sun));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));

@@ -1,7 +1,11 @@
 #include "apps/view/model_names.h"
 
 #include <array>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include "apps/command_line/refusals.h"
 
 namespace oro {
 namespace {
@@ -19,13 +23,13 @@ constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16",
 
 template <class Choice, std::size_t count>
 Result<Choice> named(const char* option, const Names<Choice, count>& names, const std::string& name) {
-    std::string all;
+    std::vector<std::string> choices;
     for (const auto& [known, choice] : names) {
         if (*known == '\0') continue;
         if (name == known) return choice;
-        all += (all.empty() ? "" : ", ") + std::string(known);
+        choices.emplace_back(known);
     }
-    return Error{ErrorKind::usage, option, "is '" + name + "', none of " + all};
+    return refused(option, name, choose_words(choices));
 }
 
 template <class Choice, std::size_t count>

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "apps/command_line/refusals.h"
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
 #include "core/terrain/ground.h"
@@ -105,14 +106,20 @@ Result<void> see_whole_region(View& view, const ViewOptions& options, const Regi
     return {};
 }
 
+Result<Place> place_of(const char* option, const std::string& text) {
+    Result<Place> place = parse_place(text);
+    if (!place.ok()) return refused(option, text, place.error().what);
+    return place;
+}
+
 Result<void> stand_at(View& view, const ViewOptions& options, const Region& region) {
-    ORO_TRY(const Place place, parse_place(*options.at));
+    ORO_TRY(const Place place, place_of("--at", *options.at));
     Geodetic& eye = view.camera.eye;
     eye = {place.lat_deg, place.lon_deg, 0.0};
     if (place.height_m) {
         if (options.altitude_m || options.above_m)
-            return Error{ErrorKind::usage, "--at " + *options.at,
-                         "gives a height of its own: leave out --above and --altitude"};
+            return refused("--at", *options.at,
+                           "gives a height of its own: leave --above and --altitude out");
         eye.h_m = *place.height_m;  // of WGS84, as geo: places are: above the ellipsoid
         return {};
     }
@@ -131,7 +138,7 @@ Result<void> stand_at(View& view, const ViewOptions& options, const Region& regi
 }
 
 Result<void> turn_to(View& view, const std::string& text, const Region& region) {
-    ORO_TRY(const Place place, parse_place(text));
+    ORO_TRY(const Place place, place_of("--look-at", text));
     const std::optional<double> ground =
         ground_h_m(region.field, place.lat_deg, place.lon_deg, view.exaggeration);
     if (!ground && !place.height_m)
@@ -151,7 +158,7 @@ Result<void> check_eye(const ViewOptions& options, const Geodetic& eye) {
     char text[120];
     std::snprintf(text, sizeof text, "the eye would be at h %g m, not between %g and %g", eye.h_m,
                   view_limits::eye_h_m.low, view_limits::eye_h_m.high);
-    return Error{ErrorKind::usage, "--at " + options.at.value_or(""), text};
+    return refused("--at", options.at.value_or(""), text);
 }
 
 }  // namespace

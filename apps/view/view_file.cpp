@@ -57,8 +57,10 @@ BoundingBox read_box(const nlohmann::json& json) {
 template <class Choice, class Named>
 void read_choice(const nlohmann::json& json, const char* name, Named named, Choice& value) {
     if (!json.contains(name)) return;
-    Result<Choice> found = named(json_string(json, name));
-    if (!found.ok()) throw JsonFault{"'" + std::string(name) + "' " + found.error().what};
+    const std::string chosen = json_string(json, name);
+    Result<Choice> found = named(chosen);
+    if (!found.ok())
+        throw JsonFault{"'" + std::string(name) + "' is '" + chosen + "': " + found.error().what};
     value = *found;
 }
 

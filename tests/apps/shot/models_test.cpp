@@ -118,7 +118,7 @@ TEST_F(ModelOptions, BadValuesAreRefused) {
     oro::test::write_bytes(folder / "bad.json", view.dump());
     const Outcome outcome = run_orograph({"shot", "--view", folder / "bad.json", "--out", folder / "x.png"});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.err.find("'precision' is 'rounded_posts', none of relative, naive"), std::string::npos)
+    EXPECT_NE(outcome.err.find("'precision' is 'rounded_posts': choose relative or naive"), std::string::npos)
         << outcome.err;
 }
 

@@ -1,0 +1,188 @@
+#include "apps/command_line/command_line.h"
+
+#include <CLI/CLI.hpp>
+
+#include "apps/command_line/help.h"
+#include "apps/command_line/option_group.h"
+
+namespace oro {
+namespace {
+
+constexpr const char* hidden = "";
+constexpr const char* draw_view =
+    "Take data, eye and settings from a picture that orograph wrote, or from its view in a .json file. "
+    "Looks, detail and --size may be changed; the eye and the part of the data may not.";
+
+void add_json(CLI::App& command, bool& json) {
+    OptionGroup(command, "Messages")
+        .flag("--json", json, "Print the results as one JSON object on standard output.");
+}
+
+void add_quiet(CLI::App& command, bool& quiet, const std::string& but) {
+    OptionGroup(command, "Messages").flag("-q,--quiet", quiet, "Print nothing but " + but + ".");
+}
+
+void add_shot(CLI::App& app, ShotOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "shot", "Write a picture of terrain that tells where it was taken from and can be drawn again");
+    OptionGroup picture(command, "The picture");
+    picture.option("--out", options.out, "FILE",
+                   "The picture to write: .png, .jpg or .tif. With --view it may be left out: then the "
+                   "picture is drawn again and compared with the file.");
+    picture.option("--view", options.view_file, "FILE", draw_view);
+    add_time(command, "The picture", options.view);
+    picture.flag("--verify", options.verify,
+                 "Measure how far the picture is from full detail, in metres and pixels, and write "
+                 "NAME.error.png beside it.");
+    add_no_paths(command, "The picture", options.no_paths);
+    picture.flag("--overwrite", options.overwrite, "Replace files that are there.");
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    add_memory_options(command, options.memory);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "errors, and the table of --verify");
+    set_help(command, {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
+                       "",
+                       "docs/commands/shot.md"});
+}
+
+void add_compare(CLI::App& app, CompareOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("compare", "Measure how far a picture is from full detail, in metres and pixels");
+    OptionGroup picture(command, "The picture");
+    picture
+        .option("PICTURE", options.view_file, "",
+                "A picture that orograph wrote, or its view in a .json file. It is drawn again, and stays as "
+                "it is.")
+        .required();
+    picture.option("--out", options.out, "FILE",
+                   "Write a picture of the errors, a .png. Without it they are told in figures only.");
+    picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    command.get_option("PATH")->description("The picture's elevation data, where they have moved.");
+    hide(command, {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids"});
+    add_memory_options(command, options.memory);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the table and errors");
+    set_help(command, {{"compare PICTURE [PATH...] [OPTIONS]"}, "", "docs/commands/compare.md"});
+}
+
+void add_view(CLI::App& app, WindowOptions& options) {
+    CLI::App& command = *app.add_subcommand("view", "Fly over terrain in a window");
+    OptionGroup window(command, "The window");
+    window.option(
+        "--view", options.view_file, "FILE",
+        "Begin with data, eye and settings of a picture that orograph wrote, or of its view in a .json file. "
+        "Looks, detail and --size may be changed; the eye and the part of the data may not.");
+    add_no_paths(command, "The window", options.no_paths);
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    command.get_option("--size")->description("Size of the window in pixels (default 1280x720).");
+    add_time(command, hidden, options.view);
+    hide(command, {"--tolerance"});
+    add_memory_options(command, options.memory);
+    add_quiet(command, options.quiet, "errors");
+    set_help(command,
+             {{"view PATH... [OPTIONS]", "view --view PICTURE [OPTIONS]"},
+              "Keys: W A S D move; Space and Ctrl go up and down; Shift is faster. Drag the mouse, or Q E R "
+              "F, to look. Right click tells what is there, in the title and on standard output. G goes to a "
+              "place that you type. P writes a picture into the working folder. Esc leaves.",
+              "docs/commands/view.md"});
+}
+
+void add_plan(CLI::App& app, PlanOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("plan", "Predict how far off a picture would be, and why, before it is drawn");
+    OptionGroup view(command, "The picture");
+    view.option("--view", options.view_file, "FILE", draw_view);
+    add_time(command, hidden, options.view);
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    command.get_option("--tolerance")
+        ->description(
+            "How far off the picture may be, 0.001 to 1000, e.g. 1px (default 1px). Errors are judged by "
+            "it.");
+    hide(command, {"--style", "--sun", "--samples", "--pipeline"});
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
+                       "Nothing is drawn or written.",
+                       "docs/commands/plan.md"});
+}
+
+void add_trade(CLI::App& app, TradeOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "trade", "Measure what accuracy costs: draw pictures with many settings, compare time and error");
+    OptionGroup report(command, "The report");
+    report.option("--out", options.out, "FOLDER",
+                  "Write trade.csv and trade.html into this folder. Default: the working folder.");
+    report.whole_number("--views", options.views, 1, 1000, "N",
+                        "Draw from so many places, 1 to 1000 (default 6): the first sees all the data, the "
+                        "others are chosen at all heights. With --at or --view there is that one alone.");
+    report.whole_number("--repeats", options.repeats, 1, 1000, "N",
+                        "Draw each picture so many times, 1 to 1000 (default 3). The median time counts.");
+    report.option("--view", options.view_file, "FILE", draw_view);
+    add_time(command, "The report", options.view);
+    report.flag("--overwrite", options.overwrite, "Replace files that are there.");
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    command.get_option("--size")->description("Size of the pictures in pixels (default 640x360).");
+    hide(command, {"--tau", "--earth", "--refraction", "--precision", "--geoid", "--heights", "--accuracy",
+                   "--tolerance", "--samples"});
+    add_memory_options(command, options.memory);
+    add_quiet(command, options.quiet, "the table and errors");
+    set_help(command, {{"trade PATH... [OPTIONS]", "trade --view PICTURE [OPTIONS]"},
+                       "The settings to compare are --tau, --earth, --refraction, --precision, --geoid, "
+                       "--heights and --accuracy. trade sets them itself.",
+                       "docs/commands/trade.md"});
+}
+
+void add_bake(CLI::App& app, BakingOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "bake", "Write elevation data into one file (.oro) that opens at once, however large it is");
+    OptionGroup file(command, "The file");
+    file.option("--out", options.out, "FILE", "The .oro file to write.");
+    file.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "errors");
+    set_help(command, {{"bake PATH... --out FILE.oro [OPTIONS]"},
+                       "When a bake is stopped half-way, FILE.oro.partial and FILE.oro.partial-stitched "
+                       "stay. Give the same command again: it goes on from there and removes them.",
+                       "docs/commands/bake.md"});
+}
+
+void add_info(CLI::App& app, InfoOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("info", "Tell what elevation data are, what they cover and what is missing");
+    add_region_options(command, options.region);
+    OptionGroup(command, "Elevation data")
+        .flag("--check", options.check,
+              "Read all of a .oro file, and name the first damaged byte. Other files are always read whole.");
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"info PATH... [OPTIONS]"}, "", "docs/commands/info.md"});
+}
+
+void add_doctor(CLI::App& app, DoctorOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("doctor", "Tell what this machine can draw, what it lacks and what helps");
+    add_json(command, options.json);
+    set_help(command, {{"doctor [OPTIONS]"}, "", "docs/commands/doctor.md"});
+}
+
+}  // namespace
+
+void add_commands(CLI::App& app, CommandLine& line) {
+    set_program_help(app);
+    add_shot(app, line.shot);
+    add_view(app, line.view);
+    add_compare(app, line.compare);
+    add_plan(app, line.plan);
+    add_trade(app, line.trade);
+    add_bake(app, line.bake);
+    add_info(app, line.info);
+    add_doctor(app, line.doctor);
+}
+
+}  // namespace oro

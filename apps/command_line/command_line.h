@@ -1,0 +1,23 @@
+// The commands and options that the program takes.
+#pragma once
+
+#include "apps/commands/options.h"
+
+namespace oro {
+
+// What was given to each command; that of one command is filled in.
+struct CommandLine {
+    ShotOptions shot;
+    WindowOptions view;
+    CompareOptions compare;
+    PlanOptions plan;
+    TradeOptions trade;
+    BakingOptions bake;
+    InfoOptions info;
+    DoctorOptions doctor;
+};
+
+// Adds the commands with their options and help. `line` must stay where it is while `app` is used.
+void add_commands(CLI::App& app, CommandLine& line);
+
+}  // namespace oro

@@ -1,0 +1,32 @@
+// What `--help` shows: usage, options under headings, exit codes, where to read more.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace oro {
+
+// What the help of a command says beside its options.
+struct CommandHelp {
+    std::vector<std::string> usages;  // "shot PATH... --out FILE [OPTIONS]"
+    std::string note;                 // below the options
+    std::string page;                 // where more is written
+};
+
+// Gives a command its help, as wide as the terminal is, up to 100 columns. `--help` stands last of the
+// messages' options.
+void set_help(CLI::App& command, const CommandHelp& help);
+// Takes options out of a command's help that have no effect there, or are refused with a reason.
+void hide(CLI::App& command, const std::vector<std::string>& options);
+// The help of the program itself: its commands and how to begin.
+void set_program_help(CLI::App& app);
+
+// A command's help as it is printed on so many columns (40 or more).
+std::string help_text(const CLI::App& command, const CommandHelp& help, std::size_t columns);
+
+}  // namespace oro

@@ -1,0 +1,129 @@
+// What a wrong command line is answered: one line that begins with the option, and exit code 2.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+using oro::test::names_in;
+using oro::test::Outcome;
+using oro::test::run_orograph;
+using Words = std::vector<std::string>;
+
+std::string bundled() {
+    return (oro::test::bundled_data() / "jacksboro.tif").string();
+}
+
+struct Refused {
+    Words words;
+    std::string line;
+};
+
+void expect_lines(const std::vector<Refused>& all) {
+    for (const Refused& one : all) {
+        const Outcome outcome = run_orograph(one.words);
+        EXPECT_EQ(outcome.exit_code, 2) << one.line;
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_EQ(outcome.err, "orograph: " + one.line + "\n");
+    }
+}
+
+TEST(RefusedOptions, Choices) {
+    const std::string file = bundled();
+    expect_lines(
+        {{{"plan", file, "--earth", "round"}, "--earth round: choose ellipsoid, sphere or flat"},
+         {{"plan", file, "--precision", "double"}, "--precision double: choose relative or naive"},
+         {{"plan", file, "--geoid", "egm2008"}, "--geoid egm2008: choose egm96 or none"},
+         {{"plan", file, "--heights", "f64"}, "--heights f64: choose f32 or i16"},
+         {{"plan", file, "--accuracy", "best"}, "--accuracy best: choose draft, balanced or survey"},
+         {{"shot", file, "--pipeline", "cpu"}, "--pipeline cpu: choose auto, mesh or compute"},
+         {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft or cm"}});
+}
+
+TEST(RefusedOptions, Numbers) {
+    const std::string file = bundled();
+    const Words at{"plan", file, "--at", "36.5,-84.3"};
+    const auto with = [&](Words words) {
+        words.insert(words.begin(), at.begin(), at.end());
+        return words;
+    };
+    expect_lines(
+        {{with({"--above", "300m"}), "--above 300m: is not a number"},
+         {with({"--heading", "north"}), "--heading north: is not a number"},
+         {with({"--samples", "0x10"}), "--samples 0x10: is not a whole number"},
+         {with({"--samples", "65"}), "--samples 65: must be between 1 and 64"},
+         {with({"--samples", "99999999999"}), "--samples 99999999999: must be between 1 and 64"},
+         {with({"--fov", "180"}), "--fov 180: must be between 0.05 and 120"},
+         {with({"--above", "1e10"}), "--above 10000000000: must be between -12000 and 1000000000"},
+         {with({"--tau", "nan"}), "--tau nan: must be between 0 and 1000"},
+         {with({"--tolerance", "0"}),
+          "--tolerance 0: must be a number of pixels from 0.001 to 1000, e.g. 1px"},
+         {with({"--size", "100"}), "--size 100: must be WIDTHxHEIGHT in pixels, e.g. 1920x1080"},
+         {with({"--size", "0x10"}), "--size 0x10: each side must be between 1 and 65500 pixels"},
+         {with({"--sun", "315"}), "--sun 315: must be AZIMUTH,ELEVATION in degrees, e.g. 315,45"},
+         {with({"--sun", "315,91"}), "--sun 315,91: the elevation must be between -90 and 90"},
+         {with({"--time", "now"}), "--time now: must be a time in UTC like 2026-11-21T09:00:00Z"},
+         {{"trade", file, "--views", "0"}, "--views 0: must be between 1 and 1000"},
+         {{"shot", file, "--memory", "8"}, "--memory 8: must be between 16 and 1000000"},
+         {{"plan", file, "--bbox", "1,2,3"},
+          "--bbox 1,2,3: needs four numbers in degrees: west,south,east,north"},
+         {{"plan", file, "--tile", "46N8E"},
+          "--tile 46N8E: is no tile name such as N46E008, nor a range of them such as N46E006:N47E010"}});
+}
+
+TEST(RefusedOptions, MissingValues) {
+    const std::string file = bundled();
+    expect_lines({{{"plan", file, "--at"}, "--at: a value must follow: --at PLACE"},
+                  {{"plan", file, "--at", "--above", "3"}, "--at: a value must follow: --at PLACE"},
+                  {{"plan", file, "--samples", "--json"}, "--samples: a value must follow: --samples N"},
+                  {{"plan", file, "--tau", ""}, "--tau: its value is empty"},
+                  {{"trade", file, "--views", ""}, "--views: its value is empty"},
+                  {{"plan", ""}, "PATH: its value is empty"},
+                  {{"plan"}, "PATH: is missing: name a file or a folder of elevation data"},
+                  {{"compare"}, "PICTURE: is missing (orograph compare --help tells what it is)"},
+                  {{"shot", file}, "--out: is missing: name the picture to write (.png, .jpg or .tif)"},
+                  {{"bake", file}, "--out: is missing: name the file to write (.oro)"}});
+}
+
+TEST(RefusedOptions, OptionsThatExcludeEachOther) {
+    const std::string file = bundled();
+    expect_lines({{{"plan", file, "--at", "36.5,-84.3", "--altitude", "3", "--above", "3"},
+                   "--above: give either --above or --altitude, not both"},
+                  {{"info", file, "--tile", "N36W085", "--bbox", "-85,36,-84,37"},
+                   "--bbox: give either --bbox or --tile, not both"},
+                  {{"plan", file, "--at", "36.5,-84.3", "--look-at", "36.6,-84.3", "--pitch", "3"},
+                   "--look-at: give either --look-at or --heading and --pitch, not both"},
+                  {{"shot", file, "--out", "x.png", "--tolerance", "1px", "--accuracy", "draft"},
+                   "--tolerance: give either --tolerance or --accuracy, not both"},
+                  {{"plan", file, "--above", "3"}, "--above: says nothing without --at PLACE"},
+                  {{"plan", file, "--tau", "1", "--tau", "2"}, "--tau: is given more than once"}});
+}
+
+TEST(RefusedOptions, NamesThatThereAreNot) {
+    const std::string file = bundled();
+    expect_lines(
+        {{{"plan", file, "--hieghts", "f32"}, "--hieghts: plan has no such option: did you mean --heights?"},
+         {{"info", file, "--nonsense=3"},
+          "--nonsense: info has no such option (orograph info --help lists all)"},
+         {{"bake", file, "--look-at", "1,2"},
+          "--look-at: bake has no such option (orograph bake --help lists all)"},
+         {{"doctor", "here"},
+          "here: doctor takes options only, no files (orograph doctor --help lists them)"},
+         {{"--tau", "1", "plan", file}, "--tau: options stand after the command: orograph COMMAND --tau"},
+         {{"info", file, "--json=perhaps"}, "--json: takes no value"},
+         {{"sho", file}, "sho: is no command: did you mean shot?"},
+         {{"fly"}, "fly: is no command; these are shot, view, compare, plan, trade, bake, info and doctor"}});
+}
+
+// Listed nowhere, and refused with a reason.
+TEST(RefusedOptions, HiddenOnes) {
+    const std::string file = bundled();
+    expect_lines({{{"trade", file, "--tau", "1"}, "--tau: trade chooses this itself: leave it out"},
+                  {{"view", file, "--tolerance", "1px"},
+                   "--tolerance: is for single pictures: give --accuracy or --tau to a window"}});
+}
+
+}  // namespace
