@@ -86,15 +86,18 @@ std::vector<std::string> listed_options(const CLI::App& command) {
     return names;
 }
 
+// An option or a word that stands where a command should.
+Error before_command(const std::string& word) {
+    const std::string name = word.substr(0, word.find('='));
+    return refused(name, "", "stands before the command: orograph COMMAND " + name);
+}
+
 // What of the command line nothing takes.
 Error of_left_over(const CLI::App& app) {
     const std::vector<std::string> before = app.remaining(false), all = app.remaining(true);
     const std::string word = all.empty() ? std::string() : all.front(), name = word.substr(0, word.find('='));
     const bool is_option = word.starts_with('-');
-    if (!before.empty() || app.get_subcommands().empty())
-        return refused(is_option ? name : word, "",
-                       is_option ? "options stand after the command: orograph COMMAND " + name
-                                 : "stands before the command");
+    if (!before.empty() || app.get_subcommands().empty()) return before_command(word);
     const CLI::App& command = *app.get_subcommands().front();
     if (!is_option)
         return refused(word, "",
@@ -218,7 +221,7 @@ Error refusal_of(const CLI::App& app, const CLI::ParseError& error, const std::v
                        "is no command" + (near.empty() ? "; these are " + joined(names, " and ") : near));
     }
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) return of_left_over(app);
-    if (app.get_subcommands().empty()) return refused("", "", choose_words(names));
+    if (app.get_subcommands().empty()) return before_command(words.size() > 1 ? words[1] : "");
     const CLI::App& command = *app.get_subcommands().front();
     if (dynamic_cast<const CLI::RequiredError*>(&error)) return of_missing(command);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return of_count(command, words);

@@ -36,8 +36,8 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
 // Before anything takes time: that the error picture can be written where it shall be.
 Result<void> check_error_picture(const CompareOptions& options) {
     if (options.out.empty()) return {};
-    ORO_TRY(const PictureFormat format, picture_format(options.out));
-    if (format != PictureFormat::png)
+    const auto format = picture_format(options.out);
+    if (!format.ok() || *format != PictureFormat::png)
         return refused("--out", options.out, "the picture of errors must be a .png");
     if (const auto trial = WholeFile::create(options.out, options.overwrite); !trial.ok())
         return trial.error();

@@ -30,7 +30,8 @@ void add_eye_options(CLI::App& command, ViewOptions& options) {
                "Height of the eye above sea level instead. Needs --at. Not with --above.")
         .excludes(&above);
     eye.number("--heading", options.heading_deg, "DEGREES",
-               "Where the eye looks, clockwise from true north: 90 is east (default 0).");
+               "Where the eye looks, clockwise from true north, " + span(view_limits::heading_deg) +
+                   ": 90 is east (default 0).");
     eye.number("--pitch", options.pitch_deg, "DEGREES",
                "How far up or down it looks: 0 is level, -90 straight down, 90 straight up. Default: 0; "
                "without --at, down to the data.");

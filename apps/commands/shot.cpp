@@ -44,7 +44,8 @@ Result<PictureFiles> shot_files(const ShotOptions& options) {
             out = fs::path(options.view_file).replace_extension(".png").string();
         }
     }
-    ORO_CHECK(picture_format(out));
+    if (const auto format = picture_format(out); !format.ok())
+        return refused(options.out.empty() ? "--view" : "--out", out, format.error().what);
     return picture_files(out);
 }
 

@@ -112,10 +112,21 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
           "--look-at: bake has no such option (orograph bake --help lists all)"},
          {{"doctor", "here"},
           "here: doctor takes options only, no files (orograph doctor --help lists them)"},
-         {{"--tau", "1", "plan", file}, "--tau: options stand after the command: orograph COMMAND --tau"},
+         {{"--tau", "1", "plan", file}, "--tau: stands before the command: orograph COMMAND --tau"},
+         {{"--nonsense"}, "--nonsense: stands before the command: orograph COMMAND --nonsense"},
          {{"info", file, "--json=perhaps"}, "--json: takes no value"},
          {{"sho", file}, "sho: is no command: did you mean shot?"},
          {{"fly"}, "fly: is no command; these are shot, view, compare, plan, trade, bake, info and doctor"}});
+}
+
+TEST(RefusedOptions, NamesOfFilesToWrite) {
+    const std::string file = bundled();
+    expect_lines(
+        {{{"shot", file, "--out", "p.bmp"},
+          "--out p.bmp: a picture's name ends in .png, .jpg, .jpeg, .tif or .tiff"},
+         {{"compare", "p.png", "--out", "e.jpg"}, "--out e.jpg: the picture of errors must be a .png"},
+         {{"compare", "p.png", "--out", "e"}, "--out e: the picture of errors must be a .png"},
+         {{"bake", file, "--out", "r.tif"}, "--out r.tif: the file's name must end in .oro"}});
 }
 
 // Listed nowhere, and refused with a reason.
