@@ -65,7 +65,7 @@ class Bake {
                 encoded_[static_cast<std::size_t>(slot)] = encode_page(page, payload_of(field_, page));
         };
         hooks.sink = [this](int slot, const PyramidPage& page, const gpu::PageBlock&,
-                            const StitchedErrors& stitched) { return take(slot, page, stitched); };
+                            const StitchedDeviations& stitched) { return take(slot, page, stitched); };
         return hooks;
     }
 
@@ -92,7 +92,7 @@ class Bake {
         return true;
     }
 
-    Result<void> take(int slot, const PyramidPage& page, const StitchedErrors& stitched) {
+    Result<void> take(int slot, const PyramidPage& page, const StitchedDeviations& stitched) {
         if (fault_) return *fault_;
         std::optional<Result<EncodedPage>>& encoded = encoded_[static_cast<std::size_t>(slot)];
         if (!is_found(page.summary.index)) {

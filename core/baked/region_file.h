@@ -98,15 +98,15 @@ class RegionFileWriter {
     // Pages that are there already, the first ones of the order.
     [[nodiscard]] std::uint64_t pages_done() const { return pages_done_; }
     // What was appended, also before a break; number: below pages_done(). For any number of threads, also
-    // while one appends; all else is for one thread. The stitched errors are gone once all pages are there
-    // and finish() was begun; nobody needs them then.
+    // while one appends; all else is for one thread. The stitched deviations are gone once all pages are
+    // there and finish() was begun; nobody needs them then.
     [[nodiscard]] Result<PageRecord> record(std::uint64_t number) const;
     Result<void> payload(std::uint64_t number, PagePayload& payload) const;
-    Result<void> stitched(std::uint64_t number, StitchedErrors& stitched) const;
+    Result<void> stitched(std::uint64_t number, StitchedDeviations& stitched) const;
 
     // Appends the page with the number pages_done(). After an error (a full disk) the page is not there, and
     // may be appended again.
-    Result<void> append(const EncodedPage& page, const StitchedErrors& stitched);
+    Result<void> append(const EncodedPage& page, const StitchedDeviations& stitched);
     // When all pages are there: puts everything on the disk, gives the file its name (never, unless
     // overwrite, that of a file which appeared since) and removes what was beside it. The writer is of no use
     // afterwards, except to be destroyed; after an error the .partial is still there.

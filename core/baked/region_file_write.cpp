@@ -13,7 +13,7 @@
 #include "core/base/file_target.h"
 #include "core/base/little_endian.h"
 
-// The order of writing: a page's stitched errors, its payload, its record. A page is there when all three
+// The order of writing: a page's stitched deviations, its payload, its record. A page is there when all three
 // bear their checksums, whatever of them a kill or a power cut has let through. The header names the file's
 // size only when all pages are on the disk.
 namespace oro {
@@ -21,7 +21,7 @@ namespace {
 
 using namespace region_format;
 
-constexpr std::size_t stitched_bytes = sizeof(StitchedErrors) + 8;  // and a checksum
+constexpr std::size_t stitched_bytes = sizeof(StitchedDeviations) + 8;  // and a checksum
 constexpr std::uint64_t at_file_bytes = 16;
 
 Error fault(const std::string& path, const std::string& what) {
@@ -94,7 +94,7 @@ std::vector<std::byte> header_with_size(const std::vector<std::byte>& header, st
     return {bytes.begin(), bytes.end()};
 }
 
-Result<void> read_stitched(const OpenFile& file, std::uint64_t number, StitchedErrors* into) {
+Result<void> read_stitched(const OpenFile& file, std::uint64_t number, StitchedDeviations* into) {
     std::array<std::byte, stitched_bytes> bytes;
     const std::uint64_t offset = number * stitched_bytes;
     ORO_CHECK(file.read(offset, bytes));
@@ -205,8 +205,8 @@ Result<void> RegionFileWriter::start_or_resume(std::vector<std::byte> beginning)
                std::equal(beginning.begin() + header_bytes, beginning.end(), found.begin() + header_bytes);
     }
     if (same) {
-        // Broken off in finish(): then all is there, except perhaps the stitched errors, which nobody needs
-        // any more.
+        // Broken off in finish(): then all is there, except perhaps the stitched deviations, which nobody
+        // needs any more.
         if (begun_to_finish) ORO_CHECK(find_pages_done(false));
         if (!begun_to_finish || pages_done_ < order_.count()) {
             ORO_CHECK(partial_.write(0, header_));
@@ -247,11 +247,11 @@ Result<void> RegionFileWriter::payload(std::uint64_t number, PagePayload& payloa
     return read_payload(partial_, stored, payload);
 }
 
-Result<void> RegionFileWriter::stitched(std::uint64_t number, StitchedErrors& stitched) const {
+Result<void> RegionFileWriter::stitched(std::uint64_t number, StitchedDeviations& stitched) const {
     return read_stitched(stitched_, number, &stitched);
 }
 
-Result<void> RegionFileWriter::append(const EncodedPage& page, const StitchedErrors& stitched) {
+Result<void> RegionFileWriter::append(const EncodedPage& page, const StitchedDeviations& stitched) {
     if (pages_done_ == order_.count()) return fault(partial_.path(), "has all its pages already");
     if (const auto what = implausible(page.record, order_.index(pages_done_)))
         return fault(partial_.path(), "cannot take " + *what);

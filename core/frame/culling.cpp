@@ -60,7 +60,7 @@ HorizonPoint horizon_point(const glm::dvec3& scaled) {
 HorizonCone horizon_cone(std::span<const HorizonPoint> points) {
     HorizonCone cone;
     glm::dvec3 sum(0.0);
-    for (const HorizonPoint& point : points) sum += point.place;
+    for (const HorizonPoint& point : points) sum += point.position;
     const double length = glm::length(sum);
     if (!(length > 1.0e-9 * static_cast<double>(points.size()))) {
         cone.angle_rad = std::numbers::pi;  // all round the Earth
@@ -74,8 +74,8 @@ HorizonCone horizon_cone(std::span<const HorizonPoint> points) {
     double its_cosine = 1.0;
     double smallest_cosine = 1.0;
     for (const HorizonPoint& point : points) {
-        const double along = glm::dot(point.place, cone.direction);
-        const glm::dvec3 across_point = glm::cross(point.place, cone.direction);
+        const double along = glm::dot(point.position, cone.direction);
+        const glm::dvec3 across_point = glm::cross(point.position, cone.direction);
         const double across = std::sqrt(glm::dot(across_point, across_point));
         const double sine = (point.tangent * along + across) * point.scale;
         const double cosine = (along - point.tangent * across) * point.scale;
@@ -88,8 +88,8 @@ HorizonCone horizon_cone(std::span<const HorizonPoint> points) {
         return cone;
     }
     for (const HorizonPoint& point : points) {
-        cone.angle_rad = std::max(cone.angle_rad, horizon_angle_rad(glm::length(point.place)) +
-                                                      angle_between_rad(point.place, cone.direction));
+        cone.angle_rad = std::max(cone.angle_rad, horizon_angle_rad(glm::length(point.position)) +
+                                                      angle_between_rad(point.position, cone.direction));
     }
     return cone;
 }

@@ -35,10 +35,10 @@ struct HorizonCone {
 // Cone of points on or above the occluder (ECEF). Also good for the triangles between them: the hidden part
 // of space is convex.
 HorizonCone horizon_cone(const HorizonOccluder& occluder, std::span<const glm::dvec3> points_ecef_m);
-// A point of scaled space, in any frame turned about the Earth's axis, with what its place alone gives to
-// every cone that it lies in.
+// A point of scaled space, in any frame turned about the Earth's axis, with what it alone gives to every cone
+// that it lies in.
 struct HorizonPoint {
-    glm::dvec3 place;
+    glm::dvec3 position;
     double tangent;  // from it to the unit sphere; 0 for points below that
     double scale;    // one over its distance from the centre and the larger of that and 1
 };

@@ -101,10 +101,10 @@ void FrameTables::place(const PageIndex& index, gpu::FramePage& page) {
     const LevelGrid level = level_grid(grid_, index.level);
     page.first_row = static_cast<gpu::uint>(std::int64_t{index.row} * quads << index.level);
     page.first_column = static_cast<gpu::uint>(std::int64_t{index.column} * quads << index.level);
-    const auto [row, new_row] = row_places_.try_emplace({index.level, index.row}, rows_.size());
+    const auto [row, new_row] = first_rows_.try_emplace({index.level, index.row}, rows_.size());
     for (int i = 0; new_row && i < posts; ++i) add_row(post_beyond(level.row, index.row * quads + i));
     const auto [column, new_column] =
-        column_places_.try_emplace({index.level, index.column}, columns_.size());
+        first_columns_.try_emplace({index.level, index.column}, columns_.size());
     for (int i = 0; new_column && i < posts; ++i)
         add_column(post_beyond(level.column, index.column * quads + i));
     page.row_terms = row->second;

@@ -42,8 +42,8 @@ class FrameTables {
     double z_m_;
     std::vector<gpu::RowTerms> rows_;
     std::vector<gpu::ColumnTerms> columns_;
-    std::map<std::pair<int, int>, std::uint32_t> row_places_;  // of (level, row of pages)
-    std::map<std::pair<int, int>, std::uint32_t> column_places_;
+    std::map<std::pair<int, int>, std::uint32_t> first_rows_;  // of (level, row of pages)
+    std::map<std::pair<int, int>, std::uint32_t> first_columns_;
 };
 
 // The whole metres that a frame's heights are relative to: the eye's own, but no farther from the ellipsoid

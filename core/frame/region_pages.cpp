@@ -51,7 +51,7 @@ std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double ex
     std::uint64_t done = 0;
     PyramidHooks hooks;
     hooks.sink = [&](int, const PyramidPage& page, const gpu::PageBlock&,
-                     const StitchedErrors&) -> Result<void> {
+                     const StitchedDeviations&) -> Result<void> {
         if (stop.stop_requested()) return Error{ErrorKind::failed, "levels", "nobody wants them any more"};
         if (page.summary.index.level == 0) facts.triangles += page.summary.triangles;
         ++done;

@@ -28,13 +28,13 @@ float rounded_up(double value) {
                : nearest;
 }
 
-// A node's place among the stitched errors of its level: its page, and its number there.
-std::array<float, 4>& of_node(std::vector<StitchedErrors>& errors, const LevelGrid& grid, int row,
+// A node's stitched edges among those of its level: by its page, and its number there.
+std::array<float, 4>& of_node(std::vector<StitchedDeviations>& deviations, const LevelGrid& grid, int row,
                               int column) {
     const PageLayout layout = grid.pages();
     const std::size_t page = static_cast<std::size_t>(row / side) * static_cast<std::size_t>(layout.columns) +
                              static_cast<std::size_t>(column / side);
-    return errors[page][static_cast<std::size_t>(row % side * side + column % side)];
+    return deviations[page][static_cast<std::size_t>(row % side * side + column % side)];
 }
 
 glm::dvec3 ecef_of(const PageSummary& page, const glm::dvec3& in_page_m) {
@@ -45,7 +45,7 @@ glm::dvec3 ecef_of(const PageSummary& page, const glm::dvec3& in_page_m) {
 class LevelBuilder {
   public:
     LevelBuilder(const PostGrid& region, const RegionShape& shape, const DrawnHeights& heights,
-                 const LevelPyramid& pyramid, int level, std::vector<StitchedErrors> stitched_below_m)
+                 const LevelPyramid& pyramid, int level, std::vector<StitchedDeviations> stitched_below_m)
         : region_(region),
           shape_(shape),
           heights_(heights),
@@ -60,9 +60,9 @@ class LevelBuilder {
     // Page `number` of the level, row by row, with what was measured of it before, if anything. Safe to call
     // from several threads, once for each page.
     void build(std::size_t number, const PyramidHooks& hooks, PyramidPage& page, gpu::PageBlock& block);
-    [[nodiscard]] const StitchedErrors& stitched(std::size_t number) const { return stitched_m_[number]; }
+    [[nodiscard]] const StitchedDeviations& stitched(std::size_t number) const { return stitched_m_[number]; }
     // Of all pages of the level, once they are built.
-    std::vector<StitchedErrors> take_stitched_errors() { return std::move(stitched_m_); }
+    std::vector<StitchedDeviations> take_stitched() { return std::move(stitched_m_); }
 
   private:
     void finish_node(int node_row, int node_column, const PageSummary& page, gpu::MeshletBounds& bounds);
@@ -80,8 +80,8 @@ class LevelBuilder {
     LevelGrid grid_;
     const PyramidLevel* below_;
     NodeDeviations deviations_;
-    std::vector<StitchedErrors> stitched_m_;
-    std::vector<StitchedErrors> stitched_below_m_;
+    std::vector<StitchedDeviations> stitched_m_;
+    std::vector<StitchedDeviations> stitched_below_m_;
 };
 
 constexpr std::size_t north_edge = 0, east_edge = 1, south_edge = 2, west_edge = 3, no_edge = 4;
@@ -240,14 +240,14 @@ Result<void> build_level(LevelBuilder& builder, PyramidLevel& level, int threads
     level.pages.resize(count);
     for (std::size_t first = 0; first < count; first += at_a_time) {
         const auto some = static_cast<int>(std::min(at_a_time, count - first));
-        in_parallel(some, threads, [&](int place) {
-            const auto i = static_cast<std::size_t>(place);
+        in_parallel(some, threads, [&](int slot) {
+            const auto i = static_cast<std::size_t>(slot);
             builder.build(first + i, hooks, level.pages[first + i], blocks[i]);
-            if (hooks.work) hooks.work(place, level.pages[first + i], blocks[i]);
+            if (hooks.work) hooks.work(slot, level.pages[first + i], blocks[i]);
         });
-        for (int place = 0; hooks.sink && place < some; ++place) {
-            const auto i = static_cast<std::size_t>(place);
-            ORO_CHECK(hooks.sink(place, level.pages[first + i], blocks[i], builder.stitched(first + i)));
+        for (int slot = 0; hooks.sink && slot < some; ++slot) {
+            const auto i = static_cast<std::size_t>(slot);
+            ORO_CHECK(hooks.sink(slot, level.pages[first + i], blocks[i], builder.stitched(first + i)));
         }
     }
     return {};
@@ -265,7 +265,7 @@ LevelPyramid build_pyramid(const PostGrid& grid, const RegionShape& shape, const
     PyramidHooks hooks;
     if (sink) {
         hooks.sink = [&](int, const PyramidPage& page, const gpu::PageBlock& block,
-                         const StitchedErrors&) -> Result<void> {
+                         const StitchedDeviations&) -> Result<void> {
             sink(page, block);
             return {};
         };
@@ -281,14 +281,14 @@ Result<LevelPyramid> build_pyramid_with(const PostGrid& grid, const RegionShape&
     std::vector<gpu::PageBlock> blocks(PyramidHooks::pages_at_a_time);
     const int levels = level_count(grid);
     pyramid.levels.reserve(static_cast<std::size_t>(levels));
-    std::vector<StitchedErrors> stitched_m;
+    std::vector<StitchedDeviations> stitched_m;
     for (int k = 0; k < levels; ++k) {
         LevelBuilder builder(grid, shape, heights, pyramid, k, std::move(stitched_m));
         PyramidLevel& level = pyramid.levels.emplace_back();
         level.grid = level_grid(grid, k);
         level.layout = level.grid.pages();
         ORO_CHECK(build_level(builder, level, threads, hooks, blocks));
-        stitched_m = builder.take_stitched_errors();
+        stitched_m = builder.take_stitched();
         if (k > 0 && !keep_levels) pyramid.levels[static_cast<std::size_t>(k - 1)].pages = {};
     }
     return pyramid;

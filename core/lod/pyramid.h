@@ -74,25 +74,26 @@ struct LevelPyramid {
 // caller's thread. The block is good during the call only.
 using PageSink = std::function<void(const PyramidPage& page, const gpu::PageBlock& block)>;
 
-// Errors of the four stitched edges of each node of a page (NodeDeviation::stitched_m), rounded up.
-using StitchedErrors = std::array<std::array<float, 4>, gpu::meshlets_per_page>;
+// Deviations, metres, of the four stitched edges of each node of a page (NodeDeviation::stitched_m), rounded
+// up.
+using StitchedDeviations = std::array<std::array<float, 4>, gpu::meshlets_per_page>;
 
 // What a builder does beside building; any of them may be empty.
 struct PyramidHooks {
-    // What was measured of a page before: its nodes' errors and lod radii, and its stitched errors. False
+    // What was measured of a page before: its nodes' errors and lod radii, and its stitched edges. False
     // when there is nothing of it. Called from several threads, once for each page.
     struct Measured {
         std::array<float, gpu::meshlets_per_page> error_m;
         std::array<float, gpu::meshlets_per_page> lod_radius_m;
-        StitchedErrors stitched;
+        StitchedDeviations stitched;
     };
     std::function<bool(const PageIndex& page, Measured& measured)> recall;
-    // Work on a complete page, from several threads; `place` is 0 .. pages_at_a_time - 1, a place of its own
-    // among the pages that are worked on.
-    std::function<void(int place, const PyramidPage& page, const gpu::PageBlock& block)> work;
+    // Work on a complete page, from several threads; `slot` is 0 .. pages_at_a_time - 1, another one for each
+    // of the pages that are worked on.
+    std::function<void(int slot, const PyramidPage& page, const gpu::PageBlock& block)> work;
     // Gets each page in order, after its work, on the caller's thread. An error ends the building.
-    std::function<Result<void>(int place, const PyramidPage& page, const gpu::PageBlock& block,
-                               const StitchedErrors& stitched)>
+    std::function<Result<void>(int slot, const PyramidPage& page, const gpu::PageBlock& block,
+                               const StitchedDeviations& stitched)>
         sink;
     static constexpr int pages_at_a_time = 32;
 };

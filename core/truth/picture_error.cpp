@@ -26,9 +26,9 @@ ErrorSummary summary_of_sizes(std::vector<Value>& sizes) {
     summary.count = sizes.size();
     if (sizes.empty()) return summary;
     const auto ranked = [&](std::size_t rank) {
-        const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-        std::nth_element(sizes.begin(), place, sizes.end());
-        return static_cast<double>(*place);
+        const auto nth = sizes.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+        std::nth_element(sizes.begin(), nth, sizes.end());
+        return static_cast<double>(*nth);
     };
     summary.mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size());
     summary.p99 = ranked(nearest_rank(sizes.size(), 9900));

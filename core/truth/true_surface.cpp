@@ -207,12 +207,12 @@ TrueSurface::Chunk* TrueSurface::new_chunk(int chunk_row, int chunk_column) cons
 
 const TrueSurface::Chunk& TrueSurface::chunk(int row, int column) const {
     const int across = blocks(chunk_level).second;
-    std::atomic<Chunk*>& place = chunks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across) +
-                                         static_cast<std::size_t>(column)];
-    if (const Chunk* const there = place.load(std::memory_order_acquire)) return *there;
+    std::atomic<Chunk*>& slot = chunks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across) +
+                                        static_cast<std::size_t>(column)];
+    if (const Chunk* const there = slot.load(std::memory_order_acquire)) return *there;
     Chunk* const made = new_chunk(row, column);
     Chunk* none = nullptr;
-    if (place.compare_exchange_strong(none, made, std::memory_order_acq_rel)) return *made;
+    if (slot.compare_exchange_strong(none, made, std::memory_order_acq_rel)) return *made;
     delete made;  // another thread was faster
     return *none;
 }

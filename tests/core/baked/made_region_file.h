@@ -55,7 +55,7 @@ inline constexpr std::uint64_t made_fingerprint = 0x0123456789abcdefU;
 struct MadePage {
     PageRecord record;
     PagePayload payload;
-    StitchedErrors stitched;
+    StitchedDeviations stitched;
 };
 // The same for the same number: whole metres, fractions, voids and nothing at all by turns.
 inline std::unique_ptr<MadePage> made_page(const PageOrder& order, std::uint64_t number) {

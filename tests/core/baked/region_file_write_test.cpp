@@ -105,7 +105,7 @@ TEST(RegionFileWriter, RefusesPagesOutOfOrderAndNumbersThatNoRegionHas) {
 // Everything that is there after a break must be what was appended.
 void expect_done_pages(const RegionFileWriter& writer) {
     const auto payload = std::make_unique<PagePayload>();
-    const auto stitched = std::make_unique<StitchedErrors>();
+    const auto stitched = std::make_unique<StitchedDeviations>();
     for (std::uint64_t number = 0; number < writer.pages_done(); ++number) {
         const auto page = made_page(writer.order(), number);
         const auto record = writer.record(number);
@@ -175,7 +175,7 @@ TEST(RegionFileWriter, GoesOnAfterABreakInFinish) {
     const fs::path folder = scratch_folder();
     write_whole(folder / "whole.oro");
     const std::string whole = content(folder / "whole.oro");
-    // All on the disk, the stitched errors gone or not, the name not yet given.
+    // All on the disk, the stitched deviations gone or not, the name not yet given.
     for (const bool stitched_there : {false, true}) {
         put(folder / "a.oro.partial", whole);
         if (stitched_there) put(folder / "a.oro.partial-stitched", "torn");
@@ -305,7 +305,7 @@ TEST(RegionFileWriter, IsReadByOthersWhileItAppends) {
     std::atomic<int> wrong{0};
     const auto read_again = [&] {
         const auto payload = std::make_unique<PagePayload>();
-        const auto stitched = std::make_unique<StitchedErrors>();
+        const auto stitched = std::make_unique<StitchedDeviations>();
         for (std::uint64_t i = 0; i < 40; ++i) {
             const auto page = made_page(writer->order(), i % 4);
             const auto record = writer->record(i % 4);
