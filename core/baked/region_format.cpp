@@ -100,7 +100,7 @@ void exchange_header(Visit& visit, Header& header) {
 template <class Visit, class Summary>
 void exchange_summary(Visit& visit, Summary& summary) {
     auto& [index, origin, origin_ecef, ecef_from_page, centre_m, radius_m, horizon, lowest_h_m, highest_h_m,
-           triangles, meshlets, largest_error_m, smallest_error_m, lod_radius_m] = summary;
+           triangles, meshlets, largest_error_m, lod_radius_m] = summary;
     visit(index.row);
     visit(index.column);
     visit(index.level);
@@ -117,6 +117,7 @@ void exchange_summary(Visit& visit, Summary& summary) {
     visit(triangles);
     visit(meshlets);
     visit(largest_error_m);
+    float smallest_error_m = 0.0F;  // written as 0; nothing has ever read it
     visit(smallest_error_m);
     visit(lod_radius_m);
 }

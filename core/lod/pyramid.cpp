@@ -142,16 +142,13 @@ void LevelBuilder::sum_up(PyramidPage& page) const {
     PageSummary& summary = page.summary;
     double radius_m = 0.0;
     double largest_m = 0.0;
-    float smallest_m = gpu::unfit_error_m;
     for (const gpu::MeshletBounds& node : page.nodes) {
         largest_m = std::max(largest_m, static_cast<double>(node.error_m));
         if (node.radius < 0.0F) continue;
-        smallest_m = std::min(smallest_m, node.error_m);
         radius_m = std::max(radius_m, glm::distance(summary.centre_m, glm::dvec3(node.centre)) +
                                           static_cast<double>(node.lod_radius));
     }
     summary.largest_error_m = std::min(rounded_up(error_growth * largest_m), gpu::unfit_error_m);
-    summary.smallest_error_m = summary.meshlets == 0 ? 0.0F : smallest_m;
     summary.lod_radius_m = radius_growth * radius_m;
 }
 

@@ -46,9 +46,8 @@ struct PageSummary {
     std::uint32_t triangles{};  // 0: nothing to draw
     std::uint32_t meshlets{};   // those with a triangle
     // Of the nodes, as the pyramid (core/lod/pyramid.h) knows them; 0 where there is none.
-    float largest_error_m{};   // unfit_error_m where one is unfit
-    float smallest_error_m{};  // of those with a triangle
-    double lod_radius_m{};     // around centre_m: holds the nodes' lod spheres
+    float largest_error_m{};  // unfit_error_m where one is unfit
+    double lod_radius_m{};    // around centre_m: holds the nodes' lod spheres
 };
 
 // The heights of a page, row by row from post (-1, -1): its 129 x 129 posts and one more on each side (round

@@ -80,7 +80,6 @@ inline std::unique_ptr<MadePage> made_page(const PageOrder& order, std::uint64_t
     summary.triangles = static_cast<std::uint32_t>(random() % 32769);
     summary.meshlets = static_cast<std::uint32_t>(random() % 257);
     summary.largest_error_m = 1.0e30F;
-    summary.smallest_error_m = static_cast<float>(any());
     for (PageQuarter& quarter : page->record.quarters) {
         quarter.lod_radius_m = any();
         quarter.largest_error_m = static_cast<float>(any());
