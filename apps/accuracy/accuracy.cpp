@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "apps/command_line/refusals.h"
+#include "apps/view/model_names.h"
 #include "core/base/parallel.h"
 
 namespace oro {
@@ -26,8 +27,8 @@ std::optional<double> stated_le90_m(const Region& region) {
 AccuracyBundle bundle_of(Bundle kind, const char* name, double tau_px, HeightStorage heights,
                          double refraction_k) {
     char text[100];
-    std::snprintf(text, sizeof text, "--tau %g --heights %s --refraction %g", tau_px,
-                  heights == HeightStorage::i16 ? "i16" : "f32", refraction_k);
+    std::snprintf(text, sizeof text, "--tau %g --heights %s --refraction %g", tau_px, name_of(heights),
+                  refraction_k);
     return {kind, name, tau_px, heights, refraction_k, text};
 }
 
@@ -48,13 +49,17 @@ const char* bundle_name(Bundle kind) {
         ->name;
 }
 
+std::vector<std::string> accuracy_words() {
+    std::vector<std::string> words;
+    for (const AccuracyBundle& bundle : accuracy_bundles()) words.emplace_back(bundle.name);
+    return words;
+}
+
 Result<AccuracyBundle> accuracy_bundle(const std::string& name) {
     for (const AccuracyBundle& bundle : accuracy_bundles()) {
         if (name == bundle.name) return bundle;
     }
-    std::vector<std::string> names;
-    for (const AccuracyBundle& bundle : accuracy_bundles()) names.emplace_back(bundle.name);
-    return refused("--accuracy", name, choose_words(names));
+    return refused("--accuracy", name, choose_words(accuracy_words()));
 }
 
 void apply_bundle(const AccuracyBundle& bundle, View& view) {

@@ -30,6 +30,8 @@ struct AccuracyBundle {
 // draft, balanced, survey: the cheapest first.
 const std::vector<AccuracyBundle>& accuracy_bundles();
 const char* bundle_name(Bundle kind);
+// Their names, as --accuracy lists them.
+std::vector<std::string> accuracy_words();
 // Usage errors: no such bundle.
 Result<AccuracyBundle> accuracy_bundle(const std::string& name);
 void apply_bundle(const AccuracyBundle& bundle, View& view);

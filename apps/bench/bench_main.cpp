@@ -8,10 +8,13 @@
 
 #include "apps/bench/bench_path.h"
 #include "apps/bench/bench_terrain.h"
+#include "apps/report/json_object.h"
+#include "apps/report/option_words.h"
 #include "core/baked/file_pages.h"
 #include "core/base/elapsed.h"
 #include "core/base/median.h"
 #include "core/base/parallel.h"
+#include "render/device/raster_request.h"
 #include "render/frame/picture_renderer.h"
 
 namespace oro {
@@ -26,7 +29,7 @@ struct BenchOptions {
     int frames{30};
     int width_px{1920};
     int height_px{1080};
-    std::string pipeline{"auto"};
+    std::string pipeline{raster_requests.front().first};
     double tau_px{1.0};
     int gpu_memory_mb{0};
     bool floor{false};
@@ -121,7 +124,7 @@ Result<double> peak_triangles_per_s(const Gpu& gpu, RasterPath path, BenchOption
 
 ordered_json times_json(const BenchTimes& times) {
     const gpu::FrameCounts& counts = times.last.counts;
-    ordered_json json;
+    ordered_json json = ordered_json::object();
     json["gpu_ms"] = 1e3 * times.gpu_s;
     json["choose_ms"] = 1e3 * times.choose_s;
     json["raster_ms"] = 1e3 * times.raster_s;
@@ -185,12 +188,12 @@ Result<void> run_bench(const BenchOptions& options) {
     ORO_TRY(Scene scene, Scene::create(*gpu, std::move(pages),
                                        {static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0}));
     ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, path, options));
-    ordered_json json;
+    ordered_json json = ordered_json::object();
     json["device"] = gpu->report().name;
     json["driver"] = gpu->report().driver;
     json["pipeline"] = name_of(path);
     json["region"] = options.region.empty() ? std::to_string(options.patches) + " patches" : options.region;
-    json["size_px"] = {options.width_px, options.height_px};
+    json["size_px"] = json_list(options.width_px, options.height_px);
     json["tau_px"] = options.tau_px;
     json["frames"] = options.frames;
     json["open_ms"] = 1e3 * open_s;
@@ -204,6 +207,7 @@ Result<void> run_bench(const BenchOptions& options) {
                     gpu->report().name.c_str(), gpu->report().driver.c_str(), name_of(path).c_str(),
                     options.width_px, options.height_px, options.tau_px, options.frames, 1e3 * open_s);
     }
+    json["eyes"] = ordered_json::object();
     for (const BenchEye& eye : eyes) {
         ORO_TRY(const BenchTimes times, time_frames(scene, renderer, eye.camera, options));
         ordered_json one = times_json(times);
@@ -247,7 +251,7 @@ int main(int argc, char** argv) {
     app.add_option("--frames", options.frames, "Frames that count, after a second of frames that do not")
         ->check(CLI::Range(1, 10000));
     app.add_option("--pipeline", options.pipeline, "mesh, compute or auto")
-        ->check(CLI::IsMember({"auto", "mesh", "compute"}));
+        ->check(CLI::IsMember(oro::words_of(oro::raster_requests)));
     app.add_option("--gpu-memory", options.gpu_memory_mb, "Megabytes of terrain on the GPU at most")
         ->check(CLI::Range(0, 1000000));
     app.add_flag("--floor", options.floor,

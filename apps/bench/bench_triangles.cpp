@@ -12,6 +12,7 @@
 #include "apps/bench/bench_blocks.h"
 #include "apps/bench/bench_rtin.h"
 #include "apps/bench/bench_tin.h"
+#include "apps/report/json_object.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
 
@@ -120,16 +121,15 @@ Result<TrianglesReport> count_triangles(const TrianglesOptions& options) {
 }
 
 ordered_json counted_json(const Counted& mesh) {
-    return {{"triangles", mesh.triangles}, {"largest_error_m", mesh.largest_error_m}};
+    return json_object("triangles", mesh.triangles, "largest_error_m", mesh.largest_error_m);
 }
 
 void print_json(const TrianglesReport& report) {
-    ordered_json json = {{"region", report.region},
-                         {"posts", {report.rows, report.columns}},
-                         {"full_grid_triangles", report.full.triangles},
-                         {"square_posts", report.square_posts}};
+    ordered_json json = json_object("region", report.region, "posts", json_list(report.rows, report.columns),
+                                    "full_grid_triangles", report.full.triangles, "square_posts",
+                                    report.square_posts, "errors", ordered_json::array());
     for (const ErrorRow& row : report.errors) {
-        ordered_json one = {{"error_m", row.error_m}, {"blocks", counted_json(row.blocks)}};
+        ordered_json one = json_object("error_m", row.error_m, "blocks", counted_json(row.blocks));
         one["blocks"]["nodes_by_level"] = row.nodes;
         one["tin"] = counted_json(row.tin);
         one["square_rtin"] = counted_json(row.square_rtin);

@@ -5,7 +5,10 @@
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/command_line/option_group.h"
+#include "apps/report/option_words.h"
+#include "apps/view/model_names.h"
 #include "apps/view/view_limits.h"
+#include "render/device/raster_request.h"
 
 namespace oro {
 namespace {
@@ -73,31 +76,25 @@ std::string bundle_words() {
     return joined(all, " and ");
 }
 
-std::vector<std::string> bundle_names() {
-    std::vector<std::string> names;
-    for (const AccuracyBundle& bundle : accuracy_bundles()) names.emplace_back(bundle.name);
-    return names;
-}
-
 // What of the world is modelled, and how exactly.
 void add_model_options(OptionGroup& detail, ViewOptions& options) {
-    detail.choice("--earth", options.earth, {"ellipsoid", "sphere", "flat"},
+    detail.choice("--earth", options.earth, earth_words(),
                   "Shape of the Earth: ellipsoid (WGS84, as GPS has it; default), sphere, or flat around the "
                   "eye. The last two are there to show how far off they are.");
     detail.number("--refraction", options.refraction_k, "K",
                   "How much the air bends light (coefficient of refraction), " +
                       span(view_limits::refraction_k) + ": 0 is not at all (default), 0.13 is usual by day.");
-    detail.choice("--precision", options.precision, {"relative", "naive"},
+    detail.choice("--precision", options.precision, precision_words(),
                   "relative (default): positions are counted from the eye, and exact near it. naive: they "
                   "are counted from the Earth's centre with 7 digits, to show how far off that is.");
-    detail.choice("--geoid", options.geoid, {"egm96", "none"},
+    detail.choice("--geoid", options.geoid, geoid_words(),
                   "egm96 (default): sea level is where the EGM96 model has it. none: it is the ellipsoid "
                   "itself, to show how far off that is.");
-    detail.choice("--heights", options.heights, {"f32", "i16"},
+    detail.choice("--heights", options.heights, heights_words(),
                   "How the GPU keeps heights: f32 in steps of 0.5 mm (default), or i16 in half the memory "
                   "and coarser steps.");
     detail.choice(
-        "--accuracy", options.accuracy, bundle_names(),
+        "--accuracy", options.accuracy, accuracy_words(),
         "Set several options together: " + bundle_words() + ". Options given one by one win over it.");
     detail.option("--tolerance", options.tolerance, "PIXELS",
                   "Take the cheapest --accuracy that is predicted to be off by no more than this, 0.001 to "
@@ -135,7 +132,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
     detail.number("--tau", options.tau_px, "PIXELS",
                   "How far left-out detail may move anything on the picture, " + span(view_limits::tau_px) +
                       ". Default: 1; in a window 0.5. 0 leaves nothing out.");
-    detail.choice("--pipeline", options.pipeline, {"auto", "mesh", "compute"},
+    detail.choice("--pipeline", options.pipeline, words_of(raster_requests),
                   "How the GPU draws triangles: with mesh shaders or with compute shaders. auto (default) "
                   "takes the faster, measured once on this machine.");
     add_model_options(detail, options);

@@ -13,6 +13,7 @@
 #include "apps/report/json_text.h"
 #include "geo/files/whole_file.h"
 #include "render/device/calibration.h"
+#include "render/device/raster_request.h"
 
 namespace oro {
 namespace {
@@ -166,7 +167,8 @@ std::string text_of(const PipelineChoice& choice) {
 }
 
 Result<RasterPath> choose_path(const std::string& request, const Gpu& gpu) {
-    if (request != "auto" || !has_both_ways(gpu.report())) return raster_path_for(request, gpu.report());
+    if (raster_request_named(request) != RasterRequest::automatic || !has_both_ways(gpu.report()))
+        return raster_path_for(request, gpu.report());
     ORO_TRY(const PipelineChoice choice, choose_pipeline(gpu));
     return choice.path;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/command_line/refusals.h"
+#include "apps/report/option_words.h"
 
 namespace oro {
 namespace {
@@ -23,13 +24,10 @@ constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16",
 
 template <class Choice, std::size_t count>
 Result<Choice> named(const char* option, const Names<Choice, count>& names, const std::string& name) {
-    std::vector<std::string> choices;
     for (const auto& [known, choice] : names) {
-        if (*known == '\0') continue;
-        if (name == known) return choice;
-        choices.emplace_back(known);
+        if (*known != '\0' && name == known) return choice;
     }
-    return refused(option, name, choose_words(choices));
+    return refused(option, name, choose_words(words_of(names)));
 }
 
 template <class Choice, std::size_t count>
@@ -53,6 +51,22 @@ Result<bool> geoid_named(const std::string& name) {
 }
 Result<HeightStorage> heights_named(const std::string& name) {
     return named("--heights", storages, name);
+}
+
+std::vector<std::string> earth_words() {
+    return words_of(earths);
+}
+std::vector<std::string> precision_words() {
+    return words_of(precisions);
+}
+std::vector<std::string> geoid_words() {
+    return words_of(geoids);
+}
+std::vector<std::string> heights_words() {
+    return words_of(storages);
+}
+const char* name_of(HeightStorage heights) {
+    return name_in(storages, heights);
 }
 
 nlohmann::ordered_json models_json(const View& view) {

@@ -7,6 +7,7 @@
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/report/option_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
@@ -14,6 +15,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/pictures/picture.h"
 #include "geo/sources/raster_source.h"
+#include "render/device/raster_request.h"
 
 namespace oro {
 namespace {
@@ -154,8 +156,9 @@ View read_fields(const nlohmann::json& json) {
     view.style = path_from(json, "style");
     // Views of before there was a choice have none.
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
-    if (view.pipeline != "auto" && view.pipeline != "mesh" && view.pipeline != "compute")
-        throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of auto, mesh, compute"};
+    if (!raster_request_named(view.pipeline))
+        throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of " +
+                        listed(words_of(raster_requests))};
     // Nor have they a tau: they were drawn at full resolution.
     view.tau_px = json.contains("tau_px") ? number(json, "tau_px", limits::tau_px) : 0.0;
     read_models(json, view);
@@ -163,7 +166,7 @@ View read_fields(const nlohmann::json& json) {
     // changed.
     if (json.contains("accuracy")) view.accuracy = json_string(json, "accuracy");
     if (!view.accuracy.empty() && !accuracy_bundle(view.accuracy).ok())
-        throw JsonFault{"'accuracy' is '" + view.accuracy + "', none of draft, balanced, survey"};
+        throw JsonFault{"'accuracy' is '" + view.accuracy + "', none of " + listed(accuracy_words())};
     forget_other_bundle(view);
     view.time_utc_s = whole(json, "time_utc_s", limits::time_utc_s);
     return view;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "render/device/raster_request.h"
+
 namespace oro {
 namespace {
 
@@ -126,7 +128,9 @@ Result<DeviceReport> describe_device(VkPhysicalDevice physical, const GpuOptions
 }
 
 Result<RasterPath> raster_path_for(const std::string& request, const DeviceReport& device) {
-    const bool wants_mesh = request == "mesh" || (request == "auto" && device.mesh_shader);
+    const std::optional<RasterRequest> named = raster_request_named(request);
+    const bool wants_mesh =
+        named == RasterRequest::mesh || (named == RasterRequest::automatic && device.mesh_shader);
     if (wants_mesh ? device.mesh_shader : device.compute_raster)
         return wants_mesh ? RasterPath::mesh : RasterPath::compute;
     return Error{
