@@ -17,8 +17,8 @@ Error without_region(const InfoOptions& options, const RegionRequest& request, E
     const auto sources = sources_too_large(request);
     if (!sources.ok() || sources->empty()) return fault;
     if (options.json) {
-        const nlohmann::ordered_json json = {
-            {"sources", sources_json(*sources)}, {"region", nullptr}, {"error", fault.line()}};
+        const nlohmann::ordered_json json =
+            json_object("sources", sources_json(*sources), "region", nullptr, "error", fault.line());
         std::printf("%s\n", json_text(json, true).c_str());
         return fault;
     }

@@ -6,6 +6,7 @@
 #include "apps/report/json_object.h"
 #include "core/baked/region_format.h"
 #include "geo/files/foreign_text.h"
+#include "geo/region/source_fields.h"
 #include "geo/region/source_words.h"
 
 namespace oro {
@@ -17,28 +18,15 @@ ordered_json box_json(const BoundingBox& box) {
     return json_list(box.west_deg, box.south_deg, box.east_deg, box.north_deg);
 }
 
-ordered_json seams_json(const SeamReport& seams) {
-    return json_object("shared_posts", seams.shared_posts, "disagreeing_posts", seams.disagreeing_posts,
-                       "largest_difference_m", seams.largest_difference_m);
-}
-
 ordered_json source_json(const SourceReport& s) {
     ordered_json json = ordered_json::object();
-    json["path"] = s.path;
-    json["format"] = format_words(s);
-    json["crs"] = s.crs;
-    json["vertical_datum"] = datum_words(s.vertical_datum);
-    json["height_unit"] = unit_words(s.height_unit);
-    json["posts_are"] = posts_words(s.posts_are);
+    put_source_words(json, s);
     json["posts"] = json_object("rows", s.rows, "columns", s.columns);
     json["spacing"] =
         json_object("lat_deg", s.lat_spacing_deg, "lon_deg", s.lon_spacing_deg, "metres", s.spacing_m);
     json["bbox"] = box_json(s.box);
     json["H_m"] = json_object("lowest", s.lowest_m, "highest", s.highest_m);
-    json["voids"] = s.voids;
-    json["implausible"] = s.implausible;
-    json["placement"] = placement_words(s);
-    json["seams"] = seams_json(s.seams);
+    put_source_findings(json, s);
     json["attribution"] = s.attribution;
     return json;
 }
@@ -65,7 +53,7 @@ ordered_json region_json(const Region& region) {
     json["in_missing_cells"] = region.in_missing;
     json["filled"] = region.filled;
     json["void_method"] = void_method_words(region.void_method);
-    json["seams"] = seams_json(region.seams);
+    json["seams"] = seam_fields<ordered_json>(region.seams);
     json["seam_rule"] = "the finer spacing wins; among equals the first in the byte order of file names";
     json["missing_cells"] = region.missing_cells;
     json["notes"] = region.notes;

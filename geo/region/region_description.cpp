@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/json_bounds.h"
+#include "geo/region/source_fields.h"
 #include "geo/region/source_words.h"
 
 namespace oro {
@@ -18,24 +19,9 @@ constexpr std::int64_t description_format = 1;
 // A source has some 30 values; more than 100,000 of them do not fit into the longest description.
 constexpr JsonBounds bounds{.most_values = 5'000'000, .most_bytes = std::numeric_limits<std::size_t>::max()};
 
-// Field by field: of nested initializer lists whose making fails half-way (no memory), GCC 12 destroys what
-// was never made.
-ordered_json seams_text(const SeamReport& seams) {
-    ordered_json text = ordered_json::object();
-    text["shared_posts"] = seams.shared_posts;
-    text["disagreeing_posts"] = seams.disagreeing_posts;
-    text["largest_difference_m"] = seams.largest_difference_m;
-    return text;
-}
-
 ordered_json source_text(const SourceReport& s) {
     ordered_json text = ordered_json::object();
-    text["path"] = s.path;
-    text["format"] = format_words(s);
-    text["crs"] = s.crs;
-    text["vertical_datum"] = datum_words(s.vertical_datum);
-    text["height_unit"] = unit_words(s.height_unit);
-    text["posts_are"] = posts_words(s.posts_are);
+    put_source_words(text, s);
     text["attribution"] = s.attribution;
     text["rows"] = s.rows;
     text["columns"] = s.columns;
@@ -47,10 +33,7 @@ ordered_json source_text(const SourceReport& s) {
         text["box_deg"].push_back(side_deg);
     text["lowest_m"] = s.lowest_m;
     text["highest_m"] = s.highest_m;
-    text["voids"] = s.voids;
-    text["implausible"] = s.implausible;
-    text["placement"] = placement_words(s);
-    text["seams"] = seams_text(s.seams);
+    put_source_findings(text, s);
     return text;
 }
 
@@ -196,7 +179,7 @@ std::string region_description(const Region& region) {
     all["orograph_region"] = description_format;
     all["sources"] = ordered_json::array();
     for (const SourceReport& source : region.sources) all["sources"].push_back(source_text(source));
-    all["seams"] = seams_text(region.seams);
+    all["seams"] = seam_fields<ordered_json>(region.seams);
     all["geoid"] = region.geoid;
     all["missing_cells"] = region.missing_cells;
     all["voids"] = region.voids;

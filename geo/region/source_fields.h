@@ -1,0 +1,40 @@
+// The fields of a source that a baked region's description and --json write alike: one list of their names.
+// Json is an object that is there already; with `[]` on one that is null it would be made too late, and of
+// nested initializer lists GCC 12 destroys what was never made.
+#pragma once
+
+#include "geo/region/source_report.h"
+#include "geo/region/source_words.h"
+
+namespace oro {
+
+template <class Json>
+Json seam_fields(const SeamReport& seams) {
+    Json fields = Json::object();
+    fields["shared_posts"] = seams.shared_posts;
+    fields["disagreeing_posts"] = seams.disagreeing_posts;
+    fields["largest_difference_m"] = seams.largest_difference_m;
+    return fields;
+}
+
+// What a source says of itself in words.
+template <class Json>
+void put_source_words(Json& object, const SourceReport& source) {
+    object["path"] = source.path;
+    object["format"] = format_words(source);
+    object["crs"] = source.crs;
+    object["vertical_datum"] = datum_words(source.vertical_datum);
+    object["height_unit"] = unit_words(source.height_unit);
+    object["posts_are"] = posts_words(source.posts_are);
+}
+
+// What was found in it.
+template <class Json>
+void put_source_findings(Json& object, const SourceReport& source) {
+    object["voids"] = source.voids;
+    object["implausible"] = source.implausible;
+    object["placement"] = placement_words(source);
+    object["seams"] = seam_fields<Json>(source.seams);
+}
+
+}  // namespace oro
