@@ -56,7 +56,7 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
     return done;
 }
 
-std::string verification_text(const Verification& verification, double tau_px) {
+std::string verification_text(const Verification& verification, double tau_px, const UnseenGround& unseen) {
     const InteriorError& interior = verification.interior;
     const SkylineError& skyline = verification.skyline;
     char text[400];
@@ -81,7 +81,9 @@ std::string verification_text(const Verification& verification, double tau_px) {
                   "99 %%: 99 of 100 are off by no more than this.\n"
                   "Allowed: %g px (--tau %g, and %g px that drawing rounds off)\n",
                   tau_px + drawing_slack_px, tau_px, drawing_slack_px);
-    return all + text;
+    all += text;
+    if (unseen.columns_beyond > 0) all += "Where the data end: " + unseen_sentence(unseen) + "\n";
+    return all;
 }
 
 ordered_json verification_json(const Verification& verification) {

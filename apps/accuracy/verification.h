@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/accuracy/beyond_data.h"
 #include "apps/accuracy/truth.h"
 #include "apps/view/view.h"
 #include "core/truth/picture_error.h"
@@ -24,8 +25,8 @@ struct Verification {
 Result<Verification> verify_view(const View& view, const TrueScene& truth, const Gpu& gpu, Scene& scene,
                                  RasterPath path, const gpu::FrameStyle& style);
 
-// For people: a table of some lines, each with its line end.
-std::string verification_text(const Verification& verification, double tau_px);
+// For people: a table of some lines, each with its line end, and what the data cannot tell.
+std::string verification_text(const Verification& verification, double tau_px, const UnseenGround& unseen);
 nlohmann::ordered_json verification_json(const Verification& verification);
 
 // What is in an error picture, where it is not a colour of the scale.

@@ -34,6 +34,7 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     picture.flag("--verify", options.verify,
                  "Measure how far the picture is from full detail, in metres and pixels, and write "
                  "NAME.error.png beside it.");
+    add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
     add_no_paths(command, "The picture", options.no_paths);
     picture.flag("--overwrite", options.overwrite, "Replace files that are there.");
     add_region_options(command, options.region);
@@ -57,6 +58,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
         .required();
     picture.option("--out", options.out, "FILE",
                    "Write a picture of the errors, a .png. Without it they are told in figures only.");
+    add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
     picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
     add_region_options(command, options.region);
     command.get_option("PATH")->description("The picture's elevation data, where they have moved.");
@@ -95,6 +97,7 @@ void add_plan(CLI::App& app, PlanOptions& options) {
         *app.add_subcommand("plan", "Predict how far off a picture would be, and why, before it is drawn");
     OptionGroup view(command, "The picture");
     view.option("--view", options.view_file, "FILE", draw_view);
+    add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
     add_time(command, hidden, options.view);
     add_region_options(command, options.region);
     add_view_options(command, options.view);

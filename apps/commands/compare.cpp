@@ -20,7 +20,8 @@ namespace oro {
 namespace {
 
 nlohmann::ordered_json compare_json(const CompareOptions& options, const View& view, RasterPath path,
-                                    const Gpu& gpu, const Verification& verification) {
+                                    const Gpu& gpu, const Verification& verification,
+                                    const UnseenGround& unseen) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["view"] = options.view_file;
     json["error_picture"] = nullptr;
@@ -30,6 +31,7 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     json["pipeline"] = name_of(path);
     json["device"] = json_object("name", gpu.report().name, "driver", gpu.report().driver);
     json["error"] = verification_json(verification);
+    json["unseen"] = unseen_json(unseen);
     return json;
 }
 
@@ -48,6 +50,7 @@ Result<void> check_error_picture(const CompareOptions& options) {
 
 Result<void> run_compare(const CompareOptions& options) {
     ORO_CHECK(check_error_picture(options));
+    ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
     ProgressBar bar(options.quiet);
     View view;
     Region region;
@@ -67,6 +70,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(0.0, "comparing");
     ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));
+    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, *truth, ceiling_m));
     if (verification.interior.drawn == 0) {
         ORO_TRY(const std::string nothing, nothing_in_view(view, region, options.view_file));
         say(options.quiet, "note: " + nothing);
@@ -77,9 +81,10 @@ Result<void> run_compare(const CompareOptions& options) {
     if (!options.out.empty()) say(options.quiet, "wrote " + options.out);
     // What was asked for: as a table, or with -q as JSON alone.
     if (!options.quiet || !options.json)
-        std::fputs(verification_text(verification, view.tau_px).c_str(), stderr);
+        std::fputs(verification_text(verification, view.tau_px, unseen).c_str(), stderr);
     if (options.json)
-        std::printf("%s\n", json_text(compare_json(options, view, path, *gpu, verification), true).c_str());
+        std::printf("%s\n",
+                    json_text(compare_json(options, view, path, *gpu, verification, unseen), true).c_str());
     return {};
 }
 

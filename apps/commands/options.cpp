@@ -152,6 +152,14 @@ void add_no_paths(CLI::App& command, const std::string& heading, bool& no_paths)
               "data, too.");
 }
 
+void add_unseen_ceiling(CLI::App& command, const std::string& heading, std::optional<double>& ceiling_m) {
+    OptionGroup(command, heading)
+        .number("--unseen-ceiling", ceiling_m, "METRES",
+                "How high ground could be where there are no data, above sea level, " +
+                    span(view_limits::unseen_ceiling_m) +
+                    " (default 9000). A note tells how far such ground could change the picture.");
+}
+
 void add_memory_options(CLI::App& command, MemoryOptions& options) {
     constexpr int least_mb = 16, most_mb = 1000000;
     OptionGroup detail(command, "Detail and models");

@@ -60,6 +60,7 @@ struct ShotOptions {
     MemoryOptions memory;
     std::string view_file;
     std::string out;
+    std::optional<double> unseen_ceiling_m;
     bool verify{false};
     bool no_paths{false};  // the picture tells no paths
     bool overwrite{false};
@@ -72,6 +73,7 @@ struct CompareOptions {
     MemoryOptions memory;
     std::string view_file;
     std::string out;
+    std::optional<double> unseen_ceiling_m;
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
@@ -81,6 +83,7 @@ struct PlanOptions {
     RegionOptions region;
     ViewOptions view;
     std::string view_file;
+    std::optional<double> unseen_ceiling_m;
     bool json{false};
     bool quiet{false};
 };
@@ -129,6 +132,9 @@ struct DoctorOptions {
 // Options that several commands have, each under its heading in help.
 void add_region_options(CLI::App& command, RegionOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
+// How high ground may be where there are no data, above sea level. It decides nothing that is drawn, and so
+// is no part of a view.
+void add_unseen_ceiling(CLI::App& command, const std::string& heading, std::optional<double>& ceiling_m);
 void add_memory_options(CLI::App& command, MemoryOptions& options);
 void add_time(CLI::App& command, const std::string& heading, ViewOptions& options);
 void add_no_paths(CLI::App& command, const std::string& heading, bool& no_paths);

@@ -68,7 +68,8 @@ ordered_json effect_json(const BudgetLine& line) {
     return effect;
 }
 
-ordered_json plan_json(const Budget& budget, const View& view, const AccuracyChoice& choice) {
+ordered_json plan_json(const Budget& budget, const View& view, const AccuracyChoice& choice,
+                       const UnseenGround& unseen) {
     ordered_json json = ordered_json::object();
     json["tolerance_px"] = budget.tolerance_px;
     json["in_view"] = !budget.empty;
@@ -77,6 +78,7 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     json["effects"] = ordered_json::array();
     for (const BudgetLine& line : budget.lines) json["effects"].push_back(effect_json(line));
     json["total"] = size_json(budget.total);
+    json["unseen"] = unseen_json(unseen);
     json["dominates"] = nullptr;
     json["dominates_kind"] = nullptr;
     if (budget.dominant) {
@@ -107,6 +109,7 @@ Result<void> run_plan(const PlanOptions& options) {
     if (options.view.tolerance) {
         ORO_TRY(tolerance_px, parse_tolerance(*options.view.tolerance));
     }
+    ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
     // Here a tolerance judges what is asked for, and chooses nothing.
     ViewOptions view_options = options.view;
     view_options.tolerance.reset();
@@ -125,11 +128,12 @@ Result<void> run_plan(const PlanOptions& options) {
     ORO_TRY(const Budget budget, plan_view(view, region, truth->surface(), *pages, tolerance_px));
     ORO_TRY(const AccuracyChoice choice,
             choose_accuracy(view, region, truth->surface(), *pages, tolerance_px));
+    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, *truth, ceiling_m));
     if (options.json) {
-        std::printf("%s\n", json_text(plan_json(budget, view, choice), true).c_str());
+        std::printf("%s\n", json_text(plan_json(budget, view, choice, unseen), true).c_str());
         return {};
     }
-    std::fputs(plan_text(budget, view, eye_of(view, region), choice).c_str(), stdout);
+    std::fputs(plan_text(budget, view, eye_of(view, region), choice, unseen).c_str(), stdout);
     return {};
 }
 

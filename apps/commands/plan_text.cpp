@@ -89,15 +89,31 @@ std::string rows(const Budget& budget, EffectGroup group, const View& view) {
     return text;
 }
 
+// Pixels alone: how many metres unknown ground rises nobody can say.
+std::string unseen_row(const UnseenGround& unseen, double tolerance_px) {
+    if (unseen.columns_beyond == 0) return {};
+    const std::string nothing = left_aligned(std::string(before_point - 1, ' ') + "-", size_columns);
+    std::string text = left_aligned("ground beyond the data", name_columns) +
+                       left_aligned("yes", flag_columns) +
+                       left_aligned(yes_or_no(unseen.bound_px <= tolerance_px), flag_columns) + nothing +
+                       nothing + point_aligned(unseen.bound_px, before_point);
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text + "  in " + grouped(static_cast<std::uint64_t>(unseen.columns_beyond)) + " of " +
+           counted(static_cast<std::uint64_t>(unseen.columns), "column", "columns") + "\n";
+}
+
 // What this view is good to, and what would make it better.
-std::string advice(const Budget& budget, const View& view, const AccuracyChoice& choice) {
+std::string advice(const Budget& budget, const View& view, const AccuracyChoice& choice,
+                   const UnseenGround& unseen) {
     const bool within = budget.total.worst_px <= budget.tolerance_px;
     const std::string tolerance = pixels(budget.tolerance_px);
     const std::string option = "`--accuracy " + std::string(choice.bundle.name) + "`";
     const std::string predicted =
         about_beside(budget.tolerance_px, choice.predicted_px) + " px (" + choice.bundle.options + ")";
-    std::string text = "Good to " + about_beside(budget.tolerance_px, budget.total.worst_px) + " px: ";
-    text += (within ? "within the tolerance of " : "more than the tolerance of ") + tolerance + ".";
+    std::string text = "Good to " + about_beside(budget.tolerance_px, budget.total.worst_px) + " px";
+    if (unseen.columns_beyond > 0) text += " where the data reach";
+    text += (within ? ": within the tolerance of " : ": more than the tolerance of ") + tolerance + ".";
+    if (unseen.columns_beyond > 0) text += "\n" + unseen_ending(unseen);
     if (is_drawn_as(choice.bundle, view))
         text += choice.holds ? "\nThat is what " + option + " draws, the cheapest within " + tolerance + "."
                              : "\nThat is what " + option + " draws, and nothing else is closer.";
@@ -145,9 +161,13 @@ std::string eye_text(const View& view, const PlanEye& eye) {
 }  // namespace
 
 std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye,
-                      const AccuracyChoice& choice) {
-    if (budget.empty)
-        return eye_text(view, eye) + "nothing of the region is in view: there is nothing to predict\n";
+                      const AccuracyChoice& choice, const UnseenGround& unseen) {
+    if (budget.empty) {
+        std::string nothing =
+            eye_text(view, eye) + "nothing of the region is in view: there is nothing to predict\n";
+        if (unseen.columns_beyond > 0) nothing += unseen_sentence(unseen) + "\n";
+        return nothing;
+    }
     char text[240];
     std::snprintf(
         text, sizeof text,
@@ -165,9 +185,10 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
     out += rows(budget, EffectGroup::drawing, view);
     out += "\nWhat the data do not tell, and no setting can help:\n" + headings("error", "within", limit, "");
     out += rows(budget, EffectGroup::data, view);
+    out += unseen_row(unseen, budget.tolerance_px);
     out += "\n" + row("this picture, but for its data", "",
                       yes_or_no(budget.total.worst_px <= budget.tolerance_px), budget.total, "");
-    return out + "\n" + advice(budget, view, choice) + "\n" + limit_of_data(budget) + "\n";
+    return out + "\n" + advice(budget, view, choice, unseen) + "\n" + limit_of_data(budget) + "\n";
 }
 
 }  // namespace oro

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/accuracy/accuracy.h"
+#include "apps/accuracy/beyond_data.h"
 #include "apps/view/view.h"
 
 namespace oro {
@@ -18,6 +19,6 @@ struct PlanEye {
 // The eye, a table of all effects in three parts, and what they come to in some sentences. Lines of at most
 // 120 columns with their line ends, but for the sentences, which are as long as they are.
 std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye,
-                      const AccuracyChoice& choice);
+                      const AccuracyChoice& choice, const UnseenGround& unseen);
 
 }  // namespace oro

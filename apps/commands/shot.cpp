@@ -168,11 +168,14 @@ Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages,
 void tell(const ShotOptions& options, const PictureFiles& files, bool checks, const ShotResult& shot,
           const Gpu& gpu, const Style& style) {
     if (!checks) say(options.quiet, "wrote " + files.picture);
+    // Measurements say it themselves.
+    if (!shot.verification && shot.unseen.columns_beyond > 0)
+        say(options.quiet, "note: " + unseen_sentence(shot.unseen));
     if (shot.verification) {
         say(options.quiet, "wrote " + files.error);
         // What was asked for: as a table, or with -q as JSON alone.
         if (!options.quiet || !options.json)
-            std::fputs(verification_text(*shot.verification, shot.view.tau_px).c_str(), stderr);
+            std::fputs(verification_text(*shot.verification, shot.view.tau_px, shot.unseen).c_str(), stderr);
     }
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, gpu, style), true).c_str());
 }
@@ -204,6 +207,7 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
 
 Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     ORO_CHECK(check_out(options, files));
+    ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
     if (options.view.tolerance) {
         if (options.view.accuracy)
             return refused("--tolerance", "", either_words("--tolerance", "--accuracy"));
@@ -229,6 +233,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
             region_pages(shot.region, shot.view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
     if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
+    ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), options.memory, shot.view.heights));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);

@@ -112,6 +112,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["models"] = models_json(shot.view);
     json["accuracy"] = accuracy_json(shot);
     json["models"]["height_step_m"] = shot.height_step_m;
+    json["unseen"] = unseen_json(shot.unseen);
     json["settled"] = shot.picture.settled;
     json["tiles"] = shot.picture.tiles;
     json["times_s"] = times_json(shot);

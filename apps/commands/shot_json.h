@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "apps/accuracy/accuracy.h"
+#include "apps/accuracy/beyond_data.h"
 #include "apps/accuracy/verification.h"
 #include "apps/output/picture_file.h"
 #include "apps/view/style.h"
@@ -34,6 +35,7 @@ struct ShotResult {
     std::uint64_t page_bytes{};
     double height_step_m{};
     std::uint64_t triangles_at_full_resolution{};
+    UnseenGround unseen;
     std::optional<Verification> verification;
     std::optional<AccuracyChoice> choice;  // with --tolerance
     ShotTimes times;

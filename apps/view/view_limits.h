@@ -35,6 +35,8 @@ inline constexpr Limits time_utc_s{-62167219200, 253402300799};
 // Of options that place an eye, whose h is held to eye_h_m when it has its place.
 inline constexpr Limits altitude_m{-12000, 1e9};
 inline constexpr Limits above_m{-12000, 1e9};
+// Of unknown ground, above sea level.
+inline constexpr Limits unseen_ceiling_m{-12000, 100000};
 
 }  // namespace view_limits
 }  // namespace oro

@@ -210,7 +210,8 @@ int longest_run(const UnseenPicture& picture, int column, std::vector<std::int32
         if (begin < 0) begin = row;
         // Its ends lie within the places above and below.
         longest = std::max(longest, std::min(row - begin + 2, picture.rows));
-        if (cells.empty() || cells.back() != kind) cells.push_back(kind);
+        if (cells.empty() || (cells.back() != kind && std::ranges::find(cells, kind) == cells.end()))
+            cells.push_back(kind);
     }
     return longest;
 }
@@ -222,7 +223,7 @@ UnseenGround unseen_ground(const UnseenPicture& picture, const Camera& camera, d
     unseen.ceiling_m = ceiling_m;
     unseen.columns = camera.width_px;
     unseen.column_px.resize(static_cast<std::size_t>(picture.columns));
-    for (const DegreeCell& cell : picture.cells) unseen.missing.push_back({cell, 0.0});
+    for (const DegreeCell& cell : picture.cells) unseen.missing.push_back({cell, 0.0, 0});
     const double row_px = static_cast<double>(camera.height_px) / picture.rows;
     std::int64_t beyond = 0;
     std::vector<std::int32_t> cells;
@@ -233,15 +234,17 @@ UnseenGround unseen_ground(const UnseenPicture& picture, const Camera& camera, d
         unseen.bound_px = std::max(unseen.bound_px, bound_px);
         beyond += bound_px > 0.0;
         for (const std::int32_t cell : cells) {
-            double& largest_px = unseen.missing[static_cast<std::size_t>(cell)].bound_px;
-            largest_px = std::max(largest_px, bound_px);
+            UnseenCell& missing = unseen.missing[static_cast<std::size_t>(cell)];
+            missing.bound_px = std::max(missing.bound_px, bound_px);
+            ++missing.columns;
         }
     }
     // Rounded up: one column of those looked at stands for as many as there are to each.
     unseen.columns_beyond =
         static_cast<int>((beyond * camera.width_px + picture.columns - 1) / picture.columns);
     std::ranges::sort(unseen.missing, [](const UnseenCell& a, const UnseenCell& b) {
-        return a.bound_px != b.bound_px ? a.bound_px > b.bound_px : a.cell < b.cell;
+        if (a.bound_px != b.bound_px) return a.bound_px > b.bound_px;
+        return a.columns != b.columns ? a.columns > b.columns : a.cell < b.cell;
     });
     return unseen;
 }

@@ -67,6 +67,7 @@ UnseenPicture unseen_picture(const TrueSurface& surface, const KnownGround& know
 struct UnseenCell {
     DegreeCell cell;
     double bound_px{};  // the largest of the columns that look into it first
+    int columns{};      // how many of those that were looked at do
 };
 struct UnseenGround {
     double ceiling_m{};
@@ -74,8 +75,9 @@ struct UnseenGround {
     int columns_beyond{};  // of them those that look beyond the data
     double bound_px{};     // the largest of any column; never below what any unknown ground could do, but for
                            // what `unseen_picture` may miss; up to two pixels above it
-    std::vector<UnseenCell> missing;  // largest bound first; each without data where it is entered
-    std::vector<float> column_px;     // of each column that was looked at; 0: none
+    std::vector<UnseenCell>
+        missing;  // largest bound first, then most columns; each without data where it is entered
+    std::vector<float> column_px;  // of each column that was looked at; 0: none
 };
 // `camera`: that of the picture.
 UnseenGround unseen_ground(const UnseenPicture& picture, const Camera& camera, double ceiling_m);

@@ -52,8 +52,8 @@ TEST(Plan, TheLastLineIsOnTheTablesSideOfTheTolerance) {
         const std::size_t at = text.find("\nGood to ") + 9;
         const double shown_px = std::stod(text.substr(at));
         EXPECT_EQ(shown_px > std::stod(tolerance), off < 0.0) << text;
-        EXPECT_TRUE(says(text.substr(at),
-                         off < 0.0 ? " px: more than the tolerance of " : " px: within the tolerance of "))
+        EXPECT_TRUE(says(text.substr(at), off < 0.0 ? " px where the data reach: more than the tolerance of "
+                                                    : " px where the data reach: within the tolerance of "))
             << text;
     }
 }

@@ -1,0 +1,109 @@
+#include "apps/accuracy/beyond_data.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "apps/command_line/refusals.h"
+#include "apps/report/figures.h"
+#include "apps/report/json_object.h"
+#include "apps/view/view_limits.h"
+#include "core/base/parallel.h"
+#include "geo/sources/hgt_source.h"
+
+namespace oro {
+namespace {
+
+constexpr std::size_t most_names = 12;
+
+KnownGround known_ground(const Region& region) {
+    std::vector<DegreeCell> missing;
+    for (const std::string& name : region.missing_cells) {
+        if (const auto box = parse_tile_range(name); box.ok())
+            missing.push_back(degree_cell_at(box->south_deg + 0.5, box->west_deg + 0.5));
+    }
+    return KnownGround(region.field, missing, region.outside > 0);
+}
+
+UnseenGround unseen_over(const View& view, const Region& region, const TrueSurface& surface,
+                         const Sight& sight, double ceiling_m) {
+    const Camera camera = true_camera(view, region);
+    return unseen_ground(
+        unseen_picture(surface, known_ground(region), sight, camera, ceiling_m, thread_count()), camera,
+        ceiling_m);
+}
+
+std::string name_of(const DegreeCell& cell) {
+    return tile_name(cell.lat_deg, cell.lon_deg);
+}
+
+std::string names(const UnseenGround& unseen) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most_names, unseen.missing.size()); ++i)
+        text += (text.empty() ? "" : ", ") + name_of(unseen.missing[i].cell);
+    if (unseen.missing.size() > most_names)
+        text += " and " + grouped(unseen.missing.size() - most_names) + " more";
+    return "(missing: " + text + ")";
+}
+
+std::string columns(const UnseenGround& unseen) {
+    return grouped(static_cast<std::uint64_t>(unseen.columns_beyond)) + " of " +
+           counted(static_cast<std::uint64_t>(unseen.columns), "column", "columns");
+}
+
+// Whole numbers, away from 0.
+std::string whole(double value) {
+    return (value < 0.0 ? "-" : "") + grouped(static_cast<std::uint64_t>(std::ceil(std::abs(value))));
+}
+
+}  // namespace
+
+Result<double> unseen_ceiling(const std::optional<double>& option_m) {
+    const double ceiling_m = option_m.value_or(usual_unseen_ceiling_m);
+    constexpr Limits limits = view_limits::unseen_ceiling_m;
+    if (limits.hold(ceiling_m)) return ceiling_m;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.15g", ceiling_m);
+    return refused("--unseen-ceiling", text, between_words(limits.low, limits.high));
+}
+
+Result<UnseenGround> unseen_in(const View& view, const Region& region, const TrueScene& truth,
+                               double ceiling_m) {
+    const UnseenGround unseen = unseen_over(view, region, truth.surface(), truth.sight(), ceiling_m);
+    ORO_CHECK(region.field.health());
+    return unseen;
+}
+
+Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m) {
+    std::optional<HeightField> lifted;
+    if (!region.geoid_left_out.N_m.empty()) {
+        lifted = region.field;
+        lifted->undulation = region.geoid_left_out;
+    }
+    const TrueSurface surface(lifted ? *lifted : region.field, view.exaggeration, thread_count());
+    const UnseenGround unseen = unseen_over(view, region, surface, true_sight(view, region), ceiling_m);
+    ORO_CHECK(region.field.health());
+    return unseen;
+}
+
+std::string unseen_sentence(const UnseenGround& unseen) {
+    if (unseen.columns_beyond == 0) return {};
+    return columns(unseen) + (unseen.columns == 1 ? " looks" : " look") + " beyond the data " +
+           names(unseen) + ": ground there, up to " + whole(unseen.ceiling_m) + " m, could be up to " +
+           whole(unseen.bound_px) + " px higher than drawn";
+}
+
+std::string unseen_ending(const UnseenGround& unseen) {
+    if (unseen.columns_beyond == 0) return {};
+    return "In " + columns(unseen) + " ground beyond the data could be up to " + whole(unseen.bound_px) +
+           " px higher " + names(unseen) + ".";
+}
+
+nlohmann::ordered_json unseen_json(const UnseenGround& unseen) {
+    nlohmann::ordered_json missing = nlohmann::ordered_json::array();
+    for (const UnseenCell& cell : unseen.missing) missing.push_back(name_of(cell.cell));
+    return json_object("kind", "unseen", "ceiling_m", unseen.ceiling_m, "columns", unseen.columns,
+                       "columns_beyond", unseen.columns_beyond, "bound_px", unseen.bound_px, "missing",
+                       std::move(missing));
+}
+
+}  // namespace oro

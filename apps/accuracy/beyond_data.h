@@ -1,0 +1,32 @@
+// What a view's picture cannot know: ground that is not loaded. What shot, shot --verify, compare and plan
+// tell of it, in the same words.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/accuracy/truth.h"
+#include "apps/view/view.h"
+#include "core/unseen/unseen_ground.h"
+
+namespace oro {
+
+// The --unseen-ceiling, or the usual one. Usage errors: out of range.
+Result<double> unseen_ceiling(const std::optional<double>& option_m);
+
+// From the truth's eye through the truth's air, over what the region holds. Errors: a baked region that
+// cannot be read (posts are read where they are asked for).
+Result<UnseenGround> unseen_in(const View& view, const Region& region, const TrueScene& truth,
+                               double ceiling_m);
+// The same without a true scene at hand: posts of a baked region stay in their file.
+Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m);
+
+// "640 of 640 columns look beyond the data (missing: N46E010): ground there, up to 9,000 m, could be up to
+// 312 px higher than drawn"; "" where none does. At most 12 cells are named.
+std::string unseen_sentence(const UnseenGround& unseen);
+// "In 640 of 640 columns ground beyond the data could be up to 312 px higher (missing: N46E010)."; ""
+// likewise.
+std::string unseen_ending(const UnseenGround& unseen);
+nlohmann::ordered_json unseen_json(const UnseenGround& unseen);
+
+}  // namespace oro

@@ -1,0 +1,139 @@
+// Ground that is not loaded: what shot, shot --verify, compare and plan tell of it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+using nlohmann::json;
+using oro::test::expect_refusal;
+using oro::test::Outcome;
+using oro::test::run_orograph;
+using Words = std::vector<std::string>;
+
+Words joined(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+bool says(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+}
+
+std::string line_with(const std::string& text, const std::string& words) {
+    const std::size_t at = text.find(words);
+    if (at == std::string::npos) return {};
+    const std::size_t before = text.rfind('\n', at);
+    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+    return text.substr(begin, text.find('\n', at) - begin);
+}
+
+// What all four tell of a view.
+struct Told {
+    std::string note;      // of shot
+    std::string verified;  // of shot --verify
+    std::string compared;
+    std::string planned;  // the whole table
+    json shot, comparison, plan;
+};
+Told told_of(const Words& data, const Words& view, const Words& more = {}) {
+    const std::string picture = (oro::test::scratch_folder() / "p.png").string();
+    const Words out = joined({"--overwrite", "--out", picture}, more);
+    const auto run = [](const Words& words) {
+        Outcome outcome = run_orograph(words);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return outcome;
+    };
+    Told told;
+    const Outcome shot = run(joined(joined(joined({"shot", "--json"}, data), view), out));
+    told.note = line_with(shot.err, "beyond the data");
+    told.shot = json::parse(shot.out).at("unseen");
+    const Outcome verified = run(joined(joined(joined({"shot", "--verify"}, data), view), out));
+    told.verified = line_with(verified.err, "beyond the data");
+    EXPECT_FALSE(says(verified.err, "note: ")) << verified.err;
+    const Outcome compared = run(joined({"compare", picture, "--json"}, more));
+    told.compared = line_with(compared.err, "beyond the data");
+    told.comparison = json::parse(compared.out).at("unseen");
+    told.planned = run(joined(joined(joined({"plan"}, data), view), more)).out;
+    told.plan =
+        json::parse(run(joined(joined(joined({"plan", "--json"}, data), view), more)).out).at("unseen");
+    return told;
+}
+
+// From 1,500 m above 46.5 N 9.95 E, eastwards: with N46E010 the skyline lies 182 px higher in the mean, in
+// 640 of 640 columns (tests/geo/region/unseen_tiles_test.cpp).
+TEST(Unseen, TheTileThatIsMissingIsNamedWithItsBound) {
+    const auto tile = oro::test::real_data("alps/N46E009.SRTMGL3.hgt.zip");
+    if (!tile) GTEST_SKIP() << "needs alps/N46E009";
+    const Told told = told_of({tile->string()}, {"--at", "46.5,9.95", "--above", "1500", "--heading", "90",
+                                                 "--pitch", "-10", "--fov", "50", "--size", "640x400"});
+    for (const json& unseen : {told.shot, told.comparison, told.plan}) {
+        EXPECT_EQ(unseen.at("columns"), 640);
+        EXPECT_EQ(unseen.at("columns_beyond"), 640);
+        EXPECT_GE(unseen.at("bound_px").get<double>(), 182.0);
+        EXPECT_EQ(unseen.at("missing"), json::array({"N46E010"}));
+        EXPECT_EQ(unseen.at("ceiling_m"), 9000.0);
+        EXPECT_EQ(unseen, told.shot);
+    }
+    const std::string px = std::to_string(told.plan.at("bound_px").get<int>());
+    const std::string words =
+        "640 of 640 columns look beyond the data (missing: N46E010): ground there, up to "
+        "9,000 m, could be up to " +
+        px + " px higher than drawn";
+    EXPECT_EQ(told.note, "orograph: note: " + words);
+    EXPECT_EQ(told.verified, "Where the data end: " + words);
+    EXPECT_EQ(told.compared, told.verified);
+    EXPECT_TRUE(says(told.planned,
+                     " px where the data reach: within the tolerance of 1 px.\nIn 640 of 640 columns "
+                     "ground beyond the data could be up to " +
+                         px + " px higher (missing: N46E010).\n"))
+        << told.planned;
+    const std::string row = line_with(told.planned, "ground beyond the data   ");
+    EXPECT_TRUE(says(row, " " + px + " ") && says(row, "in 640 of 640 columns")) << row;
+}
+
+std::string bundled() {
+    return (oro::test::bundled_data() / "jacksboro.tif").string();
+}
+
+TEST(Unseen, TheBundledRegionEndsToo) {
+    const Words view{"--at", "36.6,-84.2", "--above", "300", "--heading", "200", "--size", "200x100"};
+    const Told told = told_of({bundled()}, view);
+    EXPECT_EQ(told.shot.at("columns"), 200);
+    EXPECT_EQ(told.shot.at("columns_beyond"), 200);
+    EXPECT_EQ(told.shot.at("missing"), json::array({"N36W085"}));
+    EXPECT_EQ(told.shot, told.plan);
+    EXPECT_EQ(told.shot, told.comparison);
+    EXPECT_TRUE(says(told.note, "note: 200 of 200 columns look beyond the data (missing: N36W085)"))
+        << told.note;
+    EXPECT_EQ(told.verified, told.compared);
+    // Whoever knows how high the ground is near there knows more.
+    const Told lower = told_of({bundled()}, view, {"--unseen-ceiling", "1200"});
+    EXPECT_TRUE(says(lower.note, "up to 1,200 m")) << lower.note;
+    EXPECT_LT(lower.shot.at("bound_px").get<double>(), told.shot.at("bound_px").get<double>());
+    EXPECT_EQ(lower.shot, lower.comparison);
+}
+
+TEST(Unseen, NothingIsSaidWhereAllLinesEndOnData) {
+    const Told told =
+        told_of({bundled()}, {"--at", "36.6,-84.2", "--above", "300", "--pitch", "-90", "--size", "100x100"});
+    EXPECT_EQ(told.note + told.verified + told.compared, "");
+    EXPECT_FALSE(says(told.planned, "beyond the data") || says(told.planned, "where the data reach"))
+        << told.planned;
+    EXPECT_EQ(told.plan.at("columns_beyond"), 0);
+    EXPECT_EQ(told.plan.at("bound_px"), 0.0);
+    EXPECT_EQ(told.plan.at("missing"), json::array());
+}
+
+TEST(Unseen, ACeilingOutOfRangeIsRefused) {
+    expect_refusal(run_orograph({"plan", bundled(), "--at", "36.6,-84.2", "--unseen-ceiling", "200000"}), 2,
+                   {"--unseen-ceiling", "200000"});
+    expect_refusal(run_orograph({"plan", bundled(), "--at", "36.6,-84.2", "--unseen-ceiling", "nan"}), 2,
+                   {"--unseen-ceiling"});
+}
+
+}  // namespace
