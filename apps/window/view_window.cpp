@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/accuracy/beyond_data.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/drawing/finer_levels.h"
@@ -180,6 +181,9 @@ Result<void> take_picture(Viewer& viewer) {
                                        *viewer.scene, viewer.style, {});
     viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
     say(viewer.options.quiet && written.ok(), viewer.message);
+    if (!written.ok() || viewer.options.quiet) return {};
+    ORO_TRY(const UnseenGround unseen, unseen_in(viewer.view, viewer.region, usual_unseen_ceiling_m));
+    if (unseen.columns_beyond > 0) say(false, "note: " + unseen_sentence(unseen));
     return {};
 }
 

@@ -1,0 +1,59 @@
+// The words for ground that is not loaded.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "apps/accuracy/beyond_data.h"
+
+namespace oro {
+namespace {
+
+UnseenGround beyond(int cells) {
+    UnseenGround unseen;
+    unseen.ceiling_m = 9000.0;
+    unseen.columns = 640;
+    unseen.columns_beyond = 640;
+    unseen.bound_px = 311.2;
+    for (int i = 0; i < cells; ++i) unseen.missing.push_back({{46, 10 + i}, 311.2 - i, 640});
+    return unseen;
+}
+
+TEST(UnseenWords, OneSentenceForEachPlace) {
+    EXPECT_EQ(unseen_sentence(beyond(1)),
+              "640 of 640 columns look beyond the data (missing: N46E010): ground there, up to 9,000 m, could be up "
+              "to 312 px higher than drawn");
+    EXPECT_EQ(unseen_ending(beyond(2)),
+              "In 640 of 640 columns ground beyond the data could be up to 312 px higher (missing: N46E010, "
+              "N46E011).");
+    UnseenGround one = beyond(1);
+    one.columns = one.columns_beyond = 1;
+    one.ceiling_m = -300.0;
+    one.missing[0].cell = {-90, -180};
+    EXPECT_EQ(unseen_sentence(one),
+              "1 of 1 column looks beyond the data (missing: S90W180): ground there, up to -300 m, could be up to "
+              "312 px higher than drawn");
+}
+
+TEST(UnseenWords, TwelveCellsAreNamed) {
+    const std::string twelve = unseen_sentence(beyond(12)), more = unseen_sentence(beyond(14));
+    EXPECT_NE(twelve.find("N46E020, N46E021):"), std::string::npos) << twelve;
+    EXPECT_NE(more.find("N46E020, N46E021 and 2 more):"), std::string::npos) << more;
+    EXPECT_EQ(unseen_json(beyond(14)).at("missing").size(), 14U);
+}
+
+TEST(UnseenWords, NothingIsSaidOfNothing) {
+    UnseenGround none = beyond(0);
+    none.columns_beyond = 0;
+    EXPECT_EQ(unseen_sentence(none) + unseen_ending(none), "");
+    EXPECT_EQ(unseen_json(none).at("missing").size(), 0U);
+}
+
+TEST(UnseenWords, CeilingsAreHeldToTheirLimits) {
+    EXPECT_EQ(unseen_ceiling({}).value(), 9000.0);
+    EXPECT_EQ(unseen_ceiling(-420.0).value(), -420.0);
+    EXPECT_EQ(unseen_ceiling(100001.0).error().kind, ErrorKind::usage);
+    EXPECT_EQ(unseen_ceiling(-12001.0).error().kind, ErrorKind::usage);
+}
+
+}  // namespace
+}  // namespace oro
