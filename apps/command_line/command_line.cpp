@@ -36,6 +36,7 @@ void add_shot(CLI::App& app, ShotOptions& options) {
                  "NAME.error.png beside it.");
     add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
     add_no_paths(command, "The picture", options.no_paths);
+    add_data_changed(command, options.data_changed);
     picture.flag("--overwrite", options.overwrite, "Replace files that are there.");
     add_region_options(command, options.region);
     add_view_options(command, options.view);
@@ -59,6 +60,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     picture.option("--out", options.out, "FILE",
                    "Write a picture of the errors, a .png. Without it they are told in figures only.");
     add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
+    add_data_changed(command, options.data_changed);
     picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
     add_region_options(command, options.region);
     command.get_option("PATH")->description("The picture's elevation data, where they have moved.");

@@ -23,6 +23,7 @@
 #include "geo/files/source_paths.h"
 #include "geo/files/whole_file.h"
 #include "geo/region/region_description.h"
+#include "geo/region/region_prints.h"
 #include "geo/sources/raster_parts.h"
 
 namespace oro {
@@ -125,6 +126,7 @@ Result<void> run_bake(const BakingOptions& options) {
             }));
     if (region.file) {
         ORO_TRY(region.field, field_in_memory(*region.file));
+        region.posts_print = posts_print(region.field);
     }
     baked.read_s = seconds_since(reading);
     bar.clear();

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/accuracy/pixel_check.h"
 #include "apps/accuracy/verification.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
@@ -13,6 +14,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/view/style.h"
+#include "apps/view/view_changes.h"
 #include "geo/files/whole_file.h"
 #include "geo/pictures/picture.h"
 
@@ -20,8 +22,8 @@ namespace oro {
 namespace {
 
 nlohmann::ordered_json compare_json(const CompareOptions& options, const View& view, RasterPath path,
-                                    const Gpu& gpu, const Verification& verification,
-                                    const UnseenGround& unseen) {
+                                    const Gpu& gpu, const std::optional<PictureDifference>& pixels,
+                                    const Verification& verification, const UnseenGround& unseen) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["view"] = options.view_file;
     json["error_picture"] = nullptr;
@@ -30,6 +32,10 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     json["tau_px"] = view.tau_px;
     json["pipeline"] = name_of(path);
     json["device"] = json_object("name", gpu.report().name, "driver", gpu.report().driver);
+    json["data_checked"] = view.told->prints && view.told->prints->posts && view.prints->posts;
+    json["data_changed"] = view.prints->data_changed;
+    json["pixels"] = nullptr;
+    if (pixels) json["pixels"] = pixels_json(*pixels);
     json["error"] = verification_json(verification);
     json["unseen"] = unseen_json(unseen);
     return json;
@@ -46,6 +52,30 @@ Result<void> check_error_picture(const CompareOptions& options) {
     return {};
 }
 
+// Of a picture: that its pixels are what its view draws. Where its data changed, and that is known, they may
+// well be others.
+Result<std::optional<PictureDifference>> check_pixels(const CompareOptions& options, const View& view,
+                                                      const Gpu& gpu, Scene& scene, RasterPath path,
+                                                      const Style& style, ProgressBar& bar) {
+    if (!is_from_picture(view)) {
+        say(options.quiet, "note: " + options.view_file + ": is a view without pixels to check");
+        return std::optional<PictureDifference>();
+    }
+    ORO_TRY(const PictureDifference found,
+            compare_pixels(options.view_file, view, gpu, scene, path, style.frame,
+                           [&](double share) { bar.show(share, "drawing"); }));
+    const std::optional<Fingerprints>& told = view.told->prints;
+    const bool same_style = !told || !told->style || told->program != view.prints->program ||
+                            *told->style == style_print(style.frame);
+    if (const auto fault = fault_of_pixels(view, found, same_style)) {
+        const bool was_edited =
+            told && told->pixels && found.file_print && *told->pixels != *found.file_print;
+        if (was_edited || !options.data_changed) return Error{ErrorKind::failed, options.view_file, *fault};
+        say(options.quiet, "note: " + options.view_file + ": " + *fault);
+    }
+    return std::optional(found);
+}
+
 }  // namespace
 
 Result<void> run_compare(const CompareOptions& options) {
@@ -57,6 +87,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_CHECK(open_view(
         options.view_file, {}, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    ORO_CHECK(check_unchanged(view, options.data_changed, options.quiet));
     if (!options.out.empty()) {
         ORO_CHECK(spare_inputs({options.out}, view, region));
         ORO_CHECK(spare_view({options.out}, options.view_file));
@@ -67,6 +98,8 @@ Result<void> run_compare(const CompareOptions& options) {
                              *gpu, region, view.exaggeration, options.memory,
                              [&](double share) { bar.show(share, "measuring levels"); }, view.heights));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
+    ORO_TRY(const std::optional<PictureDifference> pixels,
+            check_pixels(options, view, *gpu, scene, path, style, bar));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(0.0, "comparing");
     ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));
@@ -79,12 +112,14 @@ Result<void> run_compare(const CompareOptions& options) {
         ORO_CHECK(write_error_picture(options.out, verification, view.tau_px, options.overwrite));
     bar.clear();
     if (!options.out.empty()) say(options.quiet, "wrote " + options.out);
+    if (pixels && !options.quiet && is_drawn_one(*pixels)) std::fputs(pixels_text(*pixels).c_str(), stderr);
     // What was asked for: as a table, or with -q as JSON alone.
     if (!options.quiet || !options.json)
         std::fputs(verification_text(verification, view.tau_px, unseen).c_str(), stderr);
     if (options.json)
-        std::printf("%s\n",
-                    json_text(compare_json(options, view, path, *gpu, verification, unseen), true).c_str());
+        std::printf(
+            "%s\n",
+            json_text(compare_json(options, view, path, *gpu, pixels, verification, unseen), true).c_str());
     return {};
 }
 

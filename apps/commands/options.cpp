@@ -160,6 +160,12 @@ void add_unseen_ceiling(CLI::App& command, const std::string& heading, std::opti
                     " (default 9000). A note tells how far such ground could change the picture.");
 }
 
+void add_data_changed(CLI::App& command, bool& data_changed) {
+    OptionGroup(command, "The picture")
+        .flag("--data-changed", data_changed,
+              "Go on although the data or the geoid are others than those that the picture was drawn from.");
+}
+
 void add_memory_options(CLI::App& command, MemoryOptions& options) {
     constexpr int least_mb = 16, most_mb = 1000000;
     OptionGroup detail(command, "Detail and models");

@@ -62,6 +62,7 @@ struct ShotOptions {
     std::string out;
     std::optional<double> unseen_ceiling_m;
     bool verify{false};
+    bool data_changed{false};
     bool no_paths{false};  // the picture tells no paths
     bool overwrite{false};
     bool json{false};
@@ -74,6 +75,7 @@ struct CompareOptions {
     std::string view_file;
     std::string out;
     std::optional<double> unseen_ceiling_m;
+    bool data_changed{false};
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
@@ -138,5 +140,6 @@ void add_unseen_ceiling(CLI::App& command, const std::string& heading, std::opti
 void add_memory_options(CLI::App& command, MemoryOptions& options);
 void add_time(CLI::App& command, const std::string& heading, ViewOptions& options);
 void add_no_paths(CLI::App& command, const std::string& heading, bool& no_paths);
+void add_data_changed(CLI::App& command, bool& data_changed);
 
 }  // namespace oro

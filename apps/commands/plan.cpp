@@ -8,6 +8,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/view/view_changes.h"
 #include "core/base/parallel.h"
 #include "core/terrain/ground.h"
 
@@ -124,6 +125,7 @@ Result<void> run_plan(const PlanOptions& options) {
         region_pages(region, view.exaggeration, [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.clear();
+    say_changes(view, options.quiet);
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
     ORO_TRY(const Budget budget, plan_view(view, region, truth->surface(), *pages, tolerance_px));
     ORO_TRY(const AccuracyChoice choice,

@@ -19,6 +19,7 @@
 #include "apps/report/region_json.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
+#include "apps/view/view_changes.h"
 #include "apps/window/picking.h"
 #include "core/base/elapsed.h"
 #include "core/base/file_there.h"
@@ -130,16 +131,22 @@ Result<bool> is_same(WholeFile& drawn, const std::string& path) {
     return true;
 }
 
-// Gives what was drawn its names, or compares it with the picture that is there.
-Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, WholeFile picture,
-                         std::optional<WholeFile> errors) {
+// Gives what was drawn its names, or compares it with the picture that is there. Tags that tell less than
+// today's, or of another version of the program, do not make it another picture.
+Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, ShotResult& shot,
+                         WholeFile picture, std::optional<WholeFile> errors) {
     if (!is_check(options, files)) return errors ? commit_together({&*errors, &picture}) : picture.commit();
     if (errors) ORO_CHECK(errors->commit());
-    ORO_TRY(const bool same, is_same(picture, files.picture));
-    if (same) return {};
-    return Error{
-        ErrorKind::failed, files.picture,
-        "is not what its view draws now; left as it is (--overwrite replaces it, --out writes another)"};
+    ORO_TRY(shot.same_bytes, is_same(picture, files.picture));
+    const std::optional<Fingerprints>& told = shot.view.told->prints;
+    const bool same_pixels = shot.beside && shot.beside->any.count == 0;
+    if (shot.same_bytes || (same_pixels && (!told || told->program != program_print()))) return {};
+    const std::string where = same_pixels || !shot.beside
+                                  ? ""
+                                  : ": " + pixels_words(shot.beside->any, shot.beside->pixels) + " differ";
+    return Error{ErrorKind::failed, files.picture,
+                 "is not what its view draws now" + where +
+                     "; left as it is (--overwrite replaces it, --out writes another)"};
 }
 
 // The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
@@ -180,6 +187,28 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, gpu, style), true).c_str());
 }
 
+// Reads a picture's pixels along while it is drawn again. What cannot be read is not compared: the bytes tell
+// that it is another.
+class BesidePicture {
+  public:
+    BesidePicture(const std::string& file, const Camera& camera) {
+        if (file.empty()) return;
+        auto opened = PictureComparison::open(file, camera.width_px, camera.height_px, device_slack);
+        if (opened.ok()) comparison_.emplace(std::move(*opened));
+    }
+    void take(std::span<const std::uint8_t> row) {
+        if (comparison_ && !comparison_->add_drawn_row(row).ok()) comparison_.reset();
+    }
+    std::optional<PictureDifference> found() {
+        if (!comparison_) return std::nullopt;
+        const auto found = comparison_->finish();
+        return found.ok() ? std::optional(*found) : std::nullopt;
+    }
+
+  private:
+    std::optional<PictureComparison> comparison_;
+};
+
 // Plans and draws; nothing is written when nothing of the region can be in view.
 Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu,
                                Scene& scene, const Style& style, ProgressBar& bar, ShotResult& shot) {
@@ -192,10 +221,15 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
     ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
     const bool checks = is_check(options, files);
-    ORO_TRY(DrawnPicture picture, draw_picture(checks ? unnamed(files) : files, options.overwrite || checks,
-                                               shot.view, shot.region, shot.middle, gpu, scene, style.frame,
-                                               [&](double share) { bar.show(share, "drawing"); }));
+    BesidePicture beside(checks ? files.picture : "", camera);
+    ORO_TRY(DrawnPicture picture,
+            draw_picture(
+                checks ? unnamed(files) : files, options.overwrite || checks, shot.view, shot.region,
+                shot.middle, gpu, scene, style.frame, [&](double share) { bar.show(share, "drawing"); },
+                [&](std::span<const std::uint8_t> row) { return beside.take(row), Result<void>(); }));
+    shot.beside = beside.found();
     shot.picture = picture.report;
+    shot.view.prints = picture.prints;
     shot.times.draw_s = seconds_since(drawing);
     if (shot.picture.ground_px == 0)
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
@@ -220,7 +254,9 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
         options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
         shot.region));
+    ORO_CHECK(check_unchanged(shot.view, options.data_changed, options.quiet));
     if (options.no_paths) shot.view.tells_paths = false;
+    if (!is_check(options, files)) say_edited(shot.view, options.quiet);
     shot.times.read_s = seconds_since(reading);
     ORO_CHECK(spare_inputs(written_files(options, files), shot.view, shot.region));
     ORO_TRY(const Style style, load_style(shot.view.style, shot.view.sun));
@@ -247,10 +283,12 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
         ORO_TRY(errors, verify_shot(options, files, *gpu, scene, style, shot));
     }
     bar.clear();
-    const Result<void> finished = finish_shot(options, files, std::move(picture.file), std::move(errors));
+    const Result<void> finished =
+        finish_shot(options, files, shot, std::move(picture.file), std::move(errors));
     if (finished.ok() || checks) tell(options, files, checks, shot, *gpu, style);
     if (finished.ok() && checks)
-        say(options.quiet, files.picture + " is there already, and its view draws the same bytes");
+        say(options.quiet, files.picture + " is there already, and its view draws the same " +
+                               (shot.same_bytes ? "bytes" : "pixels"));
     return finished;
 }
 

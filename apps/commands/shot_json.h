@@ -7,6 +7,7 @@
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/beyond_data.h"
+#include "apps/accuracy/pixel_check.h"
 #include "apps/accuracy/verification.h"
 #include "apps/output/picture_file.h"
 #include "apps/view/style.h"
@@ -38,6 +39,9 @@ struct ShotResult {
     UnseenGround unseen;
     std::optional<Verification> verification;
     std::optional<AccuracyChoice> choice;  // with --tolerance
+    // Of a picture that is only drawn again and compared: its pixels, where they can be read.
+    std::optional<PictureDifference> beside;
+    bool same_bytes{};
     ShotTimes times;
 };
 

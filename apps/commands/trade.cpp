@@ -18,6 +18,7 @@
 #include "apps/trade/trade_report.h"
 #include "apps/trade/trade_settings.h"
 #include "apps/view/style.h"
+#include "apps/view/view_changes.h"
 #include "core/truth/view_set.h"
 #include "geo/files/whole_file.h"
 
@@ -164,6 +165,7 @@ Result<void> run_trade(const TradeOptions& options) {
     ORO_CHECK(open_view(
         options.view_file, view_options, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    say_changes(view, options.quiet);
     ORO_CHECK(spare_inputs({csv, html}, view, region));
     if (!options.view_file.empty()) ORO_CHECK(spare_view({csv, html}, options.view_file));
     if (!view.has_geoid)

@@ -4,7 +4,9 @@
 
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/report/region_json.h"
+#include "apps/view/fingerprints_json.h"
 #include "apps/view/view_paths.h"
+#include "geo/pictures/picture_difference.h"
 
 namespace oro {
 
@@ -41,27 +43,40 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
     return tags;
 }
 
-Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                  const Region& region, const std::optional<SeenPlace>& middle,
-                                  const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
-                                  const RenderProgress& progress) {
-    // The eye and the tags come from heights that were asked for by now.
-    ORO_CHECK(region.field.health());
+PictureOptions picture_options(const View& view, RasterPath path) {
     PictureOptions options;
-    ORO_TRY(options.path, choose_path(view.pipeline, gpu));
-    // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
-    ORO_TRY(View drawn, view_told_by(view, files.told_from));
-    drawn.pipeline = name_of(options.path);
-    ORO_CHECK(check_view_opens(drawn, files.picture));
-    ORO_TRY(const std::unique_ptr<PictureWriter> writer,
-            create_picture(files.picture, geotags_of(drawn, region, middle), overwrite));
     options.samples = view.samples;
     options.tau_px = view.tau_px;
     options.model = view.model;
+    options.path = path;
+    return options;
+}
+
+Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
+                                  const Region& region, const std::optional<SeenPlace>& middle,
+                                  const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                  const RenderProgress& progress, const RowSink& also) {
+    // The eye and the tags come from heights that were asked for by now.
+    ORO_CHECK(region.field.health());
+    ORO_TRY(const RasterPath path, choose_path(view.pipeline, gpu));
+    // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
+    ORO_TRY(View drawn, view_told_by(view, files.told_from));
+    drawn.pipeline = name_of(path);
+    if (drawn.prints) {
+        drawn.prints->style = style_print(style);
+        drawn.prints->pixels = 0;  // until they are drawn
+    }
+    ORO_CHECK(check_view_opens(drawn, files.picture));
+    ORO_TRY(const std::unique_ptr<PictureWriter> writer,
+            create_picture(files.picture, geotags_of(drawn, region, middle), overwrite));
+    PixelPrint pixels(view.camera.width_px, view.camera.height_px);
+    const auto take = [&](std::span<const std::uint8_t> rgb) -> Result<void> {
+        pixels.add(rgb);
+        if (also) ORO_CHECK(also(rgb));
+        return writer->write_row(rgb);
+    };
     ORO_TRY(PictureReport report,
-            render_picture(
-                gpu, scene, view.camera, style, options,
-                [&](std::span<const std::uint8_t> rgb) { return writer->write_row(rgb); }, progress));
+            render_picture(gpu, scene, view.camera, style, picture_options(view, path), take, progress));
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
     if (!report.settled)
@@ -69,7 +84,11 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
                      "the GPU may hold " + std::to_string(scene.store().capacity()) +
                          " pages of terrain; this view needs more (a larger --tau needs fewer)"};
     ORO_TRY(WholeFile file, writer->finished_file());
-    return DrawnPicture{report, std::move(file)};
+    if (drawn.prints) {
+        drawn.prints->pixels = pixels.print();
+        ORO_CHECK(replace_in_view(file, files.picture, pixels_field(0), pixels_field(pixels.print())));
+    }
+    return DrawnPicture{report, std::move(file), drawn.prints};
 }
 
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,

@@ -25,15 +25,19 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
 struct DrawnPicture {
     PictureReport report;
     WholeFile file;
+    std::optional<Fingerprints> prints;  // those in it
 };
 
 // Draws a picture that is to be `files.picture`. The view in it names the way of drawing that --pipeline auto
-// came to. Errors: a view that could not be opened again, those of the file and of the device; any message of
-// the validation layer, where it is on.
+// came to. `also` gets each row, too. Errors: a view that could not be opened again, those of the file and of
+// the device; any message of the validation layer, where it is on.
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
                                   const Region& region, const std::optional<SeenPlace>& middle,
                                   const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
-                                  const RenderProgress& progress);
+                                  const RenderProgress& progress, const RowSink& also = {});
+
+// What a view's picture is drawn with.
+PictureOptions picture_options(const View& view, RasterPath path);
 
 // The same, and gives it its name.
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/commands/options.h"
+#include "apps/view/fingerprints.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
 #include "core/terrain/height_quantization.h"
@@ -18,6 +19,15 @@ namespace oro {
 struct SunDirection {
     double azimuth_deg;    // clockwise from true north
     double elevation_deg;  // above the horizon, [-90, 90]; below 0 the ground has ambient light alone
+};
+
+// What a view's file told, before options changed the view.
+struct ToldView {
+    std::string file;
+    int width_px{};
+    int height_px{};
+    bool own_look{true};                 // no option of this command changes its colours or its light
+    std::optional<Fingerprints> prints;  // none of before there were any
 };
 
 struct View {
@@ -36,6 +46,9 @@ struct View {
     std::int64_t time_utc_s{};
     bool tells_paths{true};           // false: its picture names neither sources nor the folder of a style
     bool paths_from_own_file{false};  // relative paths start from the file that the view is in
+    // What it was drawn from, as its file tells; from open_view on, what it is drawn from here.
+    std::optional<Fingerprints> prints;
+    std::optional<ToldView> told;  // of a view from a file, from open_view on
 };
 
 // What to read, from the options. Usage errors: no path, a malformed box or tile.

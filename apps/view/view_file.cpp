@@ -1,5 +1,4 @@
 // Views as JSON, and back.
-#include <charconv>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
@@ -8,7 +7,9 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/option_words.h"
+#include "apps/view/fingerprints_json.h"
 #include "apps/view/model_names.h"
+#include "apps/view/path_json.h"
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
 #include "apps/view/view_paths.h"
@@ -75,41 +76,6 @@ void read_models(const nlohmann::json& json, View& view) {
         view.model.refraction_k = number(json, "refraction", limits::refraction_k);
 }
 
-// File names are bytes. Those that are no text, or none that XML may hold, are written as {"hex":
-// "ff2e686774"}.
-nlohmann::ordered_json path_json(const std::string& path) {
-    bool is_text =
-        path.find("\xEF\xBF\xBE") == std::string::npos && path.find("\xEF\xBF\xBF") == std::string::npos;
-    try {
-        (void)nlohmann::json(path).dump();
-    } catch (const nlohmann::json::exception&) {
-        is_text = false;
-    }
-    if (is_text) return path;
-    constexpr const char* digits = "0123456789abcdef";
-    std::string hex;
-    for (const char c : path) {
-        hex += digits[static_cast<unsigned char>(c) >> 4U];
-        hex += digits[static_cast<unsigned char>(c) & 15U];
-    }
-    return json_object("hex", hex);
-}
-
-std::string path_from(const nlohmann::json& json, const char* name) {
-    if (!json_field(json, name).is_object()) return json_string(json, name);
-    const std::string hex = json_string(json_field(json, name), "hex");
-    std::string path;
-    for (std::size_t at = 0; at + 1 < hex.size(); at += 2) {
-        unsigned byte = 0;
-        const auto [end, error] = std::from_chars(&hex[at], &hex[at] + 2, byte, 16);
-        if (error != std::errc() || end != &hex[at] + 2 || byte == 0) break;
-        path += static_cast<char>(static_cast<unsigned char>(byte));
-    }
-    if (path.empty() || path.size() * 2 != hex.size())
-        throw JsonFault{"'" + std::string(name) + "' is no path in hexadecimal digits"};
-    return path;
-}
-
 void read_sources(const nlohmann::json& json, View& view) {
     const nlohmann::json& sources = json_field(json, "sources");
     if (!sources.is_array())
@@ -169,6 +135,8 @@ View read_fields(const nlohmann::json& json) {
         throw JsonFault{"'accuracy' is '" + view.accuracy + "', none of " + listed(accuracy_words())};
     forget_other_bundle(view);
     view.time_utc_s = whole(json, "time_utc_s", limits::time_utc_s);
+    // Views of before there were any have none.
+    if (json.contains("fingerprints")) view.prints = prints_from(json_field(json, "fingerprints"));
     return view;
 }
 
@@ -216,6 +184,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json.update(models_json(view));
     json["time_utc_s"] = view.time_utc_s;
     json["time"] = time_text(view.time_utc_s);
+    if (view.prints) json["fingerprints"] = prints_json(*view.prints);
     return json_text(json, pretty);
 }
 

@@ -35,6 +35,8 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                        Region& region) {
     if (!view_file.empty()) {
         ORO_TRY(view, read_view(view_file));
+        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px,
+                             !view_options.style && !view_options.sun, view.prints};
         ORO_CHECK(change_view(view, view_options));
         ORO_CHECK(change_region(view, region_options));
         if (view.region.paths.empty())
@@ -43,12 +45,14 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         auto opened = open_region(view.region, progress);
         if (!opened) return with_way_out(opened.error(), view, region_options);
         region = std::move(*opened);
+        view.prints = prints_of(region);
         if (!view.has_geoid) leave_geoid_out(region);
         return {};
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     ORO_TRY(region, open_region(view.region, progress));
+    view.prints = prints_of(region);
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
     // Ground that could not be read is no ground to stand on, but that is not why there is none.

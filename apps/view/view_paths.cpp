@@ -94,6 +94,9 @@ Result<View> view_told_by(const View& view, const std::string& picture) {
     told.paths_from_own_file = true;
     if (!told.tells_paths) {
         told.region.paths.clear();
+        if (told.prints) {
+            for (Fingerprints::OfSource& source : told.prints->sources) source.name.clear();
+        }
         if (is_style_path(told.style)) told.style = fs::path(told.style).filename().string();
         return told;
     }

@@ -14,6 +14,7 @@
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/view/style.h"
+#include "apps/view/view_changes.h"
 #include "apps/window/flight.h"
 #include "apps/window/picking.h"
 #include "core/base/elapsed.h"
@@ -335,6 +336,7 @@ Result<void> run_view(const WindowOptions& options) {
             first_pages(region, view, [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), options.memory, view.heights));
     bar.clear();
+    say_changes(view, options.quiet);
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
     if (const std::string holes = note_of_voids(region); !holes.empty()) say(options.quiet, "note: " + holes);
     ORO_TRY(const std::unique_ptr<Window> window,

@@ -18,6 +18,7 @@ RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) {
     XXH64_reset(&state_->xxh, 0);
 }
 
+RunningChecksum::RunningChecksum(RunningChecksum&&) noexcept = default;
 RunningChecksum::~RunningChecksum() = default;
 
 void RunningChecksum::add(std::span<const std::byte> bytes) {

@@ -19,6 +19,7 @@ class RunningChecksum {
     RunningChecksum();
     RunningChecksum(const RunningChecksum&) = delete;
     RunningChecksum& operator=(const RunningChecksum&) = delete;
+    RunningChecksum(RunningChecksum&&) noexcept;
     ~RunningChecksum();
     void add(std::span<const std::byte> bytes);
     // Of all that was added so far.

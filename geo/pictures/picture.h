@@ -69,6 +69,12 @@ class PictureWriter {
 Result<std::unique_ptr<PictureWriter>> create_picture(const std::string& path, const Geotags& tags,
                                                       bool overwrite);
 
+// Puts `now` in the place of `was`, which has as many bytes, in the view of a picture that is whole and has
+// no name yet: for what is known only when the last row is. `was` stands in the view, once, and neither holds
+// what XML writes otherwise. Errors: the file's.
+Result<void> replace_in_view(WholeFile& picture, const std::string& path, const std::string& was,
+                             const std::string& now);
+
 // The view_json that a picture of ours carries (PNG, JPEG or TIFF, told by content); an error for files
 // without one.
 Result<std::string> read_view_json(const std::string& path);

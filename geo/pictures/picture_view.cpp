@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cctype>
+#include <cerrno>
+#include <cstdio>
 #include <optional>
 #include <span>
 
@@ -25,13 +28,13 @@ constexpr int most_parts = 4'000'000;
 class PictureWalk {
   public:
     PictureWalk(PictureBytes& bytes, const std::string& path) : bytes_(bytes), path_(path) {}
-    Result<std::string> xmp();
+    Result<XmpPlace> xmp();
 
   private:
-    Result<std::string> png_xmp();
-    Result<std::string> jpeg_xmp();
-    Result<std::string> tiff_xmp();
-    Result<std::string> tiff_packet(std::uint64_t entry, bool big);
+    Result<XmpPlace> png_xmp();
+    Result<XmpPlace> jpeg_xmp();
+    Result<XmpPlace> tiff_xmp();
+    Result<XmpPlace> tiff_packet(std::uint64_t entry, bool big);
 
     [[nodiscard]] Error damaged(const std::string& what, std::uint64_t at) const {
         return {ErrorKind::failed, path_, "is damaged at byte " + std::to_string(at) + ": " + what};
@@ -65,7 +68,7 @@ class PictureWalk {
     int passed_{0};
 };
 
-Result<std::string> PictureWalk::xmp() {
+Result<XmpPlace> PictureWalk::xmp() {
     constexpr std::size_t magic_bytes = 8;
     const std::string start = text(0, std::min<std::uint64_t>(magic_bytes, bytes_.size())).value_or("");
     if (start == "\x89PNG\r\n\x1a\n") return png_xmp();
@@ -79,7 +82,7 @@ Result<std::string> PictureWalk::xmp() {
 
 // PNG specification (third edition), 5.3 and 11.3.3.4: length, type, data, CRC; iTXt is keyword 0 flag method
 // language 0 translated 0 text.
-Result<std::string> PictureWalk::png_xmp() {
+Result<XmpPlace> PictureWalk::png_xmp() {
     const std::string keyword("XML:com.adobe.xmp\0", 18);
     for (std::uint64_t at = 8; at < bytes_.size();) {
         if (!pass()) return endless(at);
@@ -105,17 +108,17 @@ Result<std::string> PictureWalk::png_xmp() {
                 if (value == std::string::npos) return damaged("a PNG text has no end", at);
                 if ((*chunk)[flags] != 0)
                     return damaged("its XMP is compressed, which Orograph does not read", at);
-                return chunk->substr(value + 1);
+                return XmpPlace{at + 4 + value + 1, chunk->substr(value + 1), at + 4, *length + 4};
             }
         }
         at += *length + 12;
     }
-    return std::string();
+    return XmpPlace{};
 }
 
 // ITU-T T.81, B.1.1: FF, marker, length of two bytes that counts itself; the tags stand before the first
 // scan.
-Result<std::string> PictureWalk::jpeg_xmp() {
+Result<XmpPlace> PictureWalk::jpeg_xmp() {
     const std::string name("http://ns.adobe.com/xap/1.0/\0", 29);
     for (std::uint64_t at = 2; at < bytes_.size();) {
         if (!pass()) return endless(at);
@@ -126,14 +129,15 @@ Result<std::string> PictureWalk::jpeg_xmp() {
             ++at;
             continue;
         }
-        if (kind == 0xDA || kind == 0xD9) return std::string();  // the scan, the end
+        if (kind == 0xDA || kind == 0xD9) return XmpPlace{};  // the scan, the end
         const auto length = number(at + 2, 2, false);
         if (!length || *length < 2 || !holds(at + 2, *length))
             return damaged("a JPEG segment is cut off", at);
         if (kind == 0xE1 && *length >= 2 + name.size()) {
             const auto segment = text(at + 4, *length - 2);
             if (!segment) return damaged("a JPEG segment cannot be read", at);
-            if (segment->starts_with(name)) return segment->substr(name.size());
+            if (segment->starts_with(name))
+                return XmpPlace{at + 4 + name.size(), segment->substr(name.size())};
         }
         at += 2 + *length;
     }
@@ -141,7 +145,7 @@ Result<std::string> PictureWalk::jpeg_xmp() {
 }
 
 // TIFF 6.0, section 2, and BigTIFF: the first directory's entry 700.
-Result<std::string> PictureWalk::tiff_xmp() {
+Result<XmpPlace> PictureWalk::tiff_xmp() {
     const bool big = number(2, 2, little_) == 43;
     const std::size_t width = big ? 8 : 4;
     const auto directory = number(big ? 8 : 4, width, little_);
@@ -157,17 +161,17 @@ Result<std::string> PictureWalk::tiff_xmp() {
         const std::uint64_t entry = first + i * entry_bytes;
         if (number(entry, 2, little_) == xmp_tag) return tiff_packet(entry, big);
     }
-    return std::string();
+    return XmpPlace{};
 }
 
-Result<std::string> PictureWalk::tiff_packet(std::uint64_t entry, bool big) {
+Result<XmpPlace> PictureWalk::tiff_packet(std::uint64_t entry, bool big) {
     const std::size_t width = big ? 8 : 4;
     const auto count = number(entry + 4, width, little_);
     const auto place = number(entry + 4 + width, width, little_);
     if (!count || !place || *count <= width) return damaged("the TIFF's XMP has no place", entry);
     auto packet = text(*place, *count);
     if (!packet) return damaged("the TIFF's XMP lies outside the file", entry);
-    return std::move(*packet);
+    return XmpPlace{*place, std::move(*packet)};
 }
 
 class FileBytes final : public PictureBytes {
@@ -183,11 +187,36 @@ class FileBytes final : public PictureBytes {
     std::uint64_t size_;
 };
 
+// A file that is being written, and can be read already.
+class StreamBytes final : public PictureBytes {
+  public:
+    explicit StreamBytes(std::FILE* stream) : stream_(stream) {}
+    [[nodiscard]] std::uint64_t size() const override {
+        if (fseeko(stream_, 0, SEEK_END) != 0) return 0;
+        return static_cast<std::uint64_t>(ftello(stream_));
+    }
+    bool read(std::uint64_t offset, void* to, std::size_t count) override {
+        return fseeko(stream_, static_cast<off_t>(offset), SEEK_SET) == 0 &&
+               std::fread(to, 1, count, stream_) == count;
+    }
+    bool write(std::uint64_t offset, const void* from, std::size_t count) {
+        return fseeko(stream_, static_cast<off_t>(offset), SEEK_SET) == 0 &&
+               std::fwrite(from, 1, count, stream_) == count && std::fflush(stream_) == 0;
+    }
+
+  private:
+    std::FILE* stream_;
+};
+
 }  // namespace
 
 Result<std::string> find_view_json(PictureBytes& bytes, const std::string& path) {
-    ORO_TRY(const std::string packet, PictureWalk(bytes, path).xmp());
-    return view_in_xmp(packet, path);
+    ORO_TRY(const XmpPlace xmp, find_xmp(bytes, path));
+    return view_in_xmp(xmp.packet, path);
+}
+
+Result<XmpPlace> find_xmp(PictureBytes& bytes, const std::string& path) {
+    return PictureWalk(bytes, path).xmp();
 }
 
 Result<std::string> read_view_json(const std::string& path) {
@@ -195,6 +224,30 @@ Result<std::string> read_view_json(const std::string& path) {
     ORO_TRY(const std::uint64_t size, file.size());
     FileBytes bytes(file, size);
     return find_view_json(bytes, path);
+}
+
+Result<void> replace_in_view(WholeFile& picture, const std::string& path, const std::string& was,
+                             const std::string& now) {
+    assert(was.size() == now.size());
+    StreamBytes bytes(picture.stream());
+    const auto fault = [&] {
+        return Error{ErrorKind::failed, path, "cannot be written: " + system_reason(errno)};
+    };
+    if (std::fflush(picture.stream()) != 0) return fault();
+    ORO_TRY(XmpPlace xmp, find_xmp(bytes, path));
+    const std::size_t at = xmp.packet.find(was);
+    assert(at != std::string::npos);
+    if (!bytes.write(xmp.at + at, now.data(), now.size())) return fault();
+    if (xmp.chunk_bytes == 0) return {};
+    std::string chunk(xmp.chunk_bytes, '\0');
+    if (!bytes.read(xmp.chunk_at, chunk.data(), chunk.size())) return fault();
+    const auto sum = static_cast<std::uint32_t>(
+        crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size())));
+    const std::array<unsigned char, 4> stored{
+        static_cast<unsigned char>(sum >> 24), static_cast<unsigned char>(sum >> 16),
+        static_cast<unsigned char>(sum >> 8), static_cast<unsigned char>(sum)};
+    return bytes.write(xmp.chunk_at + xmp.chunk_bytes, stored.data(), stored.size()) ? Result<void>()
+                                                                                     : fault();
 }
 
 }  // namespace oro

@@ -7,6 +7,7 @@
 #include "geo/posts/source_sampling.h"
 #include "geo/posts/tiles_ahead.h"
 #include "geo/region/region_grid.h"
+#include "geo/region/region_prints.h"
 
 namespace oro {
 namespace {
@@ -24,7 +25,8 @@ struct Laid {
 };
 
 // Lays one source into the surface, at one whole turn, in strips that fit memory.
-Result<Laid> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, const Reading& to) {
+Result<Laid> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, const Reading& to,
+                        SourcePrint& print) {
     constexpr std::size_t posts_a_strip = std::size_t{1} << 26;
     std::optional<Result<SourceOnGrid>> begun = to.ahead.take(source, turn);
     const bool is_read = begun.has_value();
@@ -44,6 +46,7 @@ Result<Laid> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, c
     for (std::size_t c = 0; c < columns; ++c)
         lon_deg[c] = to.grid.lon.at_deg(rect.first_column + static_cast<std::int64_t>(c));
     const int end = rect.first_row + rect.rows;
+    print.begin(to.grid, rect.first_row, rect.first_column, rect.rows, rect.columns);
     for (int first = rect.first_row; first < end; first += strip) {
         if (!is_read) ORO_CHECK(placed.read(first, std::min(strip, end - first)));
         report.voids += placed.block().voids;
@@ -57,7 +60,11 @@ Result<Laid> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, c
             const std::uint64_t filled =
                 to.surface.lay(row, rect.first_column, heights, inside, own_posts, report.seams);
             laid.lent += own_posts ? 0 : filled;
-            if (placed.fit() == Fit::elsewhere) to.surface.lay_later(row, rect.first_column, beyond);
+            print.add(heights);
+            if (placed.fit() == Fit::elsewhere) {
+                to.surface.lay_later(row, rect.first_column, beyond);
+                print.add(beyond);
+            }
             for (const float height : heights) {
                 if (is_void(height)) continue;
                 report.lowest_m = std::min(report.lowest_m, static_cast<double>(height));
@@ -117,12 +124,14 @@ Result<void> lay_sources(std::vector<Source>& sources, const LayingFor& region, 
         report.lowest_m = std::numeric_limits<double>::max();
         report.highest_m = std::numeric_limits<double>::lowest();
         std::uint64_t lent = 0;
+        SourcePrint print;
         for (const int turn : turns_of(source, to.grid)) {
-            ORO_TRY(const Laid laid, lay_source(source, turn, shift, to));
+            ORO_TRY(const Laid laid, lay_source(source, turn, shift, to, print));
             lent += laid.lent;
             // One pass is the whole circle unless posts are copied column by column.
             if (source.full_circle && laid.fit != Fit::same_posts) break;
         }
+        report.posts_print = print.print();
         if (lent > 0)
             add_note(notes, std::to_string(lent) + " void posts of finer sources take their height from " +
                                 report.path);

@@ -10,6 +10,7 @@
 #include "geo/posts/holes.h"
 #include "geo/region/region_description.h"
 #include "geo/region/region_grid.h"
+#include "geo/region/region_prints.h"
 
 namespace oro {
 namespace {
@@ -163,6 +164,7 @@ Result<void> cut_out(Region& region, const RegionFile& file, const BoundingBox& 
     ORO_TRY(region.field.H_m, posts_of(file, cut, progress));
     region.field.grid = cut;
     region.field.undulation = undulation_of(file.outline().undulation, cut);
+    region.posts_print = posts_print(region.field);
     const std::uint64_t region_voids = region.voids;
     region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
     if (region.voids == region.field.H_m.size())
@@ -210,6 +212,7 @@ Result<Region> open_baked_region(const RegionRequest& request, const Progress& p
         region.field = field_of_file(file, posts_in_memory_bytes);
         region.file = file;
     }
+    region.geoid_print = undulation_print(region.field.undulation);
     if (progress) progress(1.0, "region read");
     return region;
 }

@@ -12,6 +12,7 @@
 #include "geo/posts/voids.h"
 #include "geo/region/baked_region.h"
 #include "geo/region/region_grid.h"
+#include "geo/region/region_prints.h"
 #include "geo/region/region_sources.h"
 #include "geo/sources/library_faults.h"
 #include "geo/sources/raster_library.h"
@@ -128,6 +129,8 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
         return Error{ErrorKind::no_data, list_of(request.paths),
                      "no height in " + text_of(posts) + ": all its posts are void"};
     describe_voids(sources, surface, region);
+    region.posts_print = posts_print(region.field);
+    region.geoid_print = undulation_print(region.field.undulation);
     for (Source& source : sources) region.sources.push_back(std::move(source.report));
     if (progress) progress(1.0, "region read");
     return region;

@@ -49,6 +49,10 @@ struct Region {
     std::uint64_t outside{};     // beyond the rims of all sources, in cells that one touches
     std::uint64_t in_missing{};  // in missing_cells
     std::uint64_t filled{};      // void posts filled
+    // Fingerprints (region_prints.h) of all its posts, and of N over it, also where a view leaves that out.
+    // The first is unknown of a whole region that was baked before there were any.
+    std::optional<std::uint64_t> posts_print;
+    std::uint64_t geoid_print{};
     VoidMethod void_method{VoidMethod::holes};
     // Void in the source that covers them: what --fill-voids is for.
     [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }

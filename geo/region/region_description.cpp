@@ -1,6 +1,9 @@
 #include "geo/region/region_description.h"
 
+#include <charconv>
+#include <cinttypes>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -19,6 +22,13 @@ constexpr std::int64_t description_format = 1;
 // A source has some 30 values; more than 100,000 of them do not fit into the longest description.
 constexpr JsonBounds bounds{.most_values = 5'000'000, .most_bytes = std::numeric_limits<std::size_t>::max()};
 
+// A fingerprint has 64 bits, of which other readers of JSON keep 53.
+std::string print_text(std::uint64_t print) {
+    char digits[20];
+    std::snprintf(digits, sizeof digits, "%016" PRIx64, print);
+    return digits;
+}
+
 ordered_json source_text(const SourceReport& s) {
     ordered_json text = ordered_json::object();
     put_source_words(text, s);
@@ -34,6 +44,7 @@ ordered_json source_text(const SourceReport& s) {
     text["lowest_m"] = s.lowest_m;
     text["highest_m"] = s.highest_m;
     put_source_findings(text, s);
+    if (s.posts_print) text["posts_print"] = print_text(*s.posts_print);
     return text;
 }
 
@@ -68,6 +79,18 @@ class Field {
         auto text = value_.get<std::string>();
         if (text.find('\0') != std::string::npos) throw Fault{name_ + " holds a zero byte"};
         return text;
+    }
+    // Regions baked before there were any have none.
+    [[nodiscard]] std::optional<std::uint64_t> print() const {
+        constexpr const char* name = "posts_print";
+        if (!has(name)) return std::nullopt;
+        const std::string digits = (*this)[name].text();
+        std::uint64_t print = 0;
+        const char* const end = digits.data() + digits.size();
+        const auto read = std::from_chars(digits.data(), end, print, 16);
+        (*this)[name].require(digits.size() == 16 && read.ec == std::errc() && read.ptr == end,
+                              "16 hexadecimal digits");
+        return print;
     }
     [[nodiscard]] std::vector<std::string> texts() const {
         std::vector<std::string> all;
@@ -142,6 +165,7 @@ SourceReport source_of(const Field& field) {
     s.implausible = field["implausible"].count();
     s.placement = placement_of_words(field["placement"].text());
     s.seams = seams_of(field["seams"]);
+    s.posts_print = field.print();
     return s;
 }
 
@@ -168,6 +192,7 @@ Region region_of(const Field& field) {
         throw Fault{"it tells of more posts without a source than without a height"};
     region.filled = field["filled"].count();
     region.void_method = known(field["void_method"], void_method_of_words);
+    region.posts_print = field.print();
     region.notes = field["notes"].texts();
     return region;
 }
@@ -187,6 +212,7 @@ std::string region_description(const Region& region) {
     all["in_missing"] = region.in_missing;
     all["filled"] = region.filled;
     all["void_method"] = void_method_words(region.void_method);
+    if (region.posts_print) all["posts_print"] = print_text(*region.posts_print);
     all["notes"] = region.notes;
     return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

@@ -84,7 +84,9 @@ struct SourceReport {
     std::uint64_t voids{};
     std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
     std::optional<Placement> placement;  // nothing for a source that was not laid
-    SeamReport seams;                // with the sources that win over it: its posts that one of them has, too
+    SeamReport seams;  // with the sources that win over it: its posts that one of them has, too
+    std::optional<std::uint64_t> posts_print;  // of its posts as they were laid (region_prints.h); unknown in
+                                               // regions baked before there were any
     std::vector<std::string> files;  // of this machine that it is made of: the archive it is in, all that a
                                      // VRT names; unknown ({}) in a baked region
 };

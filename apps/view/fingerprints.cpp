@@ -1,0 +1,38 @@
+#include "apps/view/fingerprints.h"
+
+#include <filesystem>
+#include <span>
+#include <type_traits>
+
+#include "core/base/checksum.h"
+#include "geo/region/region_prints.h"
+
+namespace oro {
+
+extern const char* const picture_code;  // made when the program is built (apps/view/picture_code.cmake)
+
+std::string program_print() {
+    return std::string(OROGRAPH_VERSION " ") + picture_code;
+}
+
+Fingerprints prints_of(const Region& region) {
+    Fingerprints prints;
+    prints.program = program_print();
+    prints.grid = grid_print(region.field.grid);
+    prints.posts = region.posts_print;
+    prints.geoid = region.geoid;
+    prints.undulation = region.geoid_print;
+    if (region.sources.size() > most_sources_with_prints) return prints;
+    for (const SourceReport& source : region.sources)
+        prints.sources.push_back(
+            {std::filesystem::path(source.path).filename().string(), source.posts_print});
+    return prints;
+}
+
+std::uint64_t style_print(const gpu::FrameStyle& style) {
+    static_assert(std::is_trivially_copyable_v<gpu::FrameStyle> && alignof(gpu::FrameStyle) == 4,
+                  "no byte of it is padding");
+    return xxh64(std::as_bytes(std::span(&style, 1)));
+}
+
+}  // namespace oro

@@ -1,0 +1,43 @@
+// Fingerprints: what ties a picture to the data, the geoid and the program that it was drawn with, and to its
+// own pixels. XXH64: they tell what was swapped or changed, not a forger who writes fingerprints anew.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/region/region.h"
+#include "shaders/shared.h"
+
+namespace oro {
+
+struct Fingerprints {
+    struct OfSource {
+        std::string name;                    // without its folder; "" where a view tells no paths
+        std::optional<std::uint64_t> posts;  // of its posts as they were laid; unknown of old baked regions
+    };
+
+    std::string program;                 // its version, and a fingerprint of the code that makes pictures
+    std::uint64_t grid{};                // where the region's posts lie
+    std::optional<std::uint64_t> posts;  // what they are: decides whether data are the same. Unknown as above
+    std::vector<OfSource> sources;       // to name the ones that changed; none where there are too many
+    std::string geoid;                   // its name
+    std::uint64_t undulation{};          // N over the region
+    std::optional<std::uint64_t> style;  // colours and light; of drawn pictures alone, as
+    std::optional<std::uint64_t> pixels;  // what was drawn, before a JPEG's loss
+    bool
+        data_changed{};  // the view was made for other data, and is drawn with these because somebody said so
+};
+
+// A view's JSON must fit into a JPEG's 65,000 bytes: of more sources none is told by itself.
+inline constexpr std::size_t most_sources_with_prints = 256;
+
+// "0.1.0 4f1d22a09c3e": the version, and twelve digits of the SHA-256 of all code between files and pixels.
+std::string program_print();
+
+// Of a region that was just opened. Without style and pixels.
+Fingerprints prints_of(const Region& region);
+std::uint64_t style_print(const gpu::FrameStyle& style);
+
+}  // namespace oro

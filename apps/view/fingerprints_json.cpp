@@ -1,0 +1,90 @@
+#include "apps/view/fingerprints_json.h"
+
+#include <charconv>
+#include <cinttypes>
+#include <cstdio>
+
+#include "apps/report/json_fields.h"
+#include "apps/report/json_object.h"
+#include "apps/view/path_json.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+// As text: other readers of JSON keep 53 bits of a number.
+std::string digits_of(std::uint64_t print) {
+    char digits[20];
+    std::snprintf(digits, sizeof digits, "%016" PRIx64, print);
+    return digits;
+}
+
+void put(ordered_json& json, const char* name, const std::optional<std::uint64_t>& print) {
+    if (print) json[name] = digits_of(*print);
+}
+
+std::uint64_t print_from(const nlohmann::json& json, const char* name) {
+    const std::string digits = json_string(json, name);
+    std::uint64_t print = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto read = std::from_chars(digits.data(), end, print, 16);
+    if (digits.size() != 16 || read.ec != std::errc() || read.ptr != end)
+        throw JsonFault{"'" + std::string(name) + "' is not 16 hexadecimal digits"};
+    return print;
+}
+
+std::optional<std::uint64_t> print_if_any(const nlohmann::json& json, const char* name) {
+    if (!json.contains(name)) return std::nullopt;
+    return print_from(json, name);
+}
+
+}  // namespace
+
+std::string pixels_field(std::uint64_t pixels) {
+    return "\"pixels\":\"" + digits_of(pixels) + "\"";
+}
+
+ordered_json prints_json(const Fingerprints& prints) {
+    ordered_json json = ordered_json::object();
+    json["program"] = prints.program;
+    json["grid"] = digits_of(prints.grid);
+    put(json, "posts", prints.posts);
+    json["sources"] = ordered_json::array();
+    for (const Fingerprints::OfSource& source : prints.sources) {
+        ordered_json one = ordered_json::object();
+        if (!source.name.empty()) one["name"] = path_json(source.name);
+        put(one, "posts", source.posts);
+        json["sources"].push_back(std::move(one));
+    }
+    json["geoid"] = json_object("name", prints.geoid, "undulation", digits_of(prints.undulation));
+    put(json, "style", prints.style);
+    put(json, "pixels", prints.pixels);
+    if (prints.data_changed) json["data_changed"] = true;
+    return json;
+}
+
+Fingerprints prints_from(const nlohmann::json& json) {
+    Fingerprints prints;
+    prints.program = json_string(json, "program");
+    prints.grid = print_from(json, "grid");
+    prints.posts = print_if_any(json, "posts");
+    const nlohmann::json& sources = json_field(json, "sources");
+    if (!sources.is_array() || sources.size() > most_sources_with_prints)
+        throw JsonFault{"'sources' of 'fingerprints' must be a list of at most " +
+                        std::to_string(most_sources_with_prints)};
+    for (const nlohmann::json& source : sources) {
+        if (!source.is_object()) throw JsonFault{"'sources' of 'fingerprints' must hold objects"};
+        prints.sources.push_back(
+            {source.contains("name") ? path_from(source, "name") : "", print_if_any(source, "posts")});
+    }
+    const nlohmann::json& geoid = json_field(json, "geoid");
+    prints.geoid = json_string(geoid, "name");
+    prints.undulation = print_from(geoid, "undulation");
+    prints.style = print_if_any(json, "style");
+    prints.pixels = print_if_any(json, "pixels");
+    if (json.contains("data_changed")) prints.data_changed = json_flag(json, "data_changed");
+    return prints;
+}
+
+}  // namespace oro

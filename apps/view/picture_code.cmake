@@ -1,0 +1,10 @@
+# A fingerprint of all code that stands between files of elevation and pixels: cmake -D SOURCE_DIR=... -D LIST=a;b -D OUT=...
+set(all "")
+list(SORT LIST)
+foreach(file IN LISTS LIST)
+  file(SHA256 ${SOURCE_DIR}/${file} sum)
+  string(APPEND all "${file} ${sum}\n")
+endforeach()
+string(SHA256 sum "${all}")
+string(SUBSTRING ${sum} 0 12 sum)
+file(WRITE ${OUT} "namespace oro {\nextern const char* const picture_code;\nconst char* const picture_code = \"${sum}\";\n}\n")
