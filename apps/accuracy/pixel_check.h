@@ -6,17 +6,18 @@
 #include <string>
 
 #include "apps/view/view.h"
-#include "geo/pictures/picture_difference.h"
+#include "geo/pixels/picture_difference.h"
 #include "render/frame/picture_renderer.h"
 
 namespace oro {
 
 // What another device may draw otherwise, and no more. Rounding moves a colour by one or two of 255, and at
-// the rims of triangles a pixel may show one or the other: single pixels, all over the picture. (The two ways
-// of drawing on one device, and the golden pictures, differ by less; tests/apps/accuracy/pixels_test.cpp.)
-// What a JPEG loses is done to the fresh drawing first; where a rounding tips one of its coefficients, the
-// colours of a square of 8 x 8 pixels move.
-inline constexpr PixelSlack device_slack{3, 12};  // of 255
+// the rims of triangles a pixel may show one or the other: single pixels, all over the picture. Measured: the
+// golden pictures, drawn by another build, differ by 3 at most; the two ways of drawing in at most one pixel
+// of 230,400 (tests/apps/accuracy/pixels_test.cpp). What a JPEG loses is done to the fresh drawing first. Of
+// JPEGs that were read and written once more, at qualities from 25 to 95, no more than 233 of 230,400 pixels
+// were off by more than 24, and 6 in a square.
+inline constexpr PixelSlack device_slack{3, 24};  // of 255
 inline constexpr double most_off_share = 0.002;   // of all pixels: beyond the slack
 inline constexpr int most_off_in_a_square = 32;   // of 8 x 8 pixels
 

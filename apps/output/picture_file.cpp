@@ -6,7 +6,7 @@
 #include "apps/report/region_json.h"
 #include "apps/view/fingerprints_json.h"
 #include "apps/view/view_paths.h"
-#include "geo/pictures/picture_difference.h"
+#include "geo/pixels/picture_difference.h"
 
 namespace oro {
 

@@ -5,7 +5,7 @@
 #include "apps/report/figures.h"
 #include "apps/report/progress_bar.h"
 #include "geo/files/letter_case.h"
-#include "geo/pictures/picture_difference.h"
+#include "geo/pixels/picture_difference.h"
 
 namespace oro {
 namespace {

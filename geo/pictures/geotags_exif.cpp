@@ -213,8 +213,10 @@ bool add_fields(ExifMem* memory, ExifContent* directory, const std::vector<ExifF
 
 }  // namespace
 
+const double film_diagonal_mm = std::hypot(36.0, 24.0);
+
 double focal_length_35mm(double vertical_fov_deg, int width_px, int height_px) {
-    const double half_diagonal_mm = std::hypot(36.0, 24.0) / 2;
+    const double half_diagonal_mm = film_diagonal_mm / 2;
     const double half_height = std::tan(vertical_fov_deg * std::numbers::pi / 360);
     return half_diagonal_mm / (half_height * std::hypot(width_px, height_px) / height_px);
 }
@@ -230,13 +232,20 @@ Result<ExifFields> exif_fields(const Geotags& tags) {
     // UTF-8, as the Metadata Working Group's guidelines (2010) ask for.
     if (!tags.attribution.empty()) fields.image.push_back(text(0x8298, tags.attribution));
     const double focal_mm = focal_length_35mm(tags.vertical_fov_deg, tags.width_px, tags.height_px);
+    // A frame of the picture's shape with the diagonal of 36 x 24 mm: there the 35 mm equivalent is the focal
+    // length itself, and has fractions.
+    constexpr std::uint32_t finest = 1'000'000'000;
+    const ExifRational pixels_per_cm =
+        rational(std::hypot(tags.width_px, tags.height_px) / (film_diagonal_mm / 10), finest);
     fields.photo = fields_of(
         ExifField{0x9000, ExifType::undefined, Bytes{'0', '2', '3', '1'}}, text(0x9003, time.date_time),
         text(0x9010, "+00:00"), text(0x9011, "+00:00"),
         ExifField{0x9101, ExifType::undefined, Bytes{1, 2, 3, 0}},
+        rationals(0x920A, {rational(focal_mm, finest)}),
         ExifField{0xA000, ExifType::undefined, Bytes{'0', '1', '0', '0'}}, short_integer(0xA001, 1),  // sRGB
         ExifField{0xA002, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.width_px)}},
         ExifField{0xA003, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.height_px)}},
+        rationals(0xA20E, {pixels_per_cm}), rationals(0xA20F, {pixels_per_cm}), short_integer(0xA210, 3),
         // 0 would mean unknown.
         short_integer(0xA405, static_cast<std::uint32_t>(std::clamp(std::round(focal_mm), 1.0, 65535.0))));
     fields.gps = gps_fields(tags, time);

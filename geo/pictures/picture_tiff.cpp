@@ -24,8 +24,9 @@ class TiffPicture final : public EncodedPicture {
 
     bool begin() override;
     bool encode_row(const std::uint8_t* rgb) override {
-        // libtiff reads the row only; the predictor works on a copy of its own.
-        return TIFFWriteScanline(tiff_, const_cast<std::uint8_t*>(rgb), row_++, 0) == 1 && !faulty();
+        // The predictor works in the row that it is given: one that may be spoilt.
+        row_copy_.assign(rgb, rgb + static_cast<std::size_t>(parts().width_px) * 3);
+        return TIFFWriteScanline(tiff_, row_copy_.data(), row_++, 0) == 1 && !faulty();
     }
     bool end() override { return TIFFWriteDirectory(tiff_) == 1 && !faulty(); }
     void release() noexcept override {
@@ -56,6 +57,7 @@ class TiffPicture final : public EncodedPicture {
     void describe_pixels();
 
     TIFF* tiff_{nullptr};
+    std::vector<std::uint8_t> row_copy_;
     std::uint32_t row_{0};
 };
 

@@ -120,8 +120,15 @@ void expect_exif(const nlohmann::json& read, const Case& expected) {
     EXPECT_EQ(read.at("GPS:GPSProcessingMethod"), "MANUAL");
     EXPECT_EQ(read.at("ExifIFD:DateTimeOriginal"), "2024:06:07 12:34:56");
     EXPECT_EQ(read.at("ExifIFD:OffsetTimeOriginal"), "+00:00");
-    // 120 x 75 pixels, 40 degrees: sqrt(36^2 + 24^2) / 2 / (tan 20 * sqrt(120^2 + 75^2) / 75) = 31.51 mm
+    // 120 x 75 pixels, 40 degrees: sqrt(36^2 + 24^2) / 2 / (tan 20 * sqrt(120^2 + 75^2) / 75) = 31.50 mm
     EXPECT_EQ(read.at("ExifIFD:FocalLengthIn35mmFormat"), 32);
+    // Whole millimetres are half a degree off; these fields are not.
+    EXPECT_EQ(read.at("ExifIFD:FocalPlaneResolutionUnit"), 3) << "centimetres";
+    const double frame_mm = 10 * 75 / as_number(read.at("ExifIFD:FocalPlaneYResolution"));
+    const double focal_mm = as_number(read.at("ExifIFD:FocalLength"));
+    EXPECT_NEAR(focal_mm, 31.50156, 1e-5);
+    EXPECT_NEAR(2 * std::atan(frame_mm / 2 / focal_mm) * 180 / M_PI, 40.0, 1e-6);
+    EXPECT_EQ(read.at("ExifIFD:FocalPlaneXResolution"), read.at("ExifIFD:FocalPlaneYResolution"));
     EXPECT_EQ(read.at("ExifIFD:ColorSpace"), 1);
     EXPECT_EQ(read.at("IFD0:Software"), "Orograph 0.1.0");
     EXPECT_EQ(read.at("IFD0:Copyright"), tags.attribution);

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "geo/pictures/picture_rows.h"
+#include "geo/pixels/picture_rows.h"
 
 namespace oro {
 namespace {

@@ -1,4 +1,4 @@
-#include "geo/pictures/picture_difference.h"
+#include "geo/pixels/picture_difference.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -11,7 +11,7 @@
 
 #include "core/base/checksum.h"
 #include "core/base/result.h"
-#include "geo/pictures/picture_rows.h"
+#include "geo/pixels/picture_rows.h"
 
 namespace oro {
 

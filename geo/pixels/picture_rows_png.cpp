@@ -4,7 +4,7 @@
 #include <csetjmp>
 #include <vector>
 
-#include "geo/pictures/picture_rows.h"
+#include "geo/pixels/picture_rows.h"
 
 namespace oro {
 namespace {

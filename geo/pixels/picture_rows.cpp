@@ -1,4 +1,4 @@
-#include "geo/pictures/picture_rows.h"
+#include "geo/pixels/picture_rows.h"
 
 #include <unistd.h>
 

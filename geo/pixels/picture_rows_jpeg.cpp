@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "geo/pictures/picture_rows.h"
+#include "geo/pixels/picture_rows.h"
 
 namespace oro {
 namespace {
