@@ -87,7 +87,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_CHECK(open_view(
         options.view_file, {}, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
-    ORO_CHECK(check_unchanged(view, options.data_changed, options.quiet));
+    ORO_CHECK(check_unchanged(view, region, options.data_changed, options.quiet));
     if (!options.out.empty()) {
         ORO_CHECK(spare_inputs({options.out}, view, region));
         ORO_CHECK(spare_view({options.out}, options.view_file));

@@ -254,7 +254,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
         options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
         shot.region));
-    ORO_CHECK(check_unchanged(shot.view, options.data_changed, options.quiet));
+    ORO_CHECK(check_unchanged(shot.view, shot.region, options.data_changed, options.quiet));
     if (options.no_paths) shot.view.tells_paths = false;
     if (!is_check(options, files)) say_edited(shot.view, options.quiet);
     shot.times.read_s = seconds_since(reading);

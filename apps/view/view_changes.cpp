@@ -114,6 +114,18 @@ void say_unknown(const View& view, bool quiet) {
     if (const std::string unknown = unknown_of(view); !unknown.empty()) say(quiet, "note: " + unknown);
 }
 
+// True where none of the sources that a view was drawn from has been found, by its posts or by its name, and
+// the grid is another: what somebody named are data of another place.
+bool shares_no_source(const Fingerprints& told, const Fingerprints& here) {
+    const auto alike = [](const OfSource& a, const OfSource& b) {
+        return (!a.name.empty() && a.name == b.name) || (a.posts && a.posts == b.posts);
+    };
+    const auto is_there = [&](const OfSource& source) {
+        return std::ranges::any_of(here.sources, [&](const OfSource& other) { return alike(source, other); });
+    };
+    return told.grid != here.grid && !told.sources.empty() && std::ranges::none_of(told.sources, is_there);
+}
+
 }  // namespace
 
 bool is_from_picture(const View& view) {
@@ -145,7 +157,7 @@ void say_edited(const View& view, bool quiet) {
     if (const std::string edited = edited_pixels(view); !edited.empty()) say(quiet, "note: " + edited);
 }
 
-Result<void> check_unchanged(View& view, bool data_changed, bool quiet) {
+Result<void> check_unchanged(View& view, const Region& region, bool data_changed, bool quiet) {
     if (!view.told) return {};
     if (view.told->prints && view.told->prints->data_changed) view.prints->data_changed = true;
     std::vector<Error> refused;
@@ -158,6 +170,8 @@ Result<void> check_unchanged(View& view, bool data_changed, bool quiet) {
     }
     say_unknown(view, quiet);
     if (refused.empty()) return {};
+    if (shares_no_source(*view.told->prints, *view.prints))
+        ORO_CHECK(nothing_in_view(view, region, view.told->file));
     for (std::size_t i = 0; i + 1 < refused.size(); ++i) say(false, refused[i].line());
     refused.back().what += " (--data-changed goes on)";
     return refused.back();

@@ -28,7 +28,8 @@ void say_edited(const View& view, bool quiet);
 
 // For commands that stand for the picture being the same: other data or another geoid are an error, all lines
 // but its last said before, unless `data_changed`; the view then says so. All else is said.
-Result<void> check_unchanged(View& view, bool data_changed, bool quiet);
+// Data of another place altogether are no_data.
+Result<void> check_unchanged(View& view, const Region& region, bool data_changed, bool quiet);
 
 // True where a view comes from a picture, not from a .json.
 bool is_from_picture(const View& view);
