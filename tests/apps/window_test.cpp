@@ -183,4 +183,32 @@ TEST(Window, ShowsACoarsePictureWhileLevelsAreMeasured) {
     EXPECT_LT(first, full);
 }
 
+TEST(Window, SaysWhatChangedSinceThePicture) {
+    const fs::path folder = oro::test::scratch_folder();
+    const auto write_tile = [&](char height) {
+        std::ofstream(folder / "N10E020.hgt", std::ios::binary)
+            << std::string(std::size_t{2} * 1201 * 1201, height);
+    };
+    write_tile(1);
+    const fs::path picture = folder / "p.png";
+    const auto drawn =
+        oro::test::run_orograph({"shot", folder / "N10E020.hgt", "--at", "10.5,20.5", "--above", "900",
+                                 "--size", "160x90", "--out", picture, "-q"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    write_tile(2);
+    const std::string session =
+        "\"$1\" view --view p.png 2>said.txt & viewer=$!; "
+        "for try in $(seq 600); do grep -q 'first picture' said.txt && break; sleep 0.1; done; "
+        "kill $viewer; wait $viewer; cat said.txt";
+    oro::test::Circumstances there;
+    there.environment = {"WAYLAND_DISPLAY"};
+    const auto outcome = oro::test::run_program(
+        {OROGRAPH_ON_DISPLAY, "sh", "-c", "cd \"$2\"; " + session, "sh", OROGRAPH_PROGRAM, folder}, there);
+    EXPECT_NE(
+        outcome.out.find("orograph: note: N10E020.hgt: its heights are others than those that p.png was "
+                         "drawn from\n"),
+        std::string::npos)
+        << outcome.out << outcome.err;
+}
+
 }  // namespace
