@@ -204,6 +204,14 @@ ORO_CONST uint placing_relative = 0u;
 ORO_CONST uint placing_rounded_posts = 1u;
 ORO_CONST uint placing_naive = 2u;
 
+// What a pixel shows: the posts of its triangle by their numbers in the region, and where they were placed. For
+// measuring: no picture needs it.
+struct DrawnTriangle {
+    vec3 at[3];       // view coordinates, as they are drawn
+    uint rows[3];     // no_triangle: the background
+    uint columns[3];
+};
+
 struct FrameConstants {
     mat3 view_from_eye;     // rotation, from the eye's meridian frame
     int reference_steps;    // height that the row terms are for, a whole number of metres
@@ -247,6 +255,8 @@ struct FrameConstants {
     uvec2 live_pages;  // LivePages
     uvec2 counts;      // device address of FrameCounts
     uvec2 depths;      // float for each pixel, row by row: reversed depth of what is seen; 0 when not wanted
+    uvec2 triangles;   // DrawnTriangle for each pixel of triangle_rows rows, row by row; 0 when not wanted
+    uint triangle_rows;
     uvec2 recorded;    // device address of recorded positions, or 0 (tests only)
     uint record_view;  // 1: positions in view coordinates are recorded, not those in the eye's meridian frame
     uvec2 visibility;  // compute rasteriser: device address of depth << 32 | id for each pixel, row by row

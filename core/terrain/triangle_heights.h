@@ -30,12 +30,10 @@ std::optional<double> h_in_cell_m(const PostHeight& post_h_m, int row, int colum
     return *north_west + right * (*north_east - *north_west) + down * (*south_east - *north_east);
 }
 
-// The same at a place of the region; nothing outside it.
+// The same at a fractional row and column of the region; nothing outside it.
 template <class PostHeight>
-std::optional<double> h_on_grid_m(const PostGrid& grid, const PostHeight& post_h_m, double lat_deg,
-                                  double lon_deg) {
-    double y = grid.lat.index_at(lat_deg);
-    double x = grid.column_at(lon_deg);
+std::optional<double> h_at_row_column_m(const PostGrid& grid, const PostHeight& post_h_m, double y,
+                                        double x) {
     const double last_row = grid.rows() - 1, last_column = grid.columns() - 1;
     if (!(y >= -rim_slack_posts && y <= last_row + rim_slack_posts)) return std::nullopt;
     if (!(x >= -rim_slack_posts && x <= last_column + rim_slack_posts)) return std::nullopt;
@@ -54,6 +52,13 @@ std::optional<double> h_on_grid_m(const PostGrid& grid, const PostHeight& post_h
         }
     }
     return std::nullopt;
+}
+
+// The same at a place.
+template <class PostHeight>
+std::optional<double> h_on_grid_m(const PostGrid& grid, const PostHeight& post_h_m, double lat_deg,
+                                  double lon_deg) {
+    return h_at_row_column_m(grid, post_h_m, grid.lat.index_at(lat_deg), grid.column_at(lon_deg));
 }
 
 }  // namespace oro

@@ -103,6 +103,30 @@ std::optional<double> TrueSurface::h_m(double lat_deg, double lon_deg) const {
         field_.grid, [this](int row, int column) { return post_h_m(row, column); }, lat_deg, lon_deg);
 }
 
+std::optional<double> TrueSurface::h_at_m(double row, double column) const {
+    return h_at_row_column_m(
+        field_.grid, [this](int r, int c) { return post_h_m(r, c); }, row, column);
+}
+
+std::optional<TrueSurface::Slope> TrueSurface::slope_at(double row, double column) const {
+    const PostGrid& grid = field_.grid;
+    if (grid.rows() < 2 || grid.columns() < 2) return std::nullopt;
+    const int north = std::clamp(static_cast<int>(std::floor(row)), 0, grid.rows() - 2);
+    const int west = std::clamp(static_cast<int>(std::floor(column)), 0, grid.columns() - 2);
+    const bool south_west = row - north >= column - west;
+    const auto north_west = post_h_m(north, west), south_east = post_h_m(north + 1, west + 1);
+    const auto corner = south_west ? post_h_m(north + 1, west) : post_h_m(north, west + 1);
+    if (!north_west || !south_east || !corner) return std::nullopt;
+    const double down_m = south_west ? *corner - *north_west : *south_east - *corner;
+    const double right_m = south_west ? *south_east - *corner : *corner - *north_west;
+    const double lat_deg = std::clamp(grid.lat.at_deg(0) - row * grid.lat.spacing_deg(), -90.0, 90.0);
+    const double row_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
+    const double column_m =
+        std::max(1.0e-3, prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine *
+                             radians_from_deg(grid.lon.spacing_deg()).rad);
+    return Slope{-down_m / row_m, right_m / column_m};
+}
+
 // From the posts' H and the range of N alone: quick, and wide enough.
 Layer TrueSurface::scanned_layer(int chunk_row, int chunk_column) const {
     const PostGrid& grid = field_.grid;

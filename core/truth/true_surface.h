@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -28,6 +29,18 @@ class TrueSurface {
     // Height of the surface above the ellipsoid at a place; nothing outside the region and on triangles with
     // a void post. Error: rounding, below 1e-8 m for slopes up to 45 degrees.
     [[nodiscard]] std::optional<double> h_m(double lat_deg, double lon_deg) const;
+
+    // The same at a fractional row and column of the grid, without a place's rounding.
+    [[nodiscard]] std::optional<double> h_at_m(double row, double column) const;
+
+    // How steep the triangle there is, metres of height a metre along the ellipsoid. Nothing where h_at_m()
+    // has none; near a pole the parallel counts as at least a millimetre between posts.
+    struct Slope {
+        double north;
+        double east;
+        [[nodiscard]] double steepness() const { return std::hypot(north, east); }
+    };
+    [[nodiscard]] std::optional<Slope> slope_at(double row, double column) const;
 
     // Height above the ellipsoid of a post; nothing where it is void. Posts that are one point (a meridian's
     // two columns, a pole) have one height.

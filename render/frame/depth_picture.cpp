@@ -59,6 +59,7 @@ Result<void> DepthPainter::prepare(VkExtent2D extent) {
     FrameRendererOptions options;
     options.extent = extent;
     options.keep_depths = true;
+    options.keep_triangles = true;
     options.path = path_;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu_, options));
     renderer_.emplace(std::move(renderer));
@@ -79,11 +80,36 @@ Result<FrameReport> DepthPainter::draw_sample(Scene& scene, const Camera& camera
     return report;
 }
 
+// From the triangles of the frame that was drawn last.
+Result<void> DepthPainter::read_points(const Camera& camera, const Tile& tile, DepthPicture& picture) {
+    const glm::dvec2 tangent = camera.half_fov_tangent();
+    const auto ray_through = [&](double x_px, double y_px) {
+        return glm::dvec3((2.0 * x_px / camera.width_px - 1.0) * tangent.x,
+                          (1.0 - 2.0 * y_px / camera.height_px) * tangent.y, -1.0);
+    };
+    const int step = static_cast<int>(renderer_->triangle_rows());
+    for (int first = 0; first < tile.height_px; first += step) {
+        const int rows = std::min(step, tile.height_px - first);
+        ORO_TRY(const std::vector<gpu::DrawnTriangle> triangles,
+                renderer_->read_triangles(static_cast<std::uint32_t>(first),
+                                          static_cast<std::uint32_t>(rows)));
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const int x = tile.x_px + static_cast<int>(i) % tile.width_px;
+            const int y = tile.y_px + first + static_cast<int>(i) / tile.width_px;
+            picture.points[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
+                           static_cast<std::size_t>(x)] =
+                drawn_point(triangles[i], ray_through(x + tile.sample_px.x, y + tile.sample_px.y));
+        }
+    }
+    return {};
+}
+
 Result<void> DepthPainter::draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                      const DepthPictureOptions& options, const Tile& tile,
                                      DepthPicture& picture) {
     ORO_TRY(const FrameReport report,
             draw_sample(scene, camera, style, options, tile, picture, picture.depths));
+    ORO_CHECK(read_points(camera, tile, picture));
     add(picture.report, report);
     picture.page_bytes += report.pages * page_bytes(scene.store().coding());
     ++picture.tiles;
@@ -112,6 +138,7 @@ Result<DepthPicture> DepthPainter::draw(Scene& scene, const Camera& camera, cons
     picture.height_px = camera.height_px;
     picture.rgba.resize(4 * pixels_of(camera));
     picture.depths.resize(pixels_of(camera));
+    picture.points.resize(pixels_of(camera));
     for (std::vector<float>& depths : picture.skyline_depths) {
         if (options.skyline) depths.resize(pixels_of(camera));
     }

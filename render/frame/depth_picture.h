@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/earth/camera.h"
+#include "core/measure/drawn_point.h"
 #include "core/truth/picture_error.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
@@ -30,6 +31,7 @@ struct DepthPicture {
     int height_px{};
     std::vector<std::uint8_t> rgba;  // sRGB
     std::vector<float> depths;       // reversed, at the pixels' centres; 0 for the background
+    std::vector<DrawnPoint> points;  // what each pixel's centre shows
     std::array<std::vector<float>, skyline_samples> skyline_depths;  // empty without `skyline`
     FrameReport report;
     std::uint64_t page_bytes{};  // on the GPU, of the pages that the frames read
@@ -54,6 +56,7 @@ class DepthPainter {
     Result<void> prepare(VkExtent2D extent);
     Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                            const DepthPictureOptions& options, const Tile& tile, DepthPicture& picture);
+    Result<void> read_points(const Camera& camera, const Tile& tile, DepthPicture& picture);
     Result<FrameReport> draw_sample(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                     const DepthPictureOptions& options, const Tile& tile,
                                     DepthPicture& picture, std::vector<float>& depths);

@@ -1,4 +1,5 @@
 // The part of FrameRenderer that brings a frame's results back to the host.
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 
@@ -84,6 +85,32 @@ Result<std::vector<float>> FrameRenderer::read_depths(std::uint32_t width, std::
     std::vector<float> depths(bits.size());
     std::memcpy(depths.data(), bits.data(), bits.size() * sizeof(float));
     return depths;
+}
+
+// Some 60 MB at a time.
+std::uint32_t FrameRenderer::triangle_rows() const {
+    constexpr std::uint32_t pixels = 1U << 20U;
+    return std::max(8U, pixels / options_.extent.width / 8U * 8U);
+}
+
+Result<std::vector<gpu::DrawnTriangle>> FrameRenderer::read_triangles(std::uint32_t first_row,
+                                                                      std::uint32_t rows) {
+    assert(options_.keep_triangles && first_row % triangle_rows() == 0 && rows <= triangle_rows());
+    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1,
+                                &set_, 0, nullptr);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.triangles.get());
+        vkCmdDispatchBase(commands, 0, first_row / 8, 0, (last_width_px_ + 7) / 8, (rows + 7) / 8, 1);
+    }));
+    const std::size_t count = std::size_t{rows} * last_width_px_;
+    ORO_TRY(const std::vector<std::uint32_t> words,
+            read_words(triangles_, 0, count * sizeof(gpu::DrawnTriangle) / sizeof(std::uint32_t)));
+    std::vector<gpu::DrawnTriangle> triangles(count);
+    std::memcpy(triangles.data(), words.data(), count * sizeof(gpu::DrawnTriangle));
+    return triangles;
 }
 
 Result<std::vector<std::uint32_t>> FrameRenderer::read_accepted(std::size_t pages) {

@@ -51,7 +51,8 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     FrameRenderer renderer(gpu);
     renderer.options_ = options;
     ORO_TRY(renderer.pipelines_,
-            create_pipelines(gpu, options.path, options.record_positions, options.shades));
+            create_pipelines(gpu, options.path,
+                             {options.record_positions, options.shades, options.keep_triangles}));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -180,6 +181,15 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
                                            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                                        MemoryKind::device, "depths"));
     }
+    const VkDeviceSize triangles =
+        VkDeviceSize{triangle_rows()} * options_.extent.width * sizeof(gpu::DrawnTriangle);
+    if (options_.keep_triangles && triangles_.size < triangles) {
+        ORO_TRY(triangles_, create_buffer(*gpu_, triangles,
+                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                              VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                          MemoryKind::device, "triangles"));
+    }
     const VkDeviceSize positions = count * gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
     if (options_.record_positions && recorded_.size < positions) {
         ORO_TRY(recorded_,
@@ -213,6 +223,10 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     constants.column_terms = address_words(frame_data_.address + layout.columns);
     constants.counts = address_words(counts_.address);
     if (options_.keep_depths) constants.depths = address_words(depths_.address);
+    if (options_.keep_triangles) {
+        constants.triangles = address_words(triangles_.address);
+        constants.triangle_rows = triangle_rows();
+    }
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = style;

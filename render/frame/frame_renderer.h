@@ -30,6 +30,7 @@ struct FrameRendererOptions {
     bool record_positions{false};  // mesh path only
     bool record_view{false};       // with record_positions: positions in view coordinates, as they are drawn
     bool keep_depths{false};       // for read_depths()
+    bool keep_triangles{false};    // for read_triangles()
     bool shades{true};             // false: for times alone, there is nothing to be read
     RasterPath path{RasterPath::mesh};
 };
@@ -60,6 +61,10 @@ class FrameRenderer {
     // With keep_depths: reversed depth of each of its pixels at the centre, from the triangle seen there; 0
     // for the background.
     Result<std::vector<float>> read_depths(std::uint32_t width, std::uint32_t height);
+    // With keep_triangles: what each pixel of some of its rows shows, row by row. first_row: a multiple of
+    // triangle_rows(), which is the most that are read at a time.
+    Result<std::vector<gpu::DrawnTriangle>> read_triangles(std::uint32_t first_row, std::uint32_t rows);
+    [[nodiscard]] std::uint32_t triangle_rows() const;
     // Of each page of the last frame, 256 x 4 bits: the edges (shaders/choose/levels.glsl) of the nodes that
     // were drawn.
     Result<std::vector<std::uint32_t>> read_edges(std::size_t pages);
@@ -105,6 +110,7 @@ class FrameRenderer {
     Buffer frame_data_;  // the same on the device
     Buffer choice_;      // what the choice of levels hands on, see address_choice()
     Buffer depths_;
+    Buffer triangles_;
     Buffer counts_;       // on the device
     Buffer counts_read_;  // for the host
     Buffer recorded_;

@@ -18,6 +18,7 @@
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_mesh_two.h"
 #include "spirv/terrain_task.h"
+#include "spirv/triangles_comp.h"
 
 namespace oro {
 namespace {
@@ -168,10 +169,12 @@ Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& p
 
 Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
                                               std::span<const std::uint32_t> words, const char* name,
-                                              const VkSpecializationInfo* constants = nullptr) {
+                                              const VkSpecializationInfo* constants = nullptr,
+                                              VkPipelineCreateFlags flags = 0) {
     ORO_TRY(const OwnedShader shader, create_shader(gpu, words, name));
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.flags = flags;
     info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, constants);
     info.layout = pipelines.layout.get();
     VkPipeline handle{};
@@ -226,18 +229,25 @@ Result<void> create_compute_path(const Gpu& gpu, Pipelines& pipelines) {
 
 }  // namespace
 
-Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions, bool shades) {
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants) {
     const bool by_mesh = path == RasterPath::mesh;
     Pipelines pipelines;
     ORO_CHECK(create_layouts(gpu, path, pipelines));
-    ORO_CHECK(by_mesh ? create_mesh_path(gpu, record_positions, pipelines)
+    ORO_CHECK(by_mesh ? create_mesh_path(gpu, wants.record_positions, pipelines)
                       : create_compute_path(gpu, pipelines));
     ORO_CHECK(create_choice(gpu, pipelines));
-    if (!shades) return pipelines;
     const VkBool32 from_compute = by_mesh ? VK_FALSE : VK_TRUE;
     const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
     const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};
-    ORO_TRY(pipelines.shade, create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade", &constants));
+    if (wants.shades) {
+        ORO_TRY(pipelines.shade,
+                create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade", &constants));
+    }
+    if (wants.triangles) {
+        ORO_TRY(pipelines.triangles,
+                create_compute_pipeline(gpu, pipelines, triangles_comp_spirv, "triangles", &constants,
+                                        VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
+    }
     return pipelines;
 }
 

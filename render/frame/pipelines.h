@@ -19,10 +19,17 @@ struct Pipelines {
     std::uint32_t meshlets_per_group{1};                    // of a mesh workgroup
     OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
     OwnedPipeline shade;                                    // compute, 8 x 8
+    OwnedPipeline triangles;                                // what each pixel shows, compute, 8 x 8
 };
 
-// Sizes of workgroups follow the device's preferred limits. record_positions: the mesh shader also writes
-// each placed post to FrameConstants.recorded (for tests). Without `shades`, `shade` is left out.
-Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions, bool shades);
+// What a renderer is asked for besides triangle ids.
+struct PipelineWants {
+    bool record_positions{false};  // the mesh shader writes each placed post to FrameConstants.recorded
+    bool shades{true};             // false: `shade` is left out
+    bool triangles{false};         // `triangles` is there
+};
+
+// Sizes of workgroups follow the device's preferred limits.
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants);
 
 }  // namespace oro

@@ -108,22 +108,27 @@ vec2 rim_shares(vec3 ray, vec3 first, vec3 edge_b, vec3 edge_c) {
     return vec2(1.0 - on_bc, on_bc);
 }
 
-SurfacePoint surface_at(uint id, vec3 ray) {
-    uint triangle = id % meshlet_triangles;
+// The corners of a triangle (triangle_id() - 1): posts within the page, heights in metres, and where they are drawn.
+FramePage corners_of(uint id, out uvec2 posts[3], out float heights_m[3], out vec3 at[3]) {
     uint meshlet = (id / meshlet_triangles) % meshlets_per_page;
     FramePage page = frame_pages().at[id / (meshlet_triangles * meshlets_per_page)];
     PageBlocks block = PageBlocks(page.block);
     uint edges = edges_of(id / meshlet_triangles);
-    uvec2 posts[3];
-    triangle_posts(triangle, posts[0], posts[1], posts[2]);
-    vec3 at[3];
-    float heights_m[3];
+    triangle_posts(id % meshlet_triangles, posts[0], posts[1], posts[2]);
     for (int i = 0; i < 3; ++i) {
         posts[i] = vertex_post(page, meshlet, posts[i], edges);
         int height = post_height(block, posts[i]);
         heights_m[i] = float(height) * height_step_m;
         at[i] = place_in_view(page, posts[i], height);
     }
+    return page;
+}
+
+SurfacePoint surface_at(uint id, vec3 ray) {
+    uvec2 posts[3];
+    vec3 at[3];
+    float heights_m[3];
+    FramePage page = corners_of(id, posts, heights_m, at);
     // Where the ray from the eye (the origin of view coordinates) crosses the triangle's plane.
     // Source: T. Möller, B. Trumbore, Fast, minimum storage ray/triangle intersection, J. Graphics Tools 2(1), 1997.
     vec3 edge_b = at[1] - at[0], edge_c = at[2] - at[0];

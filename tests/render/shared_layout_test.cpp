@@ -21,6 +21,7 @@
 #include "spirv/shade_comp.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_task.h"
+#include "spirv/triangles_comp.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -56,7 +57,8 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
           std::span<const std::uint32_t>(live_pages_comp_spirv),
           std::span<const std::uint32_t>(raster_comp_spirv),
           std::span<const std::uint32_t>(raster_large_comp_spirv),
-          std::span<const std::uint32_t>(shade_comp_spirv)}) {
+          std::span<const std::uint32_t>(shade_comp_spirv),
+          std::span<const std::uint32_t>(triangles_comp_spirv)}) {
         all.merge(member_offsets(words));
     }
     return all;
@@ -132,6 +134,9 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(LargeTriangle, bz),
         ORO_MEMBER(LargeTriangle, cz),
         ORO_MEMBER(LargeTriangle, id),
+        ORO_MEMBER(DrawnTriangle, at),
+        ORO_MEMBER(DrawnTriangle, rows),
+        ORO_MEMBER(DrawnTriangle, columns),
         ORO_MEMBER(LargeTask, triangle),
         ORO_MEMBER(LargeTask, square),
         ORO_MEMBER(TintStop, H_m),
@@ -191,6 +196,8 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, live_pages),
         ORO_MEMBER(FrameConstants, counts),
         ORO_MEMBER(FrameConstants, depths),
+        ORO_MEMBER(FrameConstants, triangles),
+        ORO_MEMBER(FrameConstants, triangle_rows),
         ORO_MEMBER(FrameConstants, recorded),
         ORO_MEMBER(FrameConstants, record_view),
         ORO_MEMBER(FrameConstants, visibility),

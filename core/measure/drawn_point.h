@@ -1,0 +1,24 @@
+// What a picture shows at a pixel: a place of the region's grid, and where it was drawn.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "shaders/shared.h"
+
+namespace oro {
+
+// The ground point of a pixel: by the row and column of its own triangle, whatever moved that triangle.
+struct DrawnPoint {
+    double row{};  // fractional; 0 is the region's north
+    double column{};
+    double z_m{};  // distance along the view axis at which it is drawn; 0: the background
+    [[nodiscard]] bool background() const { return z_m <= 0.0; }
+};
+
+// Where a pixel's ray meets the triangle that it shows; in double, from the corners as the GPU placed them.
+// ray_view: through the pixel, z = -1. A ray that passes beside the triangle (by up to 1/256 px, the grid of
+// corners) takes the nearest point of its rim. Along the rim and between the corners rows and columns are
+// linear in space.
+DrawnPoint drawn_point(const gpu::DrawnTriangle& triangle, const glm::dvec3& ray_view);
+
+}  // namespace oro

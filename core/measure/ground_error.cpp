@@ -1,0 +1,143 @@
+#include "core/measure/ground_error.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numeric>
+
+#include "core/base/parallel.h"
+#include "core/terrain/drawn_heights.h"
+
+namespace oro {
+namespace {
+
+double lat_at_deg(const PostGrid& grid, double row) {
+    const double whole = std::floor(row);
+    return std::clamp(grid.lat.at_deg(static_cast<std::int64_t>(whole)) -
+                          (row - whole) * grid.lat.spacing_deg(),
+                      -90.0, 90.0);
+}
+
+double lon_at_deg(const PostGrid& grid, double column) {
+    const double whole = std::floor(column);
+    return grid.lon.at_deg(static_cast<std::int64_t>(whole)) + (column - whole) * grid.lon.spacing_deg();
+}
+
+}  // namespace
+
+GroundMeter::GroundMeter(const TrueSurface& surface, const Sight& sight, const Camera& camera)
+    : surface_(surface),
+      sight_(sight),
+      view_from_ecef_(camera.view_from_ecef()),
+      tangent_(camera.half_fov_tangent()),
+      size_px_(camera.width_px, camera.height_px),
+      pixels_per_tangent_(0.5 * camera.height_px / tangent_.y) {}
+
+glm::dvec3 GroundMeter::ray_view(const glm::dvec2& point_px) const {
+    return {(2.0 * point_px / size_px_ - 1.0) * tangent_ * glm::dvec2(1.0, -1.0), -1.0};
+}
+
+glm::dvec3 GroundMeter::offset_m(const glm::dvec2& point_px, double z_m) const {
+    return z_m * (ray_view(point_px) * view_from_ecef_);
+}
+
+std::optional<glm::dvec3> GroundMeter::seen_m(double row, double column) const {
+    const std::optional<double> h_m = surface_.h_at_m(row, column);
+    if (!h_m) return std::nullopt;
+    const PostGrid& grid = surface_.field().grid;
+    const Ecef place = ecef_from_geodetic({lat_at_deg(grid, row), lon_at_deg(grid, column), *h_m});
+    return sight_.refraction.apparent_m(place.m - sight_.eye.m);
+}
+
+double GroundMeter::apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const {
+    const glm::dvec3 drawn = view_from_ecef_ * drawn_m, seen = view_from_ecef_ * seen_m;
+    if (seen.z >= 0.0) return glm::length(seen - drawn) * pixels_per_tangent_ / -drawn.z;
+    return glm::length(glm::dvec2(seen) / seen.z - glm::dvec2(drawn) / drawn.z) * pixels_per_tangent_;
+}
+
+// Goes from the foot straight below the point to the foot of the perpendicular on the triangle there, and so
+// on: each is a point of the surface, so the nearest of them is near enough.
+Distance GroundMeter::from_surface(const glm::dvec3& drawn_m, const Distance& at_most) const {
+    const PostGrid& grid = surface_.field().grid;
+    const glm::dvec3 drawn_ecef = sight_.eye.m + sight_.refraction.true_m(drawn_m);
+    const Geodetic drawn = geodetic_from_ecef({drawn_ecef});
+    double row = grid.lat.index_at(drawn.lat_deg), column = grid.column_at(drawn.lon_deg);
+    Distance nearest = at_most;
+    constexpr int steps = 4;
+    constexpr double close_enough_m = 1.0e-4;
+    for (int step = 0; step < steps; ++step) {
+        const std::optional<double> h_m = surface_.h_at_m(row, column);
+        if (!h_m) break;
+        const Geodetic foot{lat_at_deg(grid, row), lon_at_deg(grid, column), *h_m};
+        const glm::dvec3 foot_ecef = ecef_from_geodetic(foot).m;
+        nearest.m = std::min(nearest.m, glm::length(drawn_ecef - foot_ecef));
+        nearest.px = std::min(
+            nearest.px, apart_px(drawn_m, sight_.refraction.apparent_m(foot_ecef - sight_.eye.m)));
+        const auto slope = surface_.slope_at(row, column);
+        if (!slope || nearest.m < close_enough_m) break;
+        const glm::dvec3 up = glm::transpose(ecef_from_enu(foot.lat_deg, foot.lon_deg)) * (drawn_ecef - foot_ecef);
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope->east, -slope->north, 1.0));
+        const glm::dvec3 along = up - glm::dot(up, normal) * normal;
+        const double row_m = meridian_radius_m(foot.lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
+        const double column_m =
+            std::max(1.0e-3, prime_vertical_radius_m(foot.lat_deg) * sine_cosine_deg(foot.lat_deg).cosine *
+                                 radians_from_deg(grid.lon.spacing_deg()).rad);
+        row -= along.y / row_m;
+        column += along.x / column_m;
+    }
+    return nearest;
+}
+
+std::optional<GroundError> GroundMeter::at(const glm::dvec2& point_px, const DrawnPoint& point) const {
+    assert(!point.background());
+    const std::optional<glm::dvec3> seen = seen_m(point.row, point.column);
+    if (!seen) return std::nullopt;
+    const glm::dvec3 drawn = offset_m(point_px, point.z_m);
+    GroundError error;
+    error.displacement = {
+        glm::length(sight_.refraction.true_m(drawn) - sight_.refraction.true_m(*seen)),
+        apart_px(drawn, *seen)};
+    error.surface = from_surface(drawn, error.displacement);
+    return error;
+}
+
+GroundErrors ground_errors(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+                           std::span<const DrawnPoint> points, int threads) {
+    const std::size_t width = static_cast<std::size_t>(camera.width_px);
+    const std::size_t height = static_cast<std::size_t>(camera.height_px);
+    assert(points.size() == width * height);
+    GroundErrors errors;
+    for (auto* const values :
+         {&errors.displacement_m, &errors.displacement_px, &errors.surface_m, &errors.surface_px})
+        values->assign(width * height, not_measured);
+    const GroundMeter meter(surface, sight, camera);
+    std::vector<std::uint64_t> drawn_in_row(height), beyond_in_row(height);
+    in_parallel(camera.height_px, threads, [&](int row) {
+        const std::size_t r = static_cast<std::size_t>(row);
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::size_t pixel = r * width + column;
+            if (points[pixel].background()) continue;
+            ++drawn_in_row[r];
+            const auto error = meter.at({static_cast<double>(column) + 0.5, row + 0.5}, points[pixel]);
+            if (!error) {
+                ++beyond_in_row[r];
+                continue;
+            }
+            errors.displacement_m[pixel] = static_cast<float>(error->displacement.m);
+            errors.displacement_px[pixel] = static_cast<float>(error->displacement.px);
+            errors.surface_m[pixel] = static_cast<float>(error->surface.m);
+            errors.surface_px[pixel] = static_cast<float>(error->surface.px);
+        }
+    });
+    errors.drawn = std::accumulate(drawn_in_row.begin(), drawn_in_row.end(), std::uint64_t{0});
+    errors.beyond_data = std::accumulate(beyond_in_row.begin(), beyond_in_row.end(), std::uint64_t{0});
+    errors.summary_displacement_m = summary_of(errors.displacement_m);
+    errors.summary_displacement_px = summary_of(errors.displacement_px);
+    errors.summary_surface_m = summary_of(errors.surface_m);
+    errors.summary_surface_px = summary_of(errors.surface_px);
+    return errors;
+}
+
+}  // namespace oro

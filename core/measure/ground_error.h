@@ -1,0 +1,77 @@
+// How far the ground of a picture is from where it truly is: each pixel's ground point, and the surface there.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/earth/camera.h"
+#include "core/measure/drawn_point.h"
+#include "core/truth/oracle.h"
+#include "core/truth/picture_error.h"
+#include "core/truth/true_surface.h"
+
+namespace oro {
+
+// A distance in the world, and the same on the picture.
+struct Distance {
+    double m{};
+    double px{};
+};
+
+// What is wrong with one drawn point.
+struct GroundError {
+    // From where its ground point (the row and column of its triangle) truly is: sideways, up and along the
+    // line of sight.
+    Distance displacement;
+    // From the true surface: no farther than this (exact where the ground is even around it). m is the
+    // distance to the surface, not the difference of heights, which would exaggerate on walls.
+    Distance surface;
+};
+
+// Measures drawn points of a picture. All outlive it.
+class GroundMeter {
+  public:
+    // `sight` is the true one: where the eye really is, and the air really bends light.
+    GroundMeter(const TrueSurface& surface, const Sight& sight, const Camera& camera);
+
+    // Direction through a place of the picture in view coordinates, z = -1.
+    [[nodiscard]] glm::dvec3 ray_view(const glm::dvec2& point_px) const;
+    // Where a point is seen that lies so far along the view axis: offset from the eye, ECEF axes, metres.
+    [[nodiscard]] glm::dvec3 offset_m(const glm::dvec2& point_px, double z_m) const;
+    // Where a ground point is truly seen; nothing over no data.
+    [[nodiscard]] std::optional<glm::dvec3> seen_m(double row, double column) const;
+    // How far apart two offsets from the eye are on the picture. Of one behind the picture's plane: as far as
+    // the metres between them would reach at the other's distance, if they lay across.
+    [[nodiscard]] double apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const;
+
+    // Of a pixel that shows `point`; nothing where its ground point lies over no data. Error: rounding of
+    // doubles, and that of the drawn point: 6e-8 of its distance.
+    [[nodiscard]] std::optional<GroundError> at(const glm::dvec2& point_px, const DrawnPoint& point) const;
+
+  private:
+    [[nodiscard]] Distance from_surface(const glm::dvec3& drawn_m, const Distance& at_most) const;
+
+    const TrueSurface& surface_;
+    const Sight& sight_;
+    glm::dmat3 view_from_ecef_;
+    glm::dvec2 tangent_;
+    glm::dvec2 size_px_;
+    double pixels_per_tangent_;
+};
+
+// Of all pixels, each at its centre, row by row; not_measured where nothing is drawn, or over no data.
+struct GroundErrors {
+    std::vector<float> displacement_m, displacement_px;
+    std::vector<float> surface_m, surface_px;
+    ErrorSummary summary_displacement_m, summary_displacement_px;
+    ErrorSummary summary_surface_m, summary_surface_px;
+    std::uint64_t drawn{};        // pixels with ground
+    std::uint64_t beyond_data{};  // of them those whose ground point has no true height
+};
+GroundErrors ground_errors(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+                           std::span<const DrawnPoint> points, int threads);
+
+}  // namespace oro
