@@ -8,6 +8,7 @@
 #include "apps/accuracy/beyond_data.h"
 #include "apps/accuracy/truth.h"
 #include "apps/view/view.h"
+#include "core/measure/skyline_error.h"
 #include "core/truth/picture_error.h"
 #include "render/frame/depth_picture.h"
 

@@ -15,9 +15,9 @@ namespace {
 
 double lat_at_deg(const PostGrid& grid, double row) {
     const double whole = std::floor(row);
-    return std::clamp(grid.lat.at_deg(static_cast<std::int64_t>(whole)) -
-                          (row - whole) * grid.lat.spacing_deg(),
-                      -90.0, 90.0);
+    return std::clamp(
+        grid.lat.at_deg(static_cast<std::int64_t>(whole)) - (row - whole) * grid.lat.spacing_deg(), -90.0,
+        90.0);
 }
 
 double lon_at_deg(const PostGrid& grid, double column) {
@@ -73,11 +73,12 @@ Distance GroundMeter::from_surface(const glm::dvec3& drawn_m, const Distance& at
         const Geodetic foot{lat_at_deg(grid, row), lon_at_deg(grid, column), *h_m};
         const glm::dvec3 foot_ecef = ecef_from_geodetic(foot).m;
         nearest.m = std::min(nearest.m, glm::length(drawn_ecef - foot_ecef));
-        nearest.px = std::min(
-            nearest.px, apart_px(drawn_m, sight_.refraction.apparent_m(foot_ecef - sight_.eye.m)));
+        nearest.px =
+            std::min(nearest.px, apart_px(drawn_m, sight_.refraction.apparent_m(foot_ecef - sight_.eye.m)));
         const auto slope = surface_.slope_at(row, column);
         if (!slope || nearest.m < close_enough_m) break;
-        const glm::dvec3 up = glm::transpose(ecef_from_enu(foot.lat_deg, foot.lon_deg)) * (drawn_ecef - foot_ecef);
+        const glm::dvec3 up =
+            glm::transpose(ecef_from_enu(foot.lat_deg, foot.lon_deg)) * (drawn_ecef - foot_ecef);
         const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope->east, -slope->north, 1.0));
         const glm::dvec3 along = up - glm::dot(up, normal) * normal;
         const double row_m = meridian_radius_m(foot.lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
@@ -96,9 +97,8 @@ std::optional<GroundError> GroundMeter::at(const glm::dvec2& point_px, const Dra
     if (!seen) return std::nullopt;
     const glm::dvec3 drawn = offset_m(point_px, point.z_m);
     GroundError error;
-    error.displacement = {
-        glm::length(sight_.refraction.true_m(drawn) - sight_.refraction.true_m(*seen)),
-        apart_px(drawn, *seen)};
+    error.displacement = {glm::length(sight_.refraction.true_m(drawn) - sight_.refraction.true_m(*seen)),
+                          apart_px(drawn, *seen)};
     error.surface = from_surface(drawn, error.displacement);
     return error;
 }

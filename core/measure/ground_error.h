@@ -1,4 +1,5 @@
-// How far the ground of a picture is from where it truly is: each pixel's ground point, and the surface there.
+// How far the ground of a picture is from where it truly is: each pixel's ground point, and the surface
+// there.
 #pragma once
 
 #include <cstdint>

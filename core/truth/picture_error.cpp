@@ -57,80 +57,6 @@ std::optional<double> h_below_m(const TrueSurface& surface, double lat_deg, doub
                        lon_deg + 2.0 * edge_slack * west * grid.lon.spacing_deg());
 }
 
-constexpr double skyline_step_px = 1.0 / 64.0;
-
-// Where the highest ground of a column begins: 0 when it is at the top, nothing where there is none.
-std::optional<double> column_skyline_px(const Oracle& oracle, const Camera& camera, int column,
-                                        double reach_m) {
-    const auto is_ground = [&](double y_px) {
-        const glm::dvec3 ray = camera.ecef_direction_at({column + 0.5, y_px});
-        return oracle.first_hit(ray, reach_m).has_value();
-    };
-    if (is_ground(0.0)) return 0.0;
-    double sky_px = 0.0, ground_px = 0.5;
-    while (!is_ground(ground_px)) {
-        if (ground_px >= camera.height_px) return std::nullopt;
-        sky_px = ground_px;
-        ground_px = std::min(ground_px + 1.0, static_cast<double>(camera.height_px));
-    }
-    while (ground_px - sky_px > skyline_step_px) {
-        const double middle_px = 0.5 * (sky_px + ground_px);
-        (is_ground(middle_px) ? ground_px : sky_px) = middle_px;
-    }
-    return 0.5 * (sky_px + ground_px);
-}
-
-// Between which heights a column's drawn skyline lies; from minus infinity where the first sample has ground.
-struct DrawnSkyline {
-    double sky_px;
-    double ground_px;
-};
-std::optional<DrawnSkyline> drawn_skyline(const Camera& camera, std::span<const DrawnDepths> samples,
-                                          int column) {
-    double sky_px = -std::numeric_limits<double>::infinity();
-    for (int row = 0; row < camera.height_px; ++row) {
-        const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width_px) +
-                                  static_cast<std::size_t>(column);
-        for (const DrawnDepths& sample : samples) {
-            const double y_px = row + sample.sample_px.y;
-            if (sample.depths[pixel] > 0.0F) return DrawnSkyline{sky_px, y_px};
-            sky_px = y_px;
-        }
-    }
-    return std::nullopt;
-}
-
-double to_segment_px(const glm::dvec2& point, const glm::dvec2& from, const glm::dvec2& to) {
-    const glm::dvec2 along = to - from;
-    const double length = glm::dot(along, along);
-    const double share = length > 0.0 ? std::clamp(glm::dot(point - from, along) / length, 0.0, 1.0) : 0.0;
-    return glm::length(point - from - share * along);
-}
-
-// How far what is known of a column's drawn skyline lies from the true skyline, a line through all columns:
-// upright where ground ends. Straight down the column an upright edge would be far away that is off by a
-// thousandth.
-double off_line_px(const Skyline& truth, const Camera& camera, int column, const DrawnSkyline& drawn) {
-    const auto at = [&](int i) {
-        const float y_px = truth.y_px[static_cast<std::size_t>(i)];
-        return glm::dvec2(i + 0.5, y_px == not_measured ? camera.height_px : static_cast<double>(y_px));
-    };
-    const double x_px = column + 0.5, y_px = at(column).y;
-    const double sky_px = std::max(drawn.sky_px, -1.0e6);
-    double off_px = std::max({sky_px - y_px, y_px - drawn.ground_px, 0.0});
-    const int last = static_cast<int>(truth.y_px.size()) - 1;
-    for (int away = 0; away < off_px; ++away) {
-        for (const int from : {column - away - 1, column + away}) {
-            if (from < 0 || from + 1 > last) continue;
-            const glm::dvec2 a = at(from), b = at(from + 1);
-            const double near_px =
-                std::min(to_segment_px({x_px, sky_px}, a, b), to_segment_px({x_px, drawn.ground_px}, a, b));
-            off_px = std::min(off_px, near_px);
-        }
-    }
-    return off_px;
-}
-
 }  // namespace
 
 PointMeter::PointMeter(const TrueSurface& surface, const Sight& sight, const Camera& camera)
@@ -205,47 +131,6 @@ InteriorError interior_error(const TrueSurface& surface, const Sight& sight, con
     error.summary_m = summary_of(error.height_m);
     error.summary_px = summary_of(error.px);
     return error;
-}
-
-Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads) {
-    Skyline skyline;
-    skyline.y_px.assign(static_cast<std::size_t>(camera.width_px), not_measured);
-    const double reach_m = sight_reach_m(geodetic_from_ecef(sight.eye).h_m);
-    const Oracle oracle(surface, sight);
-    in_parallel(camera.width_px, threads, [&](int column) {
-        if (const auto y_px = column_skyline_px(oracle, camera, column, reach_m))
-            skyline.y_px[static_cast<std::size_t>(column)] = static_cast<float>(*y_px);
-    });
-    return skyline;
-}
-
-SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span<const DrawnDepths> samples) {
-    assert(truth.y_px.size() == static_cast<std::size_t>(camera.width_px) && !samples.empty());
-    std::vector<DrawnDepths> from_top(samples.begin(), samples.end());
-    std::sort(from_top.begin(), from_top.end(),
-              [](const DrawnDepths& a, const DrawnDepths& b) { return a.sample_px.y < b.sample_px.y; });
-    const double last_sample_px = camera.height_px - 1 + from_top.back().sample_px.y;
-    SkylineError error;
-    error.px.assign(truth.y_px.size(), not_measured);
-    for (std::size_t column = 0; column < truth.y_px.size(); ++column) {
-        const float true_px = truth.y_px[column];
-        const auto drawn = drawn_skyline(camera, from_top, static_cast<int>(column));
-        if (drawn.has_value() != (true_px != not_measured)) {
-            // Ground below the last sample is not drawn, whatever is there.
-            if (drawn || static_cast<double>(true_px) < last_sample_px) ++error.in_one_only;
-            continue;
-        }
-        // Ground at the top in both: the skyline is not in the picture.
-        if (!drawn || (true_px <= 0.0F && std::isinf(drawn->sky_px))) continue;
-        error.px[column] = static_cast<float>(off_line_px(truth, camera, static_cast<int>(column), *drawn));
-    }
-    error.summary_px = summary_of(error.px);
-    return error;
-}
-
-SkylineError skyline_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
-                           std::span<const DrawnDepths> samples, int threads) {
-    return skyline_error(true_skyline(surface, sight, camera, threads), camera, samples);
 }
 
 }  // namespace oro

@@ -90,9 +90,9 @@ Result<void> DepthPainter::read_points(const Camera& camera, const Tile& tile, D
     const int step = static_cast<int>(renderer_->triangle_rows());
     for (int first = 0; first < tile.height_px; first += step) {
         const int rows = std::min(step, tile.height_px - first);
-        ORO_TRY(const std::vector<gpu::DrawnTriangle> triangles,
-                renderer_->read_triangles(static_cast<std::uint32_t>(first),
-                                          static_cast<std::uint32_t>(rows)));
+        ORO_TRY(
+            const std::vector<gpu::DrawnTriangle> triangles,
+            renderer_->read_triangles(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(rows)));
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const int x = tile.x_px + static_cast<int>(i) % tile.width_px;
             const int y = tile.y_px + first + static_cast<int>(i) / tile.width_px;

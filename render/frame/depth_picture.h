@@ -8,6 +8,7 @@
 
 #include "core/earth/camera.h"
 #include "core/measure/drawn_point.h"
+#include "core/measure/skyline_error.h"
 #include "core/truth/picture_error.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
@@ -20,9 +21,6 @@ struct DepthPictureOptions {
     bool skyline{true};      // draw the samples that skylines are found in, too
     int largest_tile_px{0};  // 0: chosen from the device; tests make it small
 };
-
-// Heights in a pixel at which skylines are looked for: sample i at ((i + 0.5) / 4) of it.
-inline constexpr int skyline_samples = 4;
 
 // A picture of one sample a pixel, its depths, and what it took. Counts and times are those of the centres'
 // sample, sums over its tiles.

@@ -184,11 +184,11 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     const VkDeviceSize triangles =
         VkDeviceSize{triangle_rows()} * options_.extent.width * sizeof(gpu::DrawnTriangle);
     if (options_.keep_triangles && triangles_.size < triangles) {
-        ORO_TRY(triangles_, create_buffer(*gpu_, triangles,
-                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                              VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                                          MemoryKind::device, "triangles"));
+        ORO_TRY(triangles_,
+                create_buffer(*gpu_, triangles,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                              MemoryKind::device, "triangles"));
     }
     const VkDeviceSize positions = count * gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
     if (options_.record_positions && recorded_.size < positions) {

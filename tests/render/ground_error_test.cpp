@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/measure/drawn_point.h"
+#include "core/measure/seen_error.h"
 #include "core/terrain/ground.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/gpu_fixture.h"
@@ -62,6 +63,38 @@ TEST_P(GroundErrorOfPictures, AtFullDetailPointsAreTheOracles) {
     EXPECT_LT(errors.summary_displacement_px.largest, 0.05) << "px";
     EXPECT_LE(errors.summary_surface_px.largest, errors.summary_displacement_px.largest);
     EXPECT_LE(errors.summary_surface_m.largest, errors.summary_displacement_m.largest);
+    const Oracle oracle(surface, sight);
+    const SeenErrors seen = seen_errors(oracle, hits, camera, picture.points, 2);
+    EXPECT_LT(seen.summary_px.largest, 0.05) << "px";
+}
+
+// A wall that is missing in the picture is no error of any ground that is drawn: only what is seen tells.
+TEST_P(GroundErrorOfPictures, WhatIsMissingIsSeen) {
+    const auto plain = [](double, double) { return 500.0F; };
+    const auto with_wall = [](double lat_deg, double) {
+        return std::abs(lat_deg - 46.55) < 0.002 ? 900.0F : 500.0F;
+    };
+    const HeightField without = test::made_field(47.0, 9.0, 300.0, 301, 301, plain);
+    const HeightField truth = test::made_field(47.0, 9.0, 300.0, 301, 301, with_wall);
+    Camera camera;
+    camera.eye = {46.5, 9.5, 700.0};
+    camera.attitude = {0.0, 0.0, 0.0};
+    camera.vertical_fov_deg = 40.0;
+    camera.width_px = 160;
+    camera.height_px = 120;
+    DepthPictureOptions options;
+    options.tau_px = 0.0;
+    const DepthPicture picture = draw(without, camera, options);
+    const TrueSurface surface(truth, 1.0, 2);
+    const Sight sight = sight_from(camera.eye);
+    const Oracle oracle(surface, sight);
+    const auto hits = oracle.cast_picture(camera, 2);
+    const SeenErrors seen = seen_errors(oracle, hits, camera, picture.points, 2);
+    // The wall is 400 m high and 5.33 km away: from 200 / 5330 above the level to as much below, at 60 px in
+    // tan(20 degrees) 12.4 px. The ground just behind it is drawn one pixel above its foot; anything so far
+    // is seen above the wall only.
+    EXPECT_NEAR(seen.summary_px.largest, 11.9, 0.7) << "px";
+    EXPECT_GT(seen.other, 5U * 160U);
 }
 
 // A plain seen from 60 km straight above: on a sphere its ground moves sideways by up to 1.59 px (median

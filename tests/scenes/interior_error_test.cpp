@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/base/parallel.h"
+#include "core/measure/skyline_error.h"
 #include "core/truth/picture_error.h"
 #include "core/truth/view_set.h"
 #include "geo/region/region.h"

@@ -1,0 +1,37 @@
+// What is truly seen where a picture shows something: other ground, at edges that lie elsewhere.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/earth/camera.h"
+#include "core/measure/drawn_point.h"
+#include "core/truth/oracle.h"
+#include "core/truth/picture_error.h"
+
+namespace oro {
+
+// Of each pixel, at its centre, row by row.
+struct SeenErrors {
+    // How far away on the picture the truth has what is drawn: ground at that distance, or an edge of ground
+    // between nearer and farther ground (sky is farther than all ground). So it counts what moves, what is
+    // missing and what should be hidden. At most `seen_reach_px`: nothing like it lies nearer.
+    std::vector<float> px;
+    // How far the ground that is drawn lies from the ground that is truly seen there, along the sight line;
+    // not_measured where either is sky.
+    std::vector<float> m;
+    ErrorSummary summary_px;  // of pixels with ground, drawn or true
+    ErrorSummary summary_m;   // of those that show the same slope: not across an edge
+    std::uint64_t other{};  // pixels that show other ground than is seen there, or sky for ground, or ground
+                            // for sky: across an edge
+};
+inline constexpr int seen_reach_px = 32;
+
+// `truth`: what the oracle sees at the pixels' centres (Oracle::cast_picture). Error: 1/64 px at edges;
+// between pixels of even ground that of a plane through them.
+SeenErrors seen_errors(const Oracle& oracle, std::span<const std::optional<SightHit>> truth,
+                       const Camera& camera, std::span<const DrawnPoint> points, int threads);
+
+}  // namespace oro
