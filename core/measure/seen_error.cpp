@@ -36,6 +36,33 @@ class TruthPicture {
             nearness_.push_back(hit ? 1.0 / std::max(hit->distance_m, 1.0e-6) : 0.0);
     }
 
+    // What a ray through a place of the picture meets.
+    [[nodiscard]] Nearness through(const glm::dvec2& point_px) const {
+        const auto hit = oracle_.first_hit(camera_.ecef_direction_at(point_px), reach_m_);
+        return hit ? 1.0 / std::max(hit->distance_m, 1.0e-6) : 0.0;
+    }
+    // Whether ground that is truly seen in that direction and at that distance is not hidden there.
+    [[nodiscard]] bool shows(const glm::dvec3& seen_m) const {
+        const double distance_m = glm::length(seen_m);
+        constexpr double slack_m = 1.0e-3;  // the ground itself
+        const double until_m = distance_m * (1.0 - 1.0e-5) - slack_m;
+        return until_m <= 0.0 || !oracle_.first_hit(seen_m / distance_m, until_m);
+    }
+    // The smallest circle around a place, of some, on which a ray passes `drawn`.
+    [[nodiscard]] double circle_px(const glm::dvec2& point_px, Nearness drawn) const {
+        const bool nearer = through(point_px) > drawn;
+        for (const double radius_px : {1.0 / 16.0, 0.125, 0.25, 0.5, 0.75}) {
+            constexpr int directions = 16;
+            for (int i = 0; i < directions; ++i) {
+                const double turn = 2.0 * std::acos(-1.0) * i / directions;
+                const Nearness here =
+                    through(point_px + radius_px * glm::dvec2(std::cos(turn), std::sin(turn)));
+                if (same(here, drawn) || (here > drawn) != nearer) return radius_px;
+            }
+        }
+        return seen_reach_px;
+    }
+
     [[nodiscard]] Nearness at(int x, int y) const {
         return nearness_[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width_px) +
                          static_cast<std::size_t>(x)];
@@ -85,8 +112,7 @@ class TruthPicture {
         for (int halving = 0; halving < 6; ++halving) {
             const double middle = 0.5 * (low + high);
             const glm::dvec2 point_px = way.from + middle * (way.to - way.from) + 0.5;
-            const auto hit = oracle_.first_hit(camera_.ecef_direction_at(point_px), reach_m_);
-            const Nearness here = hit ? 1.0 / std::max(hit->distance_m, 1.0e-6) : 0.0;
+            const Nearness here = through(point_px);
             (!same(here, drawn) && (here > drawn) == nearer ? low : high) = middle;
         }
         return 0.5 * (low + high);
@@ -98,37 +124,52 @@ class TruthPicture {
     std::vector<Nearness> nearness_;
 };
 
+// How far away on the true picture something is seen like what a pixel shows.
+double off_px(const TruthPicture& picture, const GroundMeter& meter, int x, int y, const DrawnPoint& point) {
+    const glm::dvec2 centre_px = glm::dvec2(x, y) + 0.5;
+    const Nearness drawn =
+        point.background() ? 0.0 : 1.0 / (point.z_m * glm::length(meter.ray_view(centre_px)));
+    const double between_px = picture.away_px(x, y, drawn);
+    constexpr double small_px = 1.0 / 16.0;
+    if (between_px <= small_px) return between_px;
+    if (!point.background()) {
+        const std::optional<glm::dvec3> seen_m = meter.seen_m(point.row, point.column);
+        const double moved_px =
+            seen_m ? meter.apart_px(meter.offset_m(centre_px, point.z_m), *seen_m) : between_px;
+        if (moved_px >= between_px) return between_px;
+        if (picture.shows(*seen_m)) return moved_px;
+    }
+    return std::min(between_px, picture.circle_px(centre_px, drawn));
+}
+
 }  // namespace
 
-SeenErrors seen_errors(const Oracle& oracle, std::span<const std::optional<SightHit>> truth,
-                       const Camera& camera, std::span<const DrawnPoint> points, int threads) {
+SeenErrors seen_errors(const Oracle& oracle, const GroundMeter& meter,
+                       std::span<const std::optional<SightHit>> truth, const Camera& camera,
+                       std::span<const DrawnPoint> points, int threads) {
     const std::size_t width = static_cast<std::size_t>(camera.width_px);
     assert(truth.size() == points.size());
     SeenErrors errors;
     errors.px.assign(points.size(), not_measured);
     errors.m.assign(points.size(), not_measured);
     const TruthPicture picture(oracle, truth, camera);
-    const glm::dvec2 tangent = camera.half_fov_tangent();
     std::vector<std::uint64_t> other_in_row(static_cast<std::size_t>(camera.height_px));
     std::vector<std::vector<float>> even_m(other_in_row.size());
     in_parallel(camera.height_px, threads, [&](int y) {
         const std::size_t row = static_cast<std::size_t>(y);
         for (int x = 0; x < camera.width_px; ++x) {
             const std::size_t pixel = row * width + static_cast<std::size_t>(x);
+            const DrawnPoint& point = points[pixel];
             const Nearness seen = picture.at(x, y);
-            Nearness drawn = 0.0;
-            if (!points[pixel].background()) {
-                const glm::dvec2 at =
-                    (2.0 * (glm::dvec2(x, y) + 0.5) / glm::dvec2(camera.width_px, camera.height_px) - 1.0) *
-                    tangent;
-                drawn = 1.0 / (points[pixel].z_m * glm::length(glm::dvec3(at, 1.0)));
-            }
-            if (seen == 0.0 && drawn == 0.0) continue;
-            errors.px[pixel] = static_cast<float>(picture.away_px(x, y, drawn));
-            if (is_edge(seen, drawn)) ++other_in_row[row];
-            if (seen == 0.0 || drawn == 0.0) continue;
-            errors.m[pixel] = static_cast<float>(std::abs(1.0 / seen - 1.0 / drawn));
-            if (!is_edge(seen, drawn)) even_m[row].push_back(errors.m[pixel]);
+            if (seen == 0.0 && point.background()) continue;
+            errors.px[pixel] = static_cast<float>(off_px(picture, meter, x, y, point));
+            const double drawn_m =
+                point.background() ? 0.0 : point.z_m * glm::length(meter.ray_view(glm::dvec2(x, y) + 0.5));
+            const bool edge = point.background() || is_edge(seen, 1.0 / drawn_m);
+            if (edge) ++other_in_row[row];
+            if (seen == 0.0 || point.background()) continue;
+            errors.m[pixel] = static_cast<float>(std::abs(1.0 / seen - drawn_m));
+            if (!edge) even_m[row].push_back(errors.m[pixel]);
         }
     });
     errors.other = std::accumulate(other_in_row.begin(), other_in_row.end(), std::uint64_t{0});

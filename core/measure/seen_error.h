@@ -8,6 +8,7 @@
 
 #include "core/earth/camera.h"
 #include "core/measure/drawn_point.h"
+#include "core/measure/ground_error.h"
 #include "core/truth/oracle.h"
 #include "core/truth/picture_error.h"
 
@@ -29,9 +30,12 @@ struct SeenErrors {
 };
 inline constexpr int seen_reach_px = 32;
 
-// `truth`: what the oracle sees at the pixels' centres (Oracle::cast_picture). Error: 1/64 px at edges;
-// between pixels of even ground that of a plane through them.
-SeenErrors seen_errors(const Oracle& oracle, std::span<const std::optional<SightHit>> truth,
-                       const Camera& camera, std::span<const DrawnPoint> points, int threads);
+// `truth`: what the oracle sees at the pixels' centres (Oracle::cast_picture); `meter` knows where ground
+// points are truly seen: one that is drawn and truly visible is off by its displacement. Hidden ones are
+// looked for around the pixel, with rays a sixteenth of a pixel apart and more. Error: never too small by
+// more than 1/16 px; too large where what is drawn is truly seen through a gap narrower than that.
+SeenErrors seen_errors(const Oracle& oracle, const GroundMeter& meter,
+                       std::span<const std::optional<SightHit>> truth, const Camera& camera,
+                       std::span<const DrawnPoint> points, int threads);
 
 }  // namespace oro

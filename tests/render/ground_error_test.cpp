@@ -64,7 +64,7 @@ TEST_P(GroundErrorOfPictures, AtFullDetailPointsAreTheOracles) {
     EXPECT_LE(errors.summary_surface_px.largest, errors.summary_displacement_px.largest);
     EXPECT_LE(errors.summary_surface_m.largest, errors.summary_displacement_m.largest);
     const Oracle oracle(surface, sight);
-    const SeenErrors seen = seen_errors(oracle, hits, camera, picture.points, 2);
+    const SeenErrors seen = seen_errors(oracle, {surface, sight, camera}, hits, camera, picture.points, 2);
     EXPECT_LT(seen.summary_px.largest, 0.05) << "px";
 }
 
@@ -89,7 +89,7 @@ TEST_P(GroundErrorOfPictures, WhatIsMissingIsSeen) {
     const Sight sight = sight_from(camera.eye);
     const Oracle oracle(surface, sight);
     const auto hits = oracle.cast_picture(camera, 2);
-    const SeenErrors seen = seen_errors(oracle, hits, camera, picture.points, 2);
+    const SeenErrors seen = seen_errors(oracle, {surface, sight, camera}, hits, camera, picture.points, 2);
     // The wall is 400 m high and 5.33 km away: from 200 / 5330 above the level to as much below, at 60 px in
     // tan(20 degrees) 12.4 px. The ground just behind it is drawn one pixel above its foot; anything so far
     // is seen above the wall only.
