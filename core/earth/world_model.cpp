@@ -49,6 +49,24 @@ glm::dvec3 model_offset_m(Earth earth, const Geodetic& eye, const Geodetic& poin
     return ecef_from_enu(eye.lat_deg, eye.lon_deg) * glm::dvec3(east_m, north_m, point.h_m - eye.h_m);
 }
 
+std::optional<Geodetic> model_point(Earth earth, const Geodetic& eye, const glm::dvec3& offset_m) {
+    if (earth == Earth::ellipsoid) return geodetic_from_ecef({ecef_from_geodetic(eye).m + offset_m});
+    constexpr double degree = 180.0 / 3.14159265358979323846;
+    if (earth == Earth::sphere) {
+        const glm::dvec3 at = on_sphere(eye).m + offset_m;
+        const double across_m = std::hypot(at.x, at.y), radius_m = std::hypot(across_m, at.z);
+        return Geodetic{degree * std::atan2(at.z, across_m), degree * std::atan2(at.y, at.x),
+                        radius_m - mean_radius_m};
+    }
+    const glm::dvec3 enu_m = offset_m * ecef_from_enu(eye.lat_deg, eye.lon_deg);
+    const double parallel_m =
+        prime_vertical_radius_m(eye.lat_deg) * std::max(1.0e-12, sine_cosine_deg(eye.lat_deg).cosine);
+    const double north_deg = degree * enu_m.y / meridian_radius_m(eye.lat_deg);
+    const double east_deg = degree * enu_m.x / parallel_m;
+    if (std::abs(eye.lat_deg + north_deg) > 90.0 || std::abs(east_deg) > 180.0) return std::nullopt;
+    return Geodetic{eye.lat_deg + north_deg, eye.lon_deg + east_deg, eye.h_m + enu_m.z};
+}
+
 glm::dvec3 model_offset_m(const WorldModel& model, const Geodetic& eye, const Geodetic& point) {
     return Refraction(eye, model.refraction_k).apparent_m(model_offset_m(model.earth, eye, point));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "core/earth/ellipsoid.h"
 
@@ -72,6 +73,9 @@ Ecef model_eye_ecef(Earth earth, const Geodetic& eye);
 // eye, metres. The eye is on the same model by its own latitude, longitude and height. Error: rounding of
 // doubles, 3e-9 m near the Earth. Flat: east and west part at the meridian opposite to the eye.
 glm::dvec3 model_offset_m(Earth earth, const Geodetic& eye, const Geodetic& point);
+// The inverse: what that model of the Earth has at an offset from the eye. Error: as above, and 1e-9 degree.
+// Nothing where the model has no place: on the flat one beyond the poles and the opposite meridian.
+std::optional<Geodetic> model_point(Earth earth, const Geodetic& eye, const glm::dvec3& offset_m);
 // The same as it is seen through the model's air. Precision is left out.
 glm::dvec3 model_offset_m(const WorldModel& model, const Geodetic& eye, const Geodetic& point);
 

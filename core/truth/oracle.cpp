@@ -103,6 +103,9 @@ class Oracle::Search {
 
 namespace {
 
+// Far outside every grid: where a model of the Earth has no place.
+constexpr Geodetic nowhere{1.0e6, 0.0, 0.0};
+
 // A root is looked for this far beyond a triangle, in cells, because it is looked for on an approximation.
 constexpr double search_slack = 0.02;
 
@@ -110,7 +113,10 @@ constexpr double search_slack = 0.02;
 
 Oracle::Search::RayPoint Oracle::Search::point_at(double t_m, double near_column) const {
     const Sight& sight = scenery_.sight;
-    const Geodetic point = geodetic_from_ecef({sight.eye.m + sight.refraction.true_m(t_m * direction_)});
+    const glm::dvec3 offset_m = sight.refraction.true_m(t_m * direction_);
+    const Geodetic point = sight.earth == Earth::ellipsoid
+                               ? geodetic_from_ecef({sight.eye.m + offset_m})
+                               : model_point(sight.earth, sight.place, offset_m).value_or(nowhere);
     const double turn = 360.0 * grid_.lon.posts_per_deg;
     double column = grid_.lon.index_at(point.lon_deg);
     column -= turn * std::round((column - near_column) / turn);
@@ -174,6 +180,7 @@ Span where_positive(double at_0, double slope, double square, Span span, double 
 // is met.
 Span Oracle::Search::between_meridians(const Block& block, Span span) const {
     const Sight& sight = scenery_.sight;
+    if (sight.earth == Earth::flat) return span;  // it has no pole where meridians meet
     const auto& meridians = scenery_.columns;
     const SineCosine& west = meridians[static_cast<std::size_t>(block.column)];
     const SineCosine& east =
@@ -327,6 +334,14 @@ bool Oracle::Search::take_root(const Triangle& triangle, const Piece& piece, dou
 
 Sight sight_from(const Geodetic& eye, double refraction_k) {
     return {ecef_from_geodetic(eye), refraction_k == 0.0 ? Refraction() : Refraction(eye, refraction_k)};
+}
+
+Sight sight_of(const WorldModel& model, const Geodetic& eye) {
+    Sight sight = sight_from(eye, model.refraction_k);
+    sight.eye = model_eye_ecef(model.earth, eye);
+    sight.earth = model.earth;
+    sight.place = eye;
+    return sight;
 }
 
 double sight_reach_m(double eye_h_m) {

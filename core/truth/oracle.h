@@ -15,12 +15,16 @@
 
 namespace oro {
 
-// From where and through what air one looks.
+// From where and through what air one looks, and at what Earth: the true one is the ellipsoid; on others the
+// oracle sees what a picture of them shows.
 struct Sight {
-    Ecef eye;
+    Ecef eye;               // on that Earth
     Refraction refraction;  // default: straight
+    Earth earth{Earth::ellipsoid};
+    Geodetic place{};  // of the eye; for other Earths than the ellipsoid
 };
 Sight sight_from(const Geodetic& eye, double refraction_k = 0.0);
+Sight sight_of(const WorldModel& model, const Geodetic& eye);
 
 // Where a sight line meets the surface.
 struct SightHit {

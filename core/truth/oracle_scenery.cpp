@@ -23,18 +23,44 @@ Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from) : surface(of)
     for (int row = 0; row - step < grid.rows() - 1; row += step) {
         const double at_deg = row_lat_deg(grid, std::min(row, grid.rows() - 1));
         const SineCosine angle = sine_cosine_deg(at_deg);
-        rows.push_back({prime_vertical_radius_m(at_deg), angle.cosine, angle.sine});
+        const double normal_m =
+            sight.earth == Earth::sphere ? mean_radius_m : prime_vertical_radius_m(at_deg);
+        rows.push_back({normal_m, angle.cosine, angle.sine});
+        if (sight.earth == Earth::flat)
+            rows_north_m.push_back(meridian_radius_m(sight.place.lat_deg) *
+                                   radians_from_deg(at_deg - sight.place.lat_deg).rad);
     }
-    for (int column = 0; column - step < grid.columns() - 1; column += step)
-        columns.push_back(sine_cosine_deg(grid.lon.at_deg(std::min(column, grid.columns() - 1))));
+    for (int column = 0; column - step < grid.columns() - 1; column += step) {
+        const double at_deg = grid.lon.at_deg(std::min(column, grid.columns() - 1));
+        columns.push_back(sine_cosine_deg(at_deg));
+        if (sight.earth == Earth::flat)
+            columns_east_m.push_back(
+                prime_vertical_radius_m(sight.place.lat_deg) * sine_cosine_deg(sight.place.lat_deg).cosine *
+                radians_from_deg(std::remainder(at_deg - sight.place.lon_deg, 360.0)).rad);
+    }
+    if (sight.earth == Earth::flat)
+        frame_from_flat = frame_from_ecef * ecef_from_enu(sight.place.lat_deg, sight.place.lon_deg);
+}
+
+bool Oracle::Scenery::is_cut(int west, int east) const {
+    return sight.earth == Earth::flat &&
+           columns_east_m[static_cast<std::size_t>(east)] <= columns_east_m[static_cast<std::size_t>(west)];
 }
 
 glm::dvec3 Oracle::Scenery::seen(int row, int column, double h_m) const {
+    if (sight.earth == Earth::flat) {
+        const glm::dvec3 enu_m(columns_east_m[static_cast<std::size_t>(column)],
+                               rows_north_m[static_cast<std::size_t>(row)], h_m - sight.place.h_m);
+        const double lift_m =
+            0.5 * sight.refraction.curvature_per_m() * (enu_m.x * enu_m.x + enu_m.y * enu_m.y);
+        return frame_from_flat * glm::dvec3(enu_m.x, enu_m.y, enu_m.z + lift_m);
+    }
     const RowTerms& terms = rows[static_cast<std::size_t>(row)];
     const SineCosine& lon = columns[static_cast<std::size_t>(column)];
+    const double e2 = sight.earth == Earth::sphere ? 0.0 : wgs84_e2;
     const double rho_m = (terms.normal_m + h_m) * terms.cosine;
     const glm::dvec3 ecef(rho_m * lon.cosine, rho_m * lon.sine,
-                          (terms.normal_m * (1.0 - wgs84_e2) + h_m) * terms.sine);
+                          (terms.normal_m * (1.0 - e2) + h_m) * terms.sine);
     return frame_from_ecef * sight.refraction.apparent_m(ecef - sight.eye.m);
 }
 
@@ -46,6 +72,10 @@ bool Oracle::Scenery::box(const TrueSurface::Block& block, glm::dvec3& low, glm:
     const int east = std::min(((block.column + 1) << block.level), static_cast<int>(columns.size()) - 1);
     low = glm::dvec3(infinite);
     high = glm::dvec3(-infinite);
+    if (is_cut(west, east)) {
+        std::swap(low, high);
+        return true;
+    }
     for (const int row : {north, south}) {
         for (const int column : {west, east}) {
             for (const double h_m : {layer.lowest_h_m, layer.highest_h_m}) {

@@ -1,0 +1,66 @@
+// The oracle over other Earths than the ellipsoid: what a picture of them shows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "core/terrain/ground.h"
+#include "core/truth/oracle.h"
+#include "tests/support/rough_terrain.h"
+
+namespace oro {
+namespace {
+
+class OracleOfModels : public ::testing::TestWithParam<Earth> {};
+
+// Each hit lies on its ray, by the model's own formula; and marching along the ray meets no ground before it.
+TEST_P(OracleOfModels, HitsLieOnTheRayAndNothingIsNearer) {
+    constexpr unsigned seed = 7;
+    std::printf("seed %u\n", seed);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const HeightField field = test::rough_field(47.0, 8.0, 600, 600);
+    const TrueSurface surface(field, 1.0, 2);
+    int hits = 0, earlier = 0;
+    double farthest_m = 0.0;
+    for (int i = 0; i < 300; ++i) {
+        Geodetic eye{46.5 + 0.5 * unit(random), 8.0 + 0.5 * unit(random), 0.0};
+        eye.h_m = ground_h_m(field, eye.lat_deg, eye.lon_deg).value() + std::pow(10.0, 4.0 * unit(random));
+        const WorldModel model{GetParam(), i % 2 == 0 ? 0.0 : 0.13, Precision::relative};
+        const Sight sight = sight_of(model, eye);
+        const double turn = 6.2831853 * unit(random), fall = 0.6 * unit(random) * unit(random);
+        const glm::dvec3 direction =
+            ecef_from_enu(eye.lat_deg, eye.lon_deg) *
+            glm::dvec3(std::cos(fall) * std::sin(turn), std::cos(fall) * std::cos(turn), -std::sin(fall));
+        const auto hit = first_hit(surface, sight, direction, 1.0e6);
+        const double until_m = hit ? hit->distance_m - 1.0 : 60000.0;
+        for (double t_m = 0.0; t_m < until_m; t_m += 10.0) {
+            const auto at = model_point(GetParam(), eye, sight.refraction.true_m(t_m * direction));
+            ASSERT_TRUE(at);
+            const auto ground_m = surface.h_m(at->lat_deg, at->lon_deg);
+            if (ground_m && at->h_m < *ground_m - 1.0e-6) ++earlier;
+        }
+        if (!hit) continue;
+        ++hits;
+        const glm::dvec3 seen_m = model_offset_m(model, eye, hit->point);
+        farthest_m = std::max(farthest_m, glm::length(seen_m - hit->distance_m * direction));
+        EXPECT_NEAR(surface.h_m(hit->point.lat_deg, hit->point.lon_deg).value(), hit->point.h_m, 1.0e-6)
+            << "m";
+    }
+    EXPECT_GT(hits, 150);
+    EXPECT_EQ(earlier, 0);
+    EXPECT_LT(farthest_m, 1.0e-6) << "m";
+}
+
+INSTANTIATE_TEST_SUITE_P(Earths, OracleOfModels,
+                         ::testing::Values(Earth::ellipsoid, Earth::sphere, Earth::flat),
+                         [](const auto& earth) {
+                             return earth.param == Earth::flat     ? "flat"
+                                    : earth.param == Earth::sphere ? "sphere"
+                                                                   : "ellipsoid";
+                         });
+
+}  // namespace
+}  // namespace oro
