@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
+#include <numbers>
 
 #include "core/base/median.h"
 #include "core/base/parallel.h"
@@ -15,35 +17,38 @@
 namespace oro {
 namespace {
 
-constexpr int samples_across = 160;
-// What lies between the samples: bounds that come from samples of rough ground are widened by this.
-constexpr double between_samples = 2.5;
+// What lies between the samples: bounds that come from samples are widened by this where the samples look
+// through gaps between hills as well, ...
+constexpr double between_samples = 1.5;
+// ... and where what is drawn was not looked at itself, but what is truly seen.
+constexpr double unlike_the_truth = 2.5;
+// Ground between the samples may be somewhat nearer than at them.
+constexpr double nearer = 1.3;
 // Half a unit in the last place of a float, relative.
 constexpr double float_rounding = 1.0 / 16777216.0;
-
-EffectSize larger(const EffectSize& a, const EffectSize& b) {
-    return {std::max(a.worst_m, b.worst_m), std::max(a.typical_m, b.typical_m),
-            std::max(a.worst_px, b.worst_px), std::max(a.typical_px, b.typical_px)};
-}
 
 // Collects one effect's sizes at the samples.
 class Sizes {
   public:
-    void add(double height_m, double px) {
-        height_m_.push_back(height_m);
+    // even: counts for the median.
+    void add(double metres, double px, bool even) {
+        worst_m_ = std::max(worst_m_, metres);
+        worst_px_ = std::max(worst_px_, px);
+        if (!even) return;
+        metres_.push_back(metres);
         px_.push_back(px);
     }
     // The bound is the largest times `margin`. Uses the values up.
     EffectSize size(double margin) {
-        if (px_.empty()) return {};
-        const double worst_m = *std::max_element(height_m_.begin(), height_m_.end());
-        const double worst_px = *std::max_element(px_.begin(), px_.end());
-        return {margin * worst_m, median_of(std::move(height_m_)), margin * worst_px,
-                median_of(std::move(px_))};
+        const bool none = px_.empty();
+        return {margin * worst_m_, none ? 0.0 : median_of(std::move(metres_)), margin * worst_px_,
+                none ? 0.0 : median_of(std::move(px_))};
     }
 
   private:
-    std::vector<double> height_m_;
+    double worst_m_{};
+    double worst_px_{};
+    std::vector<double> metres_;
     std::vector<double> px_;
 };
 
@@ -59,51 +64,7 @@ EffectPrediction::EffectPrediction(const TrueSurface& surface, const RegionPages
       sight_(sight_from(camera.eye, world.refraction_k)),
       view_from_ecef_(camera.view_from_ecef()),
       pixels_per_tangent_(0.5 * camera.height_px / camera.half_fov_tangent().y),
-      samples_(cast(sight_.refraction, threads)) {}
-
-// Sight lines through the middles of pixels all over the picture, those of its rim included.
-std::vector<EffectPrediction::Sample> EffectPrediction::cast(const Refraction& refraction,
-                                                             int threads) const {
-    const Oracle oracle(surface_, {sight_.eye, refraction});
-    const double reach_m = sight_reach_m(camera_.eye.h_m);
-    const int across = std::clamp(camera_.width_px, 1, samples_across);
-    const int down = std::clamp(samples_across * camera_.height_px / std::max(1, camera_.width_px), 1,
-                                std::min(camera_.height_px, 4 * samples_across));
-    const auto pixel = [](int i, int count, int size) {
-        return 0.5 +
-               (count > 1 ? std::round(static_cast<double>(i) * (size - 1) / (count - 1)) : 0.5 * (size - 1));
-    };
-    std::vector<std::vector<Sample>> rows(static_cast<std::size_t>(down));
-    const PostGrid& grid = surface_.field().grid;
-    in_parallel(down, threads, [&](int i) {
-        for (int j = 0; j < across; ++j) {
-            const glm::dvec3 direction = camera_.ecef_direction_at(
-                {pixel(j, across, camera_.width_px), pixel(i, down, camera_.height_px)});
-            const auto hit = oracle.first_hit(direction, reach_m);
-            if (!hit) continue;
-            const auto h_m = [&](int row, int column) {
-                return surface_.post_h_m(row, column).value_or(hit->point.h_m);
-            };
-            const double corner_m = h_m(hit->south_west ? hit->row + 1 : hit->row,
-                                        hit->south_west ? hit->column : hit->column + 1);
-            const double north_west_m = h_m(hit->row, hit->column),
-                         south_east_m = h_m(hit->row + 1, hit->column + 1);
-            const double row_m =
-                meridian_radius_m(hit->point.lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
-            const double column_m = std::max(1.0e-3, prime_vertical_radius_m(hit->point.lat_deg) *
-                                                         sine_cosine_deg(hit->point.lat_deg).cosine *
-                                                         radians_from_deg(grid.lon.spacing_deg()).rad);
-            const double down_m = hit->south_west ? corner_m - north_west_m : south_east_m - corner_m;
-            const double right_m = hit->south_west ? south_east_m - corner_m : corner_m - north_west_m;
-            rows[static_cast<std::size_t>(i)].push_back(
-                {hit->point, hit->distance_m * direction, hit->distance_m,
-                 std::hypot(down_m / row_m, right_m / column_m), hit->row, hit->column, hit->south_west});
-        }
-    });
-    std::vector<Sample> samples;
-    for (const std::vector<Sample>& row : rows) samples.insert(samples.end(), row.begin(), row.end());
-    return samples;
-}
+      samples_(view_samples(surface, sight_, camera_, threads)) {}
 
 double EffectPrediction::nearest_m() const {
     double nearest_m = std::numeric_limits<double>::infinity();
@@ -113,20 +74,45 @@ double EffectPrediction::nearest_m() const {
 
 double EffectPrediction::median_distance_m() const {
     std::vector<double> distances;
-    for (const Sample& sample : samples_) distances.push_back(sample.distance_m);
+    for (const Sample& sample : samples_)
+        if (sample.even) distances.push_back(sample.distance_m);
     return median_of(std::move(distances));
 }
 
-// Points that are drawn elsewhere: how far over the surface they then are.
-EffectSize EffectPrediction::displaced(const std::vector<Sample>& samples, const Displacement& drawn) const {
-    const PointMeter meter(surface_, sight_, camera_);
+double EffectPrediction::apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const {
+    const glm::dvec3 drawn = view_from_ecef_ * drawn_m, seen = view_from_ecef_ * seen_m;
+    return glm::length(glm::dvec2(seen) / seen.z - glm::dvec2(drawn) / drawn.z) * pixels_per_tangent_;
+}
+
+EffectSize EffectPrediction::moved(const Drawn& drawn, double margin) const {
     Sizes sizes;
-    for (const Sample& sample : samples) {
-        const std::optional<glm::dvec3> at = drawn(sample);
-        if (!at || (view_from_ecef_ * *at).z >= -near_plane_m) continue;
-        if (const auto error = meter.at(*at)) sizes.add(std::abs(error->height_m), error->px);
+    for (const Sample& sample : samples_) {
+        const glm::dvec3 at = drawn(sample);
+        if ((view_from_ecef_ * at).z >= -near_plane_m) continue;  // not in the picture
+        sizes.add(glm::length(sight_.refraction.true_m(at) - sight_.refraction.true_m(sample.apparent_m)),
+                  apart_px(at, sample.apparent_m), sample.even);
     }
-    return sizes.size(between_samples);
+    return sizes.size(margin);
+}
+
+EffectSize EffectPrediction::moved_by(const WorldModel& model) const {
+    EffectSize size =
+        moved([&](const Sample& sample) { return model_offset_m(model, camera_.eye, sample.point); },
+              between_samples);
+    Sizes shown;
+    for (const Sample& sample : view_samples(surface_, sight_of(model, camera_.eye), camera_, threads_)) {
+        const glm::dvec3 offset_m = ecef_from_geodetic(sample.point).m - sight_.eye.m;
+        const glm::dvec3 seen_m = sight_.refraction.apparent_m(offset_m);
+        const double metres = glm::length(sight_.refraction.true_m(sample.apparent_m) - offset_m);
+        // Truly behind the eye: as far as the metres reach at its distance.
+        const double px = (view_from_ecef_ * seen_m).z >= 0.0 ? any_way_px(sample, metres)
+                                                              : apart_px(sample.apparent_m, seen_m);
+        shown.add(metres, px, sample.even);
+    }
+    const EffectSize of_shown = shown.size(between_samples);
+    size.worst_m = std::max(size.worst_m, of_shown.worst_m);
+    size.worst_px = std::max(size.worst_px, of_shown.worst_px);
+    return size;
 }
 
 // A height on the picture, up or down from a sample. Towards the eye only half the way: beyond, pixels say
@@ -145,33 +131,47 @@ double EffectPrediction::vertical_px(const Sample& sample, double height_m) cons
     return worst_px;
 }
 
-// Heights that are off by no more than a bound. Ground between the samples may be somewhat nearer.
-EffectSize EffectPrediction::bounded(const Bound& height_m) const {
-    constexpr double nearer = 1.3;
+// So far in any direction: towards the picture's rim a metre is more pixels.
+double EffectPrediction::any_way_px(const Sample& sample, double metres) const {
+    const double z_m = std::max(near_plane_m, -(view_from_ecef_ * sample.apparent_m).z);
+    return metres * sample.distance_m / (z_m * z_m) * pixels_per_tangent_;
+}
+
+EffectSize EffectPrediction::lifted(const Bound& height_m) const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
         const double height = height_m(sample);
-        sizes.add(height, vertical_px(sample, height));
+        sizes.add(height, vertical_px(sample, height), sample.even);
     }
     return sizes.size(nearer);
 }
 
-EffectSize EffectPrediction::on_flat_earth() const {
-    // Without curvature more can be seen: as if light followed the ground.
-    const double radius_m =
-        std::sqrt(prime_vertical_radius_m(camera_.eye.lat_deg) * meridian_radius_m(camera_.eye.lat_deg));
-    const Refraction along_ground =
-        Refraction::with_curvature(camera_.eye, sight_.refraction.curvature_per_m() + 1.0 / radius_m);
-    const WorldModel flat{Earth::flat, world_.refraction_k, Precision::relative};
-    EffectSize size = displaced(cast(along_ground, threads_), [&](const Sample& sample) {
-        return model_offset_m(flat, camera_.eye, sample.point);
-    });
-    // Through gaps between hills comes ground from far away, where the error is largest: samples miss more
-    // than elsewhere.
-    constexpr double through_gaps = 1.6;
-    size.worst_m *= through_gaps;
-    size.worst_px *= through_gaps;
+EffectSize EffectPrediction::anywhere(const Bound& bound_m, const Bound& typical_m) const {
+    Sizes bounds, typical;
+    for (const Sample& sample : samples_) {
+        const double most_m = bound_m(sample), usual_m = typical_m(sample);
+        bounds.add(most_m, any_way_px(sample, most_m), sample.even);
+        typical.add(usual_m, any_way_px(sample, usual_m), sample.even);
+    }
+    EffectSize size = bounds.size(nearer);
+    const EffectSize usual = typical.size(1.0);
+    size.typical_m = usual.typical_m;
+    size.typical_px = usual.typical_px;
     return size;
+}
+
+// Between its corners X(lat, lon) is off the straight line by at most an eighth of its second derivatives: of
+// the ellipsoid's bulge, and of meridians that come together.
+EffectPrediction::FlatTriangle EffectPrediction::flat_triangle(const Sample& sample, double posts) const {
+    const PostGrid& grid = surface_.field().grid;
+    const double tall = posts * radians_from_deg(grid.lat.spacing_deg()).rad;
+    const double wide = posts * radians_from_deg(grid.lon.spacing_deg()).rad;
+    const SineCosine lat = sine_cosine_deg(sample.point.lat_deg);
+    const double cosine = std::min(1.0, lat.cosine + tall), sine = std::abs(lat.sine);
+    const double radius_m = wgs84_a_m + std::max(0.0, sample.point.h_m);
+    const double up = (tall * tall + wide * wide * cosine * cosine) / 8.0;
+    const double sideways = sine * (tall * wide / 4.0 + wide * wide * cosine / 8.0);
+    return {radius_m * up, radius_m * sideways};
 }
 
 double EffectPrediction::left_out_N_m(double lat_deg, double lon_deg) const {
@@ -182,11 +182,12 @@ EffectSize EffectPrediction::without_geoid() const {
     const UndulationField& undulation = surface_.field().undulation;
     Geodetic eye = camera_.eye;
     eye.h_m -= undulation.at_m(eye.lat_deg, eye.lon_deg);
-    return displaced(samples_, [&](const Sample& sample) {
+    const auto drawn = [&](const Sample& sample) {
         Geodetic point = sample.point;
         point.h_m -= undulation.at_m(point.lat_deg, point.lon_deg);
         return sight_.refraction.apparent_m(model_offset_m(Earth::ellipsoid, eye, point));
-    });
+    };
+    return moved(drawn, unlike_the_truth);
 }
 
 // From the posts around what is seen: how far each second one lies from the middle of its neighbours is how
@@ -206,7 +207,7 @@ EffectSize EffectPrediction::interpolation(int apart) const {
             if (!before || !here || !after) continue;
             bend_m = std::max(bend_m, std::abs(*here - 0.5 * (*before + *after)));
         }
-        sizes.add(bend_m, vertical_px(sample, bend_m));
+        sizes.add(bend_m, vertical_px(sample, bend_m), sample.even);
     }
     EffectSize size = sizes.size(1.0);
     size.typical_m *= 0.5;
@@ -218,14 +219,21 @@ Result<EffectSize> EffectPrediction::detail(double tau_px) const {
     Camera drawn = camera_;
     drawn.eye.h_m -= left_out_N_m(drawn.eye.lat_deg, drawn.eye.lon_deg);
     SampledDetail detail(pages_, drawn, tau_px);
-    Sizes sizes;
+    Sizes heights, sideways;
     for (const Sample& sample : samples_) {
         ORO_TRY(const SampledDetail::Bound bound, detail.at(sample.row, sample.column));
-        sizes.add(bound.error_m, bound.error_px);
+        heights.add(bound.error_m, bound.error_px, sample.even);
+        const double flat_m =
+            bound.level == 0 ? 0.0 : flat_triangle(sample, std::ldexp(1.0, bound.level)).sideways_m;
+        sideways.add(flat_m, any_way_px(sample, flat_m), sample.even);
     }
     constexpr double between_nodes = 1.5;
-    EffectSize size = sizes.size(between_nodes);
+    EffectSize size = heights.size(between_nodes);
     size.worst_px = std::min(size.worst_px, tau_px);
+    // Levels are certified by how far the surface moves; along it ground points move a little, too.
+    const EffectSize flat = sideways.size(nearer);
+    size.worst_m += flat.worst_m;
+    size.worst_px += flat.worst_px;
     return size;
 }
 
@@ -237,25 +245,14 @@ Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double
     return made;
 }
 
-EffectSize EffectPrediction::as_sphere() const {
-    const WorldModel sphere{Earth::sphere, world_.refraction_k, Precision::relative};
-    return displaced(samples_,
-                     [&](const Sample& sample) { return model_offset_m(sphere, camera_.eye, sample.point); });
-}
-
-EffectSize EffectPrediction::in_straight_light() const {
-    return displaced(samples_,
-                     [&](const Sample& sample) { return sight_.refraction.true_m(sample.apparent_m); });
-}
-
 EffectSize EffectPrediction::in_flat_cells() const {
-    const PostGrid& grid = surface_.field().grid;
-    return bounded([&](const Sample& sample) {
-        const double tall = radians_from_deg(grid.lat.spacing_deg()).rad;
-        const double wide =
-            radians_from_deg(grid.lon.spacing_deg()).rad * sine_cosine_deg(sample.point.lat_deg).cosine;
-        return (tall * tall + wide * wide) / 8.0 * (wgs84_a_m + std::max(0.0, sample.point.h_m));
-    });
+    Sizes sizes;
+    for (const Sample& sample : samples_) {
+        const FlatTriangle off = flat_triangle(sample, 1.0);
+        sizes.add(std::hypot(off.up_m, off.sideways_m),
+                  vertical_px(sample, off.up_m) + any_way_px(sample, off.sideways_m), sample.even);
+    }
+    return sizes.size(nearer);
 }
 
 std::optional<EffectSize> EffectPrediction::stated_by_source() const {
@@ -263,7 +260,7 @@ std::optional<EffectSize> EffectPrediction::stated_by_source() const {
     // Of a normal distribution: half of all errors are within 0.41 of what holds 90 %.
     constexpr double half_of_all = 0.41;
     const double le90_m = *world_.source_le90_m;
-    EffectSize size = bounded([&](const Sample&) { return le90_m; });
+    EffectSize size = lifted([&](const Sample&) { return le90_m; });
     size.typical_m = half_of_all * le90_m;
     size.typical_px *= half_of_all;
     size.worst_m = le90_m;
@@ -272,22 +269,36 @@ std::optional<EffectSize> EffectPrediction::stated_by_source() const {
 
 // What drawing rounds off, by no more than is known beforehand; nothing for other effects.
 std::optional<EffectSize> EffectPrediction::known_bound(EffectKind kind) const {
-    const auto of_distance = [&](double share) {
-        return bounded([share](const Sample& sample) {
-            return share * sample.distance_m * std::hypot(1.0, sample.slope);
-        });
+    const PostGrid& grid = surface_.field().grid;
+    const double cell_m = wgs84_a_m * std::hypot(radians_from_deg(grid.lat.spacing_deg()).rad,
+                                                 radians_from_deg(grid.lon.spacing_deg()).rad);
+    // Along the sight line nothing moves on the picture.
+    const auto along_m = [](const Sample& sample) { return 4.0 * float_rounding * sample.distance_m; };
+    constexpr double corner_px = std::numbers::sqrt2 / 256.0;
+    const auto corner_m = [&](const Sample& sample) {
+        const double z_m = std::max(near_plane_m, -(view_from_ecef_ * sample.apparent_m).z);
+        return corner_px / pixels_per_tangent_ * z_m * std::hypot(1.0, sample.slope);
     };
+    EffectSize size;
     switch (kind) {
         case EffectKind::steps_f32:
-            return bounded([](const Sample&) { return 0.5 * height_step_m; });
-        case EffectKind::placement:
-            return of_distance(placement_far_share);
-        // A depth is rounded twice, and the triangle's plane that it comes from.
+            return lifted([](const Sample&) { return 0.5 * height_step_m; });
+        // A ground point moves with the corners of its triangle.
+        case EffectKind::placement: {
+            const auto off_m = [&](const Sample& sample) {
+                return placement_far_share * (sample.distance_m + cell_m);
+            };
+            return anywhere(off_m, off_m);
+        }
         case EffectKind::depth:
-            return of_distance(4.0 * float_rounding);
+            size = anywhere(along_m, along_m);
+            size.worst_px = size.typical_px = 0.0;
+            return size;
         // Two corners of a triangle may move apart by a step along each axis.
         case EffectKind::pixel_grid:
-            return of_distance(std::sqrt(2.0) / 256.0 / pixels_per_tangent_);
+            size = anywhere(corner_m, corner_m);
+            if (!empty()) size.worst_px = size.typical_px = corner_px;
+            return size;
         case EffectKind::flat_cells:
             return in_flat_cells();
         default:
@@ -301,15 +312,15 @@ Result<std::optional<EffectSize>> EffectPrediction::new_size(EffectKind kind, do
         case EffectKind::geoid:
             return Size(without_geoid());
         case EffectKind::sphere:
-            return Size(as_sphere());
+            return Size(moved_by({Earth::sphere, world_.refraction_k, Precision::relative}));
         case EffectKind::flat:
-            return Size(on_flat_earth());
+            return Size(moved_by({Earth::flat, world_.refraction_k, Precision::relative}));
         case EffectKind::refraction:
-            return Size(in_straight_light());
+            return Size(moved_by({Earth::ellipsoid, 0.0, Precision::relative}));
         case EffectKind::float32_posts:
-            return Size(in_float32(Precision::rounded_posts, false));
+            return Size(in_float32(Precision::rounded_posts));
         case EffectKind::float32_view:
-            return Size(larger(in_float32(Precision::naive, false), in_float32(Precision::naive, true)));
+            return Size(in_float32(Precision::naive));
         case EffectKind::steps_i16:
             return Size(in_sixteen_bits());
         case EffectKind::detail: {

@@ -15,11 +15,14 @@
 #include "core/truth/oracle.h"
 #include "core/truth/picture_error.h"
 #include "core/truth/true_surface.h"
+#include "core/truth/view_samples.h"
 
 namespace oro {
 
-// How large an effect is in a view: heights at the drawn points in metres, and what that is on the picture.
-// worst is a bound, typical the median of what is in view.
+// How large an effect is in a view: how far ground is moved, in metres and on the picture. worst: no ground
+// that is seen is moved farther, and so (docs/ARCHITECTURE.md) nothing that is seen, no edge and no skyline.
+// typical: the median of what is in view. Of the data's own limits: heights, and what they are on the
+// picture.
 struct EffectSize {
     double worst_m{};
     double typical_m{};
@@ -27,9 +30,10 @@ struct EffectSize {
     double typical_px{};
 };
 
-// Predicts the effects in one view. Casts up to 160 x 640 sight lines (14,400 for 16:9) when it is made; asks
-// for the pages that hold what they meet when detail is asked for. Error of a prediction: what lies between
-// the sight lines is not seen, so bounds carry a margin.
+// Predicts the effects in one view, from what it sees (core/truth/view_samples.h), and on another Earth from
+// what a picture of that one shows, too. Asks for the pages that hold what is seen when detail is asked for.
+// Bounds of what drawing rounds off and of levels are derived; those of the Earth, the geoid and the air are
+// the largest at the samples, times a margin for what lies between them.
 class EffectPrediction {
   public:
     // camera: the true eye. All outlive the prediction.
@@ -54,24 +58,28 @@ class EffectPrediction {
     // interpolation and source, which no drawing can help. Errors: as size().
     [[nodiscard]] Result<EffectSize> total(const DrawingModel& drawing) const;
 
-    // A point that is seen.
-    struct Sample {
-        Geodetic point;
-        glm::dvec3 apparent_m;  // offset from the eye, ECEF axes
-        double distance_m;
-        double slope;  // of its triangle, metres a metre
-        int row;       // of its cell
-        int column;
-        bool south_west;  // of the cell's triangles
-    };
-
   private:
-    using Displacement = std::function<std::optional<glm::dvec3>(const Sample& sample)>;
+    using Sample = ViewSample;
+    using Drawn = std::function<glm::dvec3(const Sample& sample)>;
     using Bound = std::function<double(const Sample& sample)>;
-    [[nodiscard]] std::vector<Sample> cast(const Refraction& refraction, int threads) const;
-    [[nodiscard]] EffectSize displaced(const std::vector<Sample>& samples, const Displacement& drawn) const;
-    [[nodiscard]] EffectSize bounded(const Bound& height_m) const;
+    // What is drawn elsewhere than it is seen: by where the truth's samples are drawn, and by where what a
+    // picture of `model` shows truly is.
+    [[nodiscard]] EffectSize moved(const Drawn& drawn, double margin) const;
+    [[nodiscard]] EffectSize moved_by(const WorldModel& model) const;
+    // Heights that are off by no more than a bound.
+    [[nodiscard]] EffectSize lifted(const Bound& height_m) const;
+    // Points that are off by no more than a bound, whichever way.
+    [[nodiscard]] EffectSize anywhere(const Bound& bound_m, const Bound& typical_m) const;
     [[nodiscard]] double vertical_px(const Sample& sample, double height_m) const;
+    [[nodiscard]] double any_way_px(const Sample& sample, double metres) const;
+    [[nodiscard]] double apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const;
+    // How far a point of a flat triangle is, at most, from the ground point of its row and column: the
+    // triangle's legs are so many posts long.
+    struct FlatTriangle {
+        double up_m;
+        double sideways_m;
+    };
+    [[nodiscard]] FlatTriangle flat_triangle(const Sample& sample, double posts) const;
     struct PostShare {
         int row;
         int column;
@@ -79,15 +87,12 @@ class EffectPrediction {
     };
     [[nodiscard]] std::array<PostShare, 3> shares_of(const Sample& sample) const;
     [[nodiscard]] EffectSize in_sixteen_bits() const;
-    [[nodiscard]] EffectSize in_float32(Precision precision, bool backwards) const;
+    [[nodiscard]] EffectSize in_float32(Precision precision) const;
     [[nodiscard]] Result<EffectSize> detail(double tau_px) const;
     [[nodiscard]] Result<std::optional<EffectSize>> new_size(EffectKind kind, double tau_px) const;
     [[nodiscard]] std::optional<EffectSize> known_bound(EffectKind kind) const;
-    [[nodiscard]] EffectSize as_sphere() const;
-    [[nodiscard]] EffectSize in_straight_light() const;
     [[nodiscard]] EffectSize in_flat_cells() const;
     [[nodiscard]] std::optional<EffectSize> stated_by_source() const;
-    [[nodiscard]] EffectSize on_flat_earth() const;
     [[nodiscard]] EffectSize without_geoid() const;
     // N that the pages go without.
     [[nodiscard]] double left_out_N_m(double lat_deg, double lon_deg) const;
@@ -100,7 +105,7 @@ class EffectPrediction {
     Sight sight_;
     glm::dmat3 view_from_ecef_;
     double pixels_per_tangent_;
-    std::vector<Sample> samples_;
+    std::vector<ViewSample> samples_;
     mutable std::map<std::pair<EffectKind, double>, std::optional<EffectSize>> known_;
 };
 

@@ -1,6 +1,8 @@
-// What rounding makes of posts, predicted by doing it.
+// What rounding makes of posts.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "core/terrain/drawn_heights.h"
@@ -8,27 +10,52 @@
 
 namespace oro {
 
-// What float32 makes of the posts around each sample, worked out in float as a GPU does: rounding is no
-// chance. A matrix may be multiplied from its first column or from its last: `backwards`.
-EffectSize EffectPrediction::in_float32(Precision precision, bool backwards) const {
-    const PostGrid& grid = surface_.field().grid;
+namespace {
+
+// Half a step of float32 at a number of this size; neighbours across a power of two included.
+double half_step(double value) {
+    return std::ldexp(1.0, std::ilogb(1.001 * std::abs(value) + 1000.0) - 24);
+}
+
+// No post moves farther when its coordinates are rounded to float32. A ground point moves with its posts.
+double rounding_m(const glm::dvec3& ecef_m) {
+    return glm::length(glm::dvec3(half_step(ecef_m.x), half_step(ecef_m.y), half_step(ecef_m.z)));
+}
+
+// Nor when a float32 matrix takes them to the eye: each of its elements is rounded, and each product; the
+// sums of the three, in whatever order; the translation.
+double transform_m(const glm::dmat3& rotation, const glm::dvec3& ecef_m, const glm::dvec3& eye_m) {
+    constexpr double unit = 1.0 / 16777216.0;
+    glm::dvec3 off_m(0.0);
+    const glm::dvec3 translation_m = rotation * eye_m;
+    for (int row = 0; row < 3; ++row) {
+        double terms_m = 0.0;
+        for (int column = 0; column < 3; ++column)
+            terms_m += std::abs(rotation[column][row] * ecef_m[column]);
+        off_m[row] = unit * (4.0 * terms_m + 2.0 * std::abs(translation_m[row]));
+    }
+    return glm::length(off_m);
+}
+
+}  // namespace
+
+// Bounds are derived; what is usual is worked out in float as a GPU does it.
+EffectSize EffectPrediction::in_float32(Precision precision) const {
+    const bool naive = precision == Precision::naive;
+    const auto bound_m = [&](const Sample& sample) {
+        const glm::dvec3 ecef_m = ecef_from_geodetic(sample.point).m;
+        return rounding_m(ecef_m) + (naive ? transform_m(view_from_ecef_, ecef_m, sight_.eye.m) : 0.0);
+    };
     const glm::mat3 rotation(view_from_ecef_);
     const glm::vec3 translation(-(view_from_ecef_ * sight_.eye.m));
-    const auto offset_m = [&](int row, int column, double otherwise_m) {
-        const Geodetic post{row_lat_deg(grid, row), grid.lon.at_deg(column),
-                            surface_.post_h_m(row, column).value_or(otherwise_m)};
-        const glm::vec3 at(ecef_from_geodetic(post).m);
-        if (precision == Precision::rounded_posts) return glm::dvec3(at) - sight_.eye.m;
-        const glm::vec3 turned = backwards ? (rotation[2] * at.z + rotation[1] * at.y) + rotation[0] * at.x
-                                           : (rotation[0] * at.x + rotation[1] * at.y) + rotation[2] * at.z;
-        return glm::dvec3(turned + translation) * view_from_ecef_;
+    const auto usual_m = [&](const Sample& sample) {
+        const glm::dvec3 ecef_m = ecef_from_geodetic(sample.point).m;
+        const glm::vec3 at(ecef_m);
+        if (!naive) return glm::length(glm::dvec3(at) - ecef_m);
+        const glm::vec3 turned = (rotation[0] * at.x + rotation[1] * at.y) + rotation[2] * at.z;
+        return glm::length(glm::dvec3(turned + translation) * view_from_ecef_ - (ecef_m - sight_.eye.m));
     };
-    return displaced(samples_, [&](const Sample& sample) {
-        glm::dvec3 offset(0.0);
-        for (const PostShare& post : shares_of(sample))
-            offset += post.share * offset_m(post.row, post.column, sample.point.h_m);
-        return std::optional(sight_.refraction.apparent_m(offset));
-    });
+    return anywhere(bound_m, usual_m);
 }
 
 // The posts of a sample's triangle, and how much each counts there.
@@ -43,7 +70,8 @@ std::array<EffectPrediction::PostShare, 3> EffectPrediction::shares_of(const Sam
               1.0 - north_west - south_east}}};
 }
 
-// Rounding of heights is no chance either: whole metres of H have all the same rest where N hardly changes.
+// At most half a step. What is usual is no chance: whole metres of H have all the same rest where N hardly
+// changes.
 EffectSize EffectPrediction::in_sixteen_bits() const {
     const PostGrid& grid = surface_.field().grid;
     const auto off_m = [&](int row, int column) {
@@ -52,12 +80,15 @@ EffectSize EffectPrediction::in_sixteen_bits() const {
                            left_out_N_m(row_lat_deg(grid, row), grid.lon.at_deg(column));
         return world_.sixteen.steps(world_.sixteen.code(height_steps(h_m))) * height_step_m - h_m;
     };
-    return displaced(samples_, [&](const Sample& sample) {
-        Geodetic point = sample.point;
-        for (const PostShare& post : shares_of(sample))
-            point.h_m += post.share * off_m(post.row, post.column);
-        return std::optional(sight_.refraction.apparent_m(ecef_from_geodetic(point).m - sight_.eye.m));
+    const EffectSize usual = lifted([&](const Sample& sample) {
+        double off = 0.0;
+        for (const PostShare& post : shares_of(sample)) off += post.share * off_m(post.row, post.column);
+        return std::abs(off);
     });
+    EffectSize size = lifted([&](const Sample&) { return world_.sixteen.error_m(); });
+    size.typical_m = usual.typical_m;
+    size.typical_px = usual.typical_px;
+    return size;
 }
 
 }  // namespace oro

@@ -1,6 +1,6 @@
 // The error of a picture against literal values: surfaces and depths whose errors are known by hand.
-#include "core/measure/skyline_error.h"
 #include "core/truth/picture_error.h"
+#include "core/measure/skyline_error.h"
 
 #include <gtest/gtest.h>
 

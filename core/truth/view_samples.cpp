@@ -1,0 +1,137 @@
+#include "core/truth/view_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/base/parallel.h"
+
+namespace oro {
+namespace {
+
+constexpr int samples_across = 160;
+// Distances that differ by more are of ground on both sides of an edge.
+constexpr double across_edge = 1.2;
+
+// Pixels that are spread evenly over `size` of them, first and last included.
+std::vector<int> spread(int count, int size) {
+    std::vector<int> pixels;
+    for (int i = 0; i < count; ++i)
+        pixels.push_back(
+            count > 1 ? static_cast<int>(std::lround(static_cast<double>(i) * (size - 1) / (count - 1)))
+                      : (size - 1) / 2);
+    return pixels;
+}
+
+class ViewSampler {
+  public:
+    ViewSampler(const TrueSurface& surface, const Sight& sight, const Camera& camera)
+        : surface_(surface),
+          camera_(camera),
+          oracle_(surface, sight),
+          reach_m_(sight_reach_m(camera.eye.h_m)) {}
+
+    using Seen = std::optional<ViewSample>;
+    [[nodiscard]] Seen at(int x, int y, bool even) const {
+        const glm::dvec3 direction = camera_.ecef_direction_at({x + 0.5, y + 0.5});
+        const auto hit = oracle_.first_hit(direction, reach_m_);
+        if (!hit) return std::nullopt;
+        const PostGrid& grid = surface_.field().grid;
+        const auto slope =
+            surface_.slope_at(grid.lat.index_at(hit->point.lat_deg), grid.column_at(hit->point.lon_deg));
+        return ViewSample{hit->point,      hit->distance_m * direction,
+                          hit->distance_m, slope ? slope->steepness() : 0.0,
+                          hit->row,        hit->column,
+                          hit->south_west, even};
+    }
+
+    // The corners of a rectangle of pixels, and what is seen there: (0, 0), (1, 0), (0, 1), (1, 1).
+    struct Quad {
+        int left, top, right, bottom;
+        std::array<Seen, 4> seen;
+    };
+    static bool has_edge(const Quad& quad) {
+        double nearest_m = 0.0, farthest_m = 0.0;
+        int ground = 0;
+        for (const Seen& seen : quad.seen) {
+            if (!seen) continue;
+            nearest_m = ground == 0 ? seen->distance_m : std::min(nearest_m, seen->distance_m);
+            farthest_m = std::max(farthest_m, seen->distance_m);
+            ++ground;
+        }
+        return ground > 0 && (ground < 4 || farthest_m > across_edge * nearest_m);
+    }
+    // Looks between the corners as long as there is an edge between them.
+    void look_between(const Quad& quad, std::vector<ViewSample>& found) const {
+        if ((quad.right - quad.left <= 1 && quad.bottom - quad.top <= 1) || !has_edge(quad)) return;
+        const int x = (quad.left + quad.right) / 2, y = (quad.top + quad.bottom) / 2;
+        const bool wide = quad.right - quad.left > 1, tall = quad.bottom - quad.top > 1;
+        const auto look = [&](int at_x, int at_y) {
+            Seen seen = at(at_x, at_y, false);
+            if (seen) found.push_back(*seen);
+            return seen;
+        };
+        const auto& [nw, ne, sw, se] = quad.seen;
+        if (!tall) {
+            const Seen north = look(x, quad.top), south = look(x, quad.bottom);
+            look_between({quad.left, quad.top, x, quad.bottom, {nw, north, sw, south}}, found);
+            look_between({x, quad.top, quad.right, quad.bottom, {north, ne, south, se}}, found);
+            return;
+        }
+        if (!wide) {
+            const Seen west = look(quad.left, y), east = look(quad.right, y);
+            look_between({quad.left, quad.top, quad.right, y, {nw, ne, west, east}}, found);
+            look_between({quad.left, y, quad.right, quad.bottom, {west, east, sw, se}}, found);
+            return;
+        }
+        const Seen north = look(x, quad.top), south = look(x, quad.bottom), west = look(quad.left, y),
+                   east = look(quad.right, y), middle = look(x, y);
+        look_between({quad.left, quad.top, x, y, {nw, north, west, middle}}, found);
+        look_between({x, quad.top, quad.right, y, {north, ne, middle, east}}, found);
+        look_between({quad.left, y, x, quad.bottom, {west, middle, sw, south}}, found);
+        look_between({x, y, quad.right, quad.bottom, {middle, east, south, se}}, found);
+    }
+
+  private:
+    const TrueSurface& surface_;
+    const Camera& camera_;
+    Oracle oracle_;
+    double reach_m_;
+};
+
+}  // namespace
+
+std::vector<ViewSample> view_samples(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+                                     int threads) {
+    const ViewSampler sampler(surface, sight, camera);
+    const int across = std::clamp(camera.width_px, 1, samples_across);
+    const int down = std::clamp(samples_across * camera.height_px / std::max(1, camera.width_px), 1,
+                                std::min(camera.height_px, 4 * samples_across));
+    const std::vector<int> xs = spread(across, camera.width_px), ys = spread(down, camera.height_px);
+    std::vector<std::vector<ViewSampler::Seen>> seen(ys.size(), std::vector<ViewSampler::Seen>(xs.size()));
+    in_parallel(down, threads, [&](int i) {
+        const std::size_t row = static_cast<std::size_t>(i);
+        for (std::size_t j = 0; j < xs.size(); ++j) seen[row][j] = sampler.at(xs[j], ys[row], true);
+    });
+    std::vector<std::vector<ViewSample>> between(ys.size());
+    in_parallel(down - 1, threads, [&](int i) {
+        const std::size_t row = static_cast<std::size_t>(i);
+        for (std::size_t j = 0; j + 1 < xs.size(); ++j)
+            sampler.look_between({xs[j],
+                                  ys[row],
+                                  xs[j + 1],
+                                  ys[row + 1],
+                                  {seen[row][j], seen[row][j + 1], seen[row + 1][j], seen[row + 1][j + 1]}},
+                                 between[row]);
+    });
+    std::vector<ViewSample> samples;
+    for (std::size_t row = 0; row < ys.size(); ++row) {
+        for (const ViewSampler::Seen& one : seen[row])
+            if (one) samples.push_back(*one);
+        samples.insert(samples.end(), between[row].begin(), between[row].end());
+    }
+    return samples;
+}
+
+}  // namespace oro
