@@ -113,6 +113,7 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueSurfa
     if (!budget.empty) {
         budget.nearest_m = prediction.nearest_m();
         budget.median_distance_m = prediction.median_distance_m();
+        budget.sight_lines = prediction.sight_lines();
     }
     double largest_px = 0.0;
     for (const EffectFacts& effect : effect_table()) {

@@ -13,9 +13,6 @@
 
 namespace oro {
 
-// What placement and depths may add to what tau allows.
-inline constexpr double drawing_slack_px = 0.05;
-
 enum class Bundle { draft, balanced, survey };
 
 // What --accuracy stands for.
@@ -65,6 +62,7 @@ struct Budget {
     bool empty{};                        // nothing is in view
     double nearest_m{};
     double median_distance_m{};
+    std::size_t sight_lines{};  // that estimates are made of
 };
 
 // The true world of a view: refraction is the view's own, or the usual one where it has none.

@@ -49,7 +49,7 @@ void draw_errors(Canvas& canvas, const Verification& verification) {
     std::size_t pixel = 0;
     for (int y = 0; y < picture.height_px; ++y) {
         for (int x = 0; x < picture.width_px; ++x, ++pixel) {
-            const float error_px = verification.interior.px[pixel];
+            const float error_px = verification.errors.ground.displacement_px[pixel];
             if (!(picture.depths[pixel] > 0.0F))
                 canvas.set(x, y, sky);
             else if (error_px == not_measured)
@@ -64,7 +64,7 @@ void draw_errors(Canvas& canvas, const Verification& verification) {
 void mark_skyline(Canvas& canvas, const Verification& verification, int scale) {
     const int mark_px = 8 * scale;
     for (int x = 0; x < verification.picture.width_px; ++x) {
-        const float error_px = verification.skyline.px[static_cast<std::size_t>(x)];
+        const float error_px = verification.errors.skyline.px[static_cast<std::size_t>(x)];
         if (error_px == not_measured || error_px <= marked_from_px) continue;
         const int y = static_cast<int>(verification.true_skyline.y_px[static_cast<std::size_t>(x)]);
         const int top = y >= mark_px ? y - mark_px : y;
@@ -143,9 +143,9 @@ std::vector<std::string> error_legend(const Verification& verification, double t
     return {"colour: how far off the ground is, in pixels (px)",
             tau,
             heads,
-            figures_line("ground, px", verification.interior.summary_px),
-            figures_line("ground, m", verification.interior.summary_m),
-            figures_line("skyline, px", verification.skyline.summary_px),
+            figures_line("ground, px", verification.errors.ground.summary_displacement_px),
+            figures_line("ground, m", verification.errors.ground.summary_displacement_m),
+            figures_line("skyline, px", verification.errors.skyline.summary_px),
             skyline,
             "grey: sky, magenta: could not be measured"};
 }

@@ -25,7 +25,7 @@ std::string if_any(std::uint64_t count, const char* words) {
 std::string table_line(const char* what, const ErrorSummary& of) {
     constexpr int before_point = 8;
     std::string line = what;
-    line.resize(14, ' ');
+    line.resize(18, ' ');
     for (const double value : {of.largest, of.p9999, of.p99, of.mean})
         line += of.count > 0 ? point_aligned(value, before_point) : "     n/a    ";
     line.erase(line.find_last_not_of(' ') + 1);
@@ -48,53 +48,70 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
         return Error{ErrorKind::failed, "--gpu-memory",
                      "the GPU may hold " + std::to_string(scene.store().capacity()) +
                          " pages of terrain; this view needs more (a larger --tau needs fewer)"};
-    const int threads = thread_count();
-    done.interior =
-        interior_error(truth.surface(), truth.sight(), view.camera, done.picture.centres(), threads);
-    done.true_skyline = true_skyline(truth.surface(), truth.sight(), view.camera, threads);
-    done.skyline = skyline_error(done.true_skyline, view.camera, done.picture.skylines());
+    const TruePicture true_picture(truth.surface(), truth.sight(), view.camera, thread_count());
+    measure(done, true_picture, view.camera);
     return done;
 }
 
-std::string verification_text(const Verification& verification, double tau_px, const UnseenGround& unseen) {
-    const InteriorError& interior = verification.interior;
-    const SkylineError& skyline = verification.skyline;
-    char text[400];
-    std::snprintf(
-        text, sizeof text,
-        "Ground: how far each drawn point is from the true ground at its latitude and longitude, in height "
-        "(m) and on the picture (px). %s%s.\n"
-        "Skyline: how far the drawn skyline is from the true one. %s%s.\n",
-        counted(interior.drawn, "pixel", "pixels").c_str(),
-        if_any(interior.beyond_data, " of them where there are no data").c_str(),
-        skyline.summary_px.count == 0 ? "None in view"
-                                      : counted(skyline.summary_px.count, "column", "columns").c_str(),
-        if_any(skyline.in_one_only, " more have one in the picture or in truth alone").c_str());
-    std::string all = text;
-    char head[120];
-    std::snprintf(head, sizeof head, "%-14s%9s   %9s   %9s   %9s\n", "error", "largest", "99.99 %", "99 %",
+void measure(Verification& done, const TruePicture& truth, const Camera& camera) {
+    done.true_skyline = truth.skyline();
+    done.errors = picture_errors(truth, done.picture.points, done.picture.skylines(), thread_count());
+    done.slack_px = drawing_slack_px(camera, done.errors.nearest_m);
+}
+
+std::string verification_text(const Verification& verification, double tau_px,
+                              const UnseenGround& unseen) {
+    const GroundErrors& ground = verification.errors.ground;
+    const SeenErrors& seen = verification.errors.seen;
+    const SkylineError& skyline = verification.errors.skyline;
+    std::string text =
+        "Displacement: how far each pixel's ground is drawn from where it truly is. " +
+        counted(ground.drawn, "pixel", "pixels") +
+        if_any(ground.beyond_data, " of them where there are no data") +
+        ".\n"
+        "Surface: how far the drawn ground is from the true surface, wherever along it.\n"
+        "Seen: how far away on the picture the truth has what is drawn; what is missing or should be hidden "
+        "counts." +
+        if_any(seen.other, " pixels show something else, at an edge") +
+        "\n"
+        "Skyline: how far the drawn skyline is from the true one. " +
+        (skyline.summary_px.count == 0 ? "None in view"
+                                       : counted(skyline.summary_px.count, "column", "columns")) +
+        if_any(skyline.in_one_only, " more have one in the picture or in truth alone") + ".\n";
+    char line[200];
+    std::snprintf(line, sizeof line, "%-18s%9s   %9s   %9s   %9s\n", "error", "largest", "99.99 %", "99 %",
                   "mean");
-    all += head;
-    all += table_line("  ground, m", interior.summary_m) + table_line("  ground, px", interior.summary_px) +
-           table_line("  skyline, px", skyline.summary_px);
-    std::snprintf(text, sizeof text,
+    text += line;
+    text += table_line("  displacement, m", ground.summary_displacement_m) +
+            table_line("  displacement, px", ground.summary_displacement_px) +
+            table_line("  surface, m", ground.summary_surface_m) +
+            table_line("  surface, px", ground.summary_surface_px) +
+            table_line("  seen, px", seen.summary_px) + table_line("  skyline, px", skyline.summary_px);
+    std::snprintf(line, sizeof line,
                   "99 %%: 99 of 100 are off by no more than this.\n"
-                  "Allowed: %g px (--tau %g, and %g px that drawing rounds off)\n",
-                  tau_px + drawing_slack_px, tau_px, drawing_slack_px);
-    all += text;
-    if (unseen.columns_beyond > 0) all += "Where the data end: " + unseen_sentence(unseen) + "\n";
-    return all;
+                  "Allowed: %.3g px (--tau %g, and %.2g px that drawing rounds off)\n",
+                  tau_px + verification.slack_px, tau_px, verification.slack_px);
+    text += line;
+    if (unseen.columns_beyond > 0) text += "Where the data end: " + unseen_sentence(unseen) + "\n";
+    return text;
 }
 
 ordered_json verification_json(const Verification& verification) {
-    const InteriorError& interior = verification.interior;
-    const SkylineError& skyline = verification.skyline;
+    const GroundErrors& ground = verification.errors.ground;
+    const SeenErrors& seen = verification.errors.seen;
+    const SkylineError& skyline = verification.errors.skyline;
     ordered_json json = ordered_json::object();
-    json["interior_m"] = summary_json(interior.summary_m);
-    json["interior_px"] = summary_json(interior.summary_px);
+    json["displacement_m"] = summary_json(ground.summary_displacement_m);
+    json["displacement_px"] = summary_json(ground.summary_displacement_px);
+    json["surface_m"] = summary_json(ground.summary_surface_m);
+    json["surface_px"] = summary_json(ground.summary_surface_px);
+    json["seen_px"] = summary_json(seen.summary_px);
     json["skyline_px"] = summary_json(skyline.summary_px);
-    json["drawn_pixels"] = interior.drawn;
-    json["pixels_beyond_data"] = interior.beyond_data;
+    json["largest_px"] = verification.errors.largest_px();
+    json["slack_px"] = verification.slack_px;
+    json["drawn_pixels"] = ground.drawn;
+    json["pixels_beyond_data"] = ground.beyond_data;
+    json["pixels_of_other_ground"] = seen.other;
     json["skyline_columns"] = skyline.summary_px.count;
     json["skyline_in_one_only"] = skyline.in_one_only;
     return json;

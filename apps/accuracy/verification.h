@@ -8,23 +8,25 @@
 #include "apps/accuracy/beyond_data.h"
 #include "apps/accuracy/truth.h"
 #include "apps/view/view.h"
-#include "core/measure/skyline_error.h"
-#include "core/truth/picture_error.h"
+#include "core/measure/picture_errors.h"
 #include "render/frame/depth_picture.h"
 
 namespace oro {
 
 struct Verification {
     DepthPicture picture;
-    InteriorError interior;
     Skyline true_skyline;
-    SkylineError skyline;
+    PictureErrors errors;
+    double slack_px{};  // besides tau: what drawing may round off in this view
 };
 
 // Draws a view as its picture is drawn, one sample a pixel and with depths, and measures it. Errors: those of
 // the device; a region that cannot be read; a scene that does not fit into --gpu-memory.
 Result<Verification> verify_view(const View& view, const TrueScene& truth, const Gpu& gpu, Scene& scene,
                                  RasterPath path, const gpu::FrameStyle& style);
+
+// The measuring alone, of a picture that is drawn. `truth`: of the same camera.
+void measure(Verification& done, const TruePicture& truth, const Camera& camera);
 
 // For people: a table of some lines, each with its line end, and what the data cannot tell.
 std::string verification_text(const Verification& verification, double tau_px, const UnseenGround& unseen);

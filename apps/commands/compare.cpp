@@ -104,7 +104,7 @@ Result<void> run_compare(const CompareOptions& options) {
     bar.show(0.0, "comparing");
     ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));
     ORO_TRY(const UnseenGround unseen, unseen_in(view, region, *truth, ceiling_m));
-    if (verification.interior.drawn == 0) {
+    if (verification.errors.ground.drawn == 0) {
         ORO_TRY(const std::string nothing, nothing_in_view(view, region, options.view_file));
         say(options.quiet, "note: " + nothing);
     }

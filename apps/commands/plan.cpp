@@ -43,6 +43,18 @@ const char* key_of(EffectMeasure measure) {
     return "";
 }
 
+const char* key_of(EffectBound bound) {
+    switch (bound) {
+        case EffectBound::derived:
+            return "derived";
+        case EffectBound::estimated:
+            return "estimated";
+        case EffectBound::stated:
+            return "stated";
+    }
+    return "";
+}
+
 ordered_json size_json(const EffectSize& size) {
     return json_object("worst_m", size.worst_m, "typical_m", size.typical_m, "worst_px", size.worst_px,
                        "typical_px", size.typical_px);
@@ -54,6 +66,7 @@ ordered_json effect_json(const BudgetLine& line) {
         json_object("effect", error_name(line.kind), "kind", facts.key, "group", key_of(facts.group));
     effect["meaning"] = facts.meaning;
     effect["measured_by"] = key_of(facts.measured_by);
+    effect["bound"] = key_of(facts.bound);
     effect["size"] = nullptr;
     if (line.size) effect["size"] = size_json(*line.size);
     effect["in_picture"] = line.in_picture;
@@ -76,6 +89,7 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     json["in_view"] = !budget.empty;
     json["nearest_m"] = budget.nearest_m;
     json["median_distance_m"] = budget.median_distance_m;
+    json["sight_lines"] = budget.sight_lines;
     json["effects"] = ordered_json::array();
     for (const BudgetLine& line : budget.lines) json["effects"].push_back(effect_json(line));
     json["total"] = size_json(budget.total);

@@ -158,6 +158,18 @@ std::string eye_text(const View& view, const PlanEye& eye) {
     return text;
 }
 
+// Whose worst sizes are no derived bounds.
+std::string estimates_text(const Budget& budget) {
+    std::string names;
+    for (const BudgetLine& line : budget.lines) {
+        const EffectFacts& facts = facts_of(line.kind);
+        if (facts.bound != EffectBound::estimated || facts.group != EffectGroup::model) continue;
+        names += (names.empty() ? "" : ", ") + std::string(facts.name);
+    }
+    return "Estimates, not bounds: " + names + ". They are the largest of " + grouped(budget.sight_lines) +
+           " sight lines, and a margin.\n";
+}
+
 }  // namespace
 
 std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye,
@@ -177,7 +189,10 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
         view.camera.height_px, view.camera.vertical_fov_deg, budget.tolerance_px);
     const std::string limit = pixels(budget.tolerance_px);
     std::string out = eye_text(view, eye) + text;
-    out += "Worst: no point in view is off by more. Typical: half of the points are off by less.\n\n";
+    out +=
+        "Worst: no ground is moved farther, and so nothing that is seen, no edge and no skyline.\n"
+        "Typical: half of the ground is moved by less.\n" +
+        estimates_text(budget) + "\n";
     out += "Switch off one part of the model to see how much error that causes:\n";
     out += headings("part of the model", "needed", "for " + limit, "left out by");
     out += rows(budget, EffectGroup::model, view);

@@ -81,7 +81,6 @@ void describe(const TradeOptions& options, const View& view, const Gpu& gpu, Ras
         TradeSetting setting;
         setting.key = one.key;
         setting.options = one.options;
-        setting.limit_px = one.limit_px;
         report.settings.push_back(setting);
     }
 }

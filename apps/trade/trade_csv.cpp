@@ -22,8 +22,11 @@ std::string summary_fields(const ErrorSummary& summary) {
 
 constexpr std::string_view header =
     "view,setting,gpu_ms,triangles,bytes,"
-    "interior_m_max,interior_m_p9999,interior_m_p99,interior_m_mean,interior_m_count,"
-    "interior_px_max,interior_px_p9999,interior_px_p99,interior_px_mean,interior_px_count,"
+    "displacement_m_max,displacement_m_p9999,displacement_m_p99,displacement_m_mean,displacement_m_count,"
+    "displacement_px_max,displacement_px_p9999,displacement_px_p99,displacement_px_mean,displacement_px_"
+    "count,"
+    "surface_px_max,surface_px_p9999,surface_px_p99,surface_px_mean,surface_px_count,"
+    "seen_px_max,seen_px_p9999,seen_px_p99,seen_px_mean,seen_px_count,"
     "skyline_px_max,skyline_px_p9999,skyline_px_p99,skyline_px_mean,skyline_px_count,"
     "skyline_in_one_only";
 
@@ -35,8 +38,9 @@ std::string trade_csv(const TradeReport& report) {
     for (const TradeShot& shot : report.shots) {
         csv += field(shot.view) + "," + field(name_of(shot.setting)) + "," + all_digits(shot.gpu_ms) + "," +
                std::to_string(shot.triangles) + "," + std::to_string(shot.bytes);
-        csv += summary_fields(shot.interior_m) + summary_fields(shot.interior_px) +
-               summary_fields(shot.skyline_px);
+        for (const ErrorSummary* const of :
+             {&shot.displacement_m, &shot.displacement_px, &shot.surface_px, &shot.seen_px, &shot.skyline_px})
+            csv += summary_fields(*of);
         csv += "," + std::to_string(shot.skyline_in_one_only) + "\r\n";
     }
     return csv;

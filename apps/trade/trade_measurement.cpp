@@ -86,7 +86,7 @@ Result<Scene*> Trade::scene_of(const TradeCase& one) {
     return &scenes_.emplace(key, std::move(scene)).first->second;
 }
 
-Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const Sight& sight,
+Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const TruePicture& truth,
                                Verification& drawn) {
     ORO_TRY(Scene* const scene, scene_of(one));
     const Camera from = camera_of(camera, one);
@@ -105,17 +105,19 @@ Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const
         ORO_TRY(const DepthPicture again, painter_.draw(*scene, from, style_, drawing));
         times_s.push_back(again.report.gpu_s());
     }
-    drawn.interior = interior_error(surface(), sight, camera, drawn.picture.centres(), thread_count());
-    drawn.skyline = skyline_error(drawn.true_skyline, camera, drawn.picture.skylines());
+    oro::measure(drawn, truth, camera);
     TradeShot shot;
     shot.setting = one.key;
     shot.gpu_ms = 1000.0 * median_of(std::move(times_s));
     shot.triangles = drawn.picture.report.counts.triangles_drawn;
     shot.bytes = drawn.picture.page_bytes;
-    shot.interior_m = drawn.interior.summary_m;
-    shot.interior_px = drawn.interior.summary_px;
-    shot.skyline_px = drawn.skyline.summary_px;
-    shot.skyline_in_one_only = drawn.skyline.in_one_only;
+    shot.displacement_m = drawn.errors.ground.summary_displacement_m;
+    shot.displacement_px = drawn.errors.ground.summary_displacement_px;
+    shot.surface_px = drawn.errors.ground.summary_surface_px;
+    shot.seen_px = drawn.errors.seen.summary_px;
+    shot.skyline_px = drawn.errors.skyline.summary_px;
+    shot.skyline_in_one_only = drawn.errors.skyline.in_one_only;
+    if (one.keeps_tau) shot.limit_px = one.tau_px + drawn.slack_px;
     return shot;
 }
 
@@ -135,17 +137,17 @@ Result<void> Trade::measure(const Camera& camera, const std::string& name, bool 
     const Sight sight = sight_from(camera.eye, world_.refraction_k);
     const EffectPrediction prediction(surface(), *pages_, camera, world_, thread_count());
     Verification drawn;
-    drawn.true_skyline = true_skyline(surface(), sight, camera, thread_count());
+    const TruePicture truth(surface(), sight, camera, thread_count());
     for (const TradeCase& one : cases_) {
-        ORO_TRY(TradeShot shot, shoot(one, camera, sight, drawn));
+        ORO_TRY(TradeShot shot, shoot(one, camera, truth, drawn));
         shot.view = name;
         report.shots.push_back(shot);
         if (pictures && (one.key.bundle == Bundle::draft || one.key.bundle == Bundle::balanced))
             ORO_CHECK(add_pictures(drawn, one, name, report));
         ORO_TRY(TradeEffect effect, predicted(one, prediction));
         effect.view = name;
-        effect.measured_m = shot.interior_m.largest;
-        effect.measured_px = shot.interior_px.largest;
+        effect.measured_m = shot.displacement_m.largest;
+        effect.measured_px = shot.largest_px();
         report.effects.push_back(effect);
     }
     return add_data_effects(prediction, name, report);

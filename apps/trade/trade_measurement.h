@@ -41,7 +41,7 @@ class Trade {
     [[nodiscard]] Camera camera_of(const Camera& camera, const TradeCase& one) const;
     [[nodiscard]] MemoryOptions share_of_memory() const;
     Result<Scene*> scene_of(const TradeCase& one);
-    Result<TradeShot> shoot(const TradeCase& one, const Camera& camera, const Sight& sight,
+    Result<TradeShot> shoot(const TradeCase& one, const Camera& camera, const TruePicture& truth,
                             Verification& drawn);
     Result<TradeEffect> predicted(const TradeCase& one, const EffectPrediction& prediction) const;
 

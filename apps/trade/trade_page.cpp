@@ -38,7 +38,7 @@ std::size_t index_of(const Items& items, const Find& is_it) {
 }
 
 ordered_json setting_json(const TradeSetting& setting) {
-    const bool ground = setting.interior_pixels > 0;
+    const bool ground = setting.displacement_pixels > 0;
     ordered_json json = ordered_json::object();
     json["name"] = name_of(setting.key);
     json["options"] = valid_text(setting.options);
@@ -46,12 +46,13 @@ ordered_json setting_json(const TradeSetting& setting) {
     json["gpu_ms"] = number(setting.gpu_ms);
     json["triangles"] = setting.triangles;
     json["bytes"] = setting.bytes;
-    json["ground_m"] = measured(ground, setting.interior_m);
-    json["ground_px"] = measured(ground, setting.interior_px);
-    json["ground_p99_px"] = measured(ground, setting.interior_p99_px);
-    json["ground_mean_px"] = measured(ground, setting.interior_mean_px);
+    json["ground_m"] = measured(ground, setting.displacement_m);
+    json["ground_px"] = measured(ground, setting.displacement_px);
+    json["ground_p99_px"] = measured(ground, setting.displacement_p99_px);
+    json["ground_mean_px"] = measured(ground, setting.displacement_mean_px);
+    json["seen_px"] = measured(ground, setting.seen_px);
     json["skyline_px"] = measured(setting.skyline_columns > 0, setting.skyline_px);
-    json["over_limit"] = ground && setting.limit_px && !(setting.interior_px <= *setting.limit_px);
+    json["over_limit"] = ground && setting.limit_px && !(setting.displacement_px <= *setting.limit_px);
     json["best"] = setting.on_front;
     return json;
 }
@@ -72,8 +73,10 @@ ordered_json shot_json(const TradeReport& report, const std::vector<std::string>
     json["gpu_ms"] = number(shot.gpu_ms);
     json["triangles"] = shot.triangles;
     json["bytes"] = shot.bytes;
-    json["ground_m"] = summary_json(shot.interior_m);
-    json["ground_px"] = summary_json(shot.interior_px);
+    json["ground_m"] = summary_json(shot.displacement_m);
+    json["ground_px"] = summary_json(shot.displacement_px);
+    json["surface_px"] = summary_json(shot.surface_px);
+    json["seen_px"] = summary_json(shot.seen_px);
     json["skyline_px"] = summary_json(shot.skyline_px);
     json["skyline_in_one_only"] = shot.skyline_in_one_only;
     return json;
@@ -116,9 +119,9 @@ ordered_json limits_json(const TradeReport& report) {
     for (const TradeShot& shot : report.shots) {
         const auto at = std::find_if(report.settings.begin(), report.settings.end(),
                                      [&](const TradeSetting& one) { return one.key == shot.setting; });
-        if (at == report.settings.end() || !at->limit_px || shot.interior_px.count == 0) continue;
+        if (at == report.settings.end() || !at->limit_px || shot.displacement_px.count == 0) continue;
         ++pictures;
-        if (!(shot.interior_px.largest <= *at->limit_px)) ++over;
+        if (!(shot.largest_px() <= shot.limit_px.value_or(*at->limit_px))) ++over;
     }
     return json_object("pictures", pictures, "over", over);
 }

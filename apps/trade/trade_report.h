@@ -1,6 +1,7 @@
 // What a trade has measured: each view drawn with each setting, and each effect predicted and measured.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "apps/trade/trade_key.h"
 #include "core/base/result.h"
+#include "core/measure/seen_error.h"
 #include "core/truth/picture_error.h"
 
 namespace oro {
@@ -19,25 +21,32 @@ struct TradeShot {
     double gpu_ms{};  // timestamps: levels, triangles and shading of one sample, median of the repeats
     std::uint64_t triangles{};
     std::uint64_t bytes{};  // of the pages that the frame reads, on the GPU
-    ErrorSummary interior_m, interior_px, skyline_px;
+    ErrorSummary displacement_m, displacement_px, surface_px, seen_px, skyline_px;
+    // Of all of them, edges less what they are found to.
+    [[nodiscard]] double largest_px() const {
+        return std::max({displacement_px.largest, surface_px.largest, seen_px.largest - seen_resolution_px,
+                         skyline_px.largest - seen_resolution_px});
+    }
+    std::optional<double>
+        limit_px;  // of each of them: tau and what drawing rounds off, where all else is there
     std::uint64_t skyline_in_one_only{};
 };
 
 // All views with one setting.
 struct TradeSetting {
     TradeKey key;
-    std::string options;  // "--tau 2 --heights i16": how a user asks for it
-    std::optional<double>
-        limit_px;               // what the interior error must not exceed (tau and some more), if it has one
-    double gpu_ms{};            // median over the views
-    std::uint64_t triangles{};  // sums over the views
+    std::string options;             // "--tau 2 --heights i16": how a user asks for it
+    std::optional<double> limit_px;  // the largest of its shots' limits, where they have one
+    double gpu_ms{};                 // median over the views
+    std::uint64_t triangles{};       // sums over the views
     std::uint64_t bytes{};
-    double interior_m{}, interior_px{}, interior_p99_px{}, interior_mean_px{},
-        skyline_px{};                 // worst (mean of means) over the views
-    std::uint64_t interior_pixels{};  // sums over the views of what was measured; 0: the errors mean nothing
+    double displacement_m{}, displacement_px{}, displacement_p99_px{}, displacement_mean_px{}, seen_px{},
+        skyline_px{};  // worst (mean of means) over the views
+    std::uint64_t
+        displacement_pixels{};  // sums over the views of what was measured; 0: the errors mean nothing
     std::uint64_t skyline_columns{};
-    // Pareto: no other setting is at least as good in gpu_ms and interior_px, and better in one; equals are
-    // on it together. Settings where nothing was measured, or a number is not finite, are not.
+    // Pareto: no other setting is at least as good in gpu_ms and displacement_px, and better in one; equals
+    // are on it together. Settings where nothing was measured, or a number is not finite, are not.
     bool on_front{};
 };
 

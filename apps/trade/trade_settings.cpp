@@ -14,7 +14,7 @@ void add_levels(std::vector<TradeCase>& cases) {
         char options[60];
         std::snprintf(options, sizeof options, "--tau %g --refraction 0.13", tau_px);
         TradeCase one{{EffectKind::detail, tau_px, {}}, options, tau_px, true_air};
-        one.limit_px = tau_px + drawing_slack_px;
+        one.keeps_tau = true;
         cases.push_back(one);
     }
 }
@@ -37,7 +37,7 @@ void add_models(std::vector<TradeCase>& cases) {
 
 std::vector<TradeCase> trade_cases() {
     std::vector<TradeCase> cases{{{}, "--tau 0 --refraction 0.13", 0.0, true_air}};
-    cases.front().limit_px = drawing_slack_px;
+    cases.front().keeps_tau = true;
     add_levels(cases);
     add_models(cases);
     for (const AccuracyBundle& bundle : accuracy_bundles()) {
@@ -47,7 +47,7 @@ std::vector<TradeCase> trade_cases() {
         one.heights = bundle.heights;
         // Where levels are all that is left out.
         if (bundle.heights == HeightStorage::f32 && bundle.refraction_k == usual_refraction_k)
-            one.limit_px = bundle.tau_px + drawing_slack_px;
+            one.keeps_tau = true;
         cases.push_back(one);
     }
     return cases;

@@ -17,7 +17,7 @@ struct TradeCase {
     WorldModel world;
     bool has_geoid{true};
     HeightStorage heights{HeightStorage::f32};
-    std::optional<double> limit_px{};  // interior error that it must not exceed
+    bool keeps_tau{};  // levels are all that is left out: no error exceeds tau and what drawing rounds off
 };
 
 // Full detail first, then levels, then one thing left out or rounded at a time, then bundles. All but those

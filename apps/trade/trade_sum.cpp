@@ -19,28 +19,31 @@ TradeSetting sum_of(const std::vector<TradeShot>& shots, const TradeKey& key) {
         times_ms.push_back(shot.gpu_ms);
         sum.triangles += shot.triangles;
         sum.bytes += shot.bytes;
-        sum.interior_pixels += shot.interior_px.count;
+        sum.displacement_pixels += shot.displacement_px.count;
         sum.skyline_columns += shot.skyline_px.count;
-        sum.interior_m = worse(sum.interior_m, shot.interior_m.largest);
-        sum.interior_px = worse(sum.interior_px, shot.interior_px.largest);
-        sum.interior_p99_px = worse(sum.interior_p99_px, shot.interior_px.p99);
+        sum.displacement_m = worse(sum.displacement_m, shot.displacement_m.largest);
+        sum.displacement_px = worse(sum.displacement_px, shot.displacement_px.largest);
+        sum.displacement_p99_px = worse(sum.displacement_p99_px, shot.displacement_px.p99);
+        sum.seen_px = worse(sum.seen_px, shot.seen_px.largest);
         sum.skyline_px = worse(sum.skyline_px, shot.skyline_px.largest);
-        if (shot.interior_px.count == 0) continue;
-        means_px += shot.interior_px.mean;
+        if (shot.limit_px) sum.limit_px = std::max(sum.limit_px.value_or(0.0), *shot.limit_px);
+        if (shot.displacement_px.count == 0) continue;
+        means_px += shot.displacement_px.mean;
         ++measured;
     }
     sum.gpu_ms = median_of(std::move(times_ms));
-    if (measured > 0) sum.interior_mean_px = means_px / measured;
+    if (measured > 0) sum.displacement_mean_px = means_px / measured;
     return sum;
 }
 
 bool can_compare(const TradeSetting& setting) {
-    return setting.interior_pixels > 0 && std::isfinite(setting.gpu_ms) && std::isfinite(setting.interior_px);
+    return setting.displacement_pixels > 0 && std::isfinite(setting.gpu_ms) &&
+           std::isfinite(setting.displacement_px);
 }
 
 bool better(const TradeSetting& a, const TradeSetting& b) {
-    return a.gpu_ms <= b.gpu_ms && a.interior_px <= b.interior_px &&
-           (a.gpu_ms < b.gpu_ms || a.interior_px < b.interior_px);
+    return a.gpu_ms <= b.gpu_ms && a.displacement_px <= b.displacement_px &&
+           (a.gpu_ms < b.gpu_ms || a.displacement_px < b.displacement_px);
 }
 
 }  // namespace
@@ -57,7 +60,7 @@ void sum_up(TradeReport& report) {
         TradeSetting sum = sum_of(report.shots, shot.setting);
         if (const auto at = of(known, shot.setting); at != known.end()) {
             sum.options = at->options;
-            sum.limit_px = at->limit_px;
+            if (!sum.limit_px) sum.limit_px = at->limit_px;
         }
         report.settings.push_back(std::move(sum));
     }

@@ -133,36 +133,40 @@ class Table {
     bool text_last_;
 };
 
-// All of it: rounded, 1.05 would not be what the line below the table says.
 std::string limit_text(double limit_px) {
     char text[40];
-    std::snprintf(text, sizeof text, "%g", limit_px);
+    std::snprintf(text, sizeof text, "%.3g", limit_px);
     return text;
 }
 
 std::string settings_text(const TradeReport& report) {
     Table table(
-        {{"  setting", "time", "triangles", "terrain", "ground", "", "", "", "limit", "skyline"},
-         {"", "median ms", "all views", "MB", "worst m", "worst px", "99 % px", "mean px", "px", "worst px"}},
+        {{"  setting", "time", "triangles", "terrain", "ground", "", "", "", "limit", "seen", "skyline"},
+         {"", "median ms", "all views", "MB", "worst m", "worst px", "99 % px", "mean px", "px", "worst px",
+          "worst px"}},
         false);
     for (const TradeSetting& setting : report.settings) {
-        const bool measured = setting.interior_pixels > 0;
+        const bool measured = setting.displacement_pixels > 0;
         const auto ground = [&](double value) {
             return measured ? coarse_figure(value) : std::string("n/a");
         };
         table.add({(setting.on_front ? "* " : "  ") + name_of(setting.key), coarse_figure(setting.gpu_ms),
                    grouped(setting.triangles), coarse_figure(megabytes(setting.bytes)),
-                   ground(setting.interior_m), ground(setting.interior_px), ground(setting.interior_p99_px),
-                   ground(setting.interior_mean_px), setting.limit_px ? limit_text(*setting.limit_px) : "",
+                   ground(setting.displacement_m), ground(setting.displacement_px),
+                   ground(setting.displacement_p99_px), ground(setting.displacement_mean_px),
+                   setting.limit_px ? limit_text(*setting.limit_px) : "", ground(setting.seen_px),
                    setting.skyline_columns > 0 ? coarse_figure(setting.skyline_px) : "n/a"});
     }
     return table.text() +
            "* unbeaten: no other setting is both as fast and as close (worst px), and better in one of the "
            "two\n"
-           "ground: how far each drawn point is from the true ground, in height (m) and on the picture (px)\n"
+           "ground: how far each pixel's ground is drawn from where it truly is, in metres and on the "
+           "picture\n"
            "99 %: 99 of 100 points are off by no more than this\n"
            "skyline: how far the drawn skyline is from the true one\n"
-           "limit: by how much --tau lets ground be off, and 0.05 px for what drawing rounds off\n"
+           "seen: how far away on the picture the truth has what is drawn\n"
+           "limit: what none of them exceeds: --tau, and what drawing rounds off (0.05 px, more near "
+           "ground)\n"
            "terrain: what the GPU read of it\n";
 }
 

@@ -51,7 +51,7 @@ class TruthPicture {
     // The smallest circle around a place, of some, on which a ray passes `drawn`.
     [[nodiscard]] double circle_px(const glm::dvec2& point_px, Nearness drawn) const {
         const bool nearer = through(point_px) > drawn;
-        for (const double radius_px : {1.0 / 16.0, 0.125, 0.25, 0.5, 0.75}) {
+        for (const double radius_px : {1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 0.125, 0.25, 0.5, 0.75}) {
             constexpr int directions = 16;
             for (int i = 0; i < directions; ++i) {
                 const double turn = 2.0 * std::acos(-1.0) * i / directions;
@@ -130,8 +130,7 @@ double off_px(const TruthPicture& picture, const GroundMeter& meter, int x, int 
     const Nearness drawn =
         point.background() ? 0.0 : 1.0 / (point.z_m * glm::length(meter.ray_view(centre_px)));
     const double between_px = picture.away_px(x, y, drawn);
-    constexpr double small_px = 1.0 / 16.0;
-    if (between_px <= small_px) return between_px;
+    if (between_px <= seen_resolution_px) return between_px;
     if (!point.background()) {
         const std::optional<glm::dvec3> seen_m = meter.seen_m(point.row, point.column);
         const double moved_px =

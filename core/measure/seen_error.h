@@ -29,11 +29,13 @@ struct SeenErrors {
                             // for sky: across an edge
 };
 inline constexpr int seen_reach_px = 32;
+// To how much of a pixel edges are looked for, here and along the skyline.
+inline constexpr double seen_resolution_px = 1.0 / 64.0;
 
 // `truth`: what the oracle sees at the pixels' centres (Oracle::cast_picture); `meter` knows where ground
 // points are truly seen: one that is drawn and truly visible is off by its displacement. Hidden ones are
-// looked for around the pixel, with rays a sixteenth of a pixel apart and more. Error: never too small by
-// more than 1/16 px; too large where what is drawn is truly seen through a gap narrower than that.
+// looked for around the pixel, on circles of 1/64 px to 3/4 px. Error: 1/64 px; too large where what is drawn
+// is truly seen through a gap that the rays miss.
 SeenErrors seen_errors(const Oracle& oracle, const GroundMeter& meter,
                        std::span<const std::optional<SightHit>> truth, const Camera& camera,
                        std::span<const DrawnPoint> points, int threads);

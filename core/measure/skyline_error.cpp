@@ -96,8 +96,9 @@ struct Apart {
 constexpr double by_chance_px = 0.05;
 
 // How far the true picture is to be moved, in any direction, so that it has what is drawn in a column: ground
-// at its first sample with ground, sky at those above. Nothing where more than by_chance_px is needed.
-std::optional<double> moved_px(const Oracle& oracle, const Camera& camera, const Apart& apart) {
+// at its first sample with ground, sky at those above. At most `off_px`, which columns alone tell: between
+// them a line was drawn where there may be a step, up to a pixel aside.
+double moved_px(const Oracle& oracle, const Camera& camera, const Apart& apart, double off_px) {
     const double reach_m = sight_reach_m(camera.eye.h_m);
     constexpr double step_px = 1.0 / skyline_samples;
     const auto has_all = [&](const glm::dvec2& by_px) {
@@ -110,13 +111,15 @@ std::optional<double> moved_px(const Oracle& oracle, const Camera& camera, const
             if (is_ground(y_px)) return false;
         return std::isinf(apart.drawn.sky_px) || !is_ground(apart.drawn.sky_px);
     };
-    for (const double by_px : {by_chance_px / 4.0, by_chance_px / 2.0, by_chance_px}) {
-        for (int direction = 0; direction < 8; ++direction) {
-            const double turn = direction * std::acos(-1.0) / 4.0;
+    constexpr int directions = 16;
+    constexpr double finest_px = 0.0125, growth = 1.2, step_aside_px = 1.0;
+    for (double by_px = std::max(finest_px, off_px - step_aside_px); by_px < off_px; by_px *= growth) {
+        for (int direction = 0; direction < directions; ++direction) {
+            const double turn = 2.0 * std::acos(-1.0) * direction / directions;
             if (has_all(by_px * glm::dvec2(std::cos(turn), std::sin(turn)))) return by_px;
         }
     }
-    return std::nullopt;
+    return off_px;
 }
 
 }  // namespace
@@ -155,7 +158,7 @@ SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span
         const int x = static_cast<int>(column);
         double off_px = off_line_px(truth, camera, x, *drawn);
         if (oracle && off_px > by_chance_px)
-            off_px = moved_px(*oracle, camera, {x, static_cast<double>(true_px), *drawn}).value_or(off_px);
+            off_px = moved_px(*oracle, camera, {x, static_cast<double>(true_px), *drawn}, off_px);
         error.px[column] = static_cast<float>(off_px);
     }
     error.summary_px = summary_of(error.px);

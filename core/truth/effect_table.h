@@ -45,6 +45,13 @@ enum class EffectMeasure {
     stated,       // nobody: the source says it of itself
 };
 
+// How the worst size of an effect is known.
+enum class EffectBound {
+    derived,    // no ground point is moved farther
+    estimated,  // the largest of many sight lines, times a margin
+    stated,     // by the source, of itself
+};
+
 // How a view is to be drawn.
 struct DrawingModel {
     WorldModel world;
@@ -64,6 +71,7 @@ struct EffectFacts {
     EffectKind kind;
     EffectGroup group;
     EffectMeasure measured_by;
+    EffectBound bound;
     const char* key;                         // for programs that read JSON
     const char* name;                        // for people: group model: of the part; else of the error
     const char* left_out_by;                 // the option that leaves the part out; "" where there is none

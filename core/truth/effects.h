@@ -42,6 +42,8 @@ class EffectPrediction {
 
     // Nothing is in view: all sizes are 0.
     [[nodiscard]] bool empty() const { return samples_.empty(); }
+    // Sight lines that met ground.
+    [[nodiscard]] std::size_t sight_lines() const { return samples_.size(); }
     [[nodiscard]] double nearest_m() const;
     [[nodiscard]] double median_distance_m() const;
 

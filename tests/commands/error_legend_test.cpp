@@ -15,8 +15,9 @@ constexpr int narrowest_px = 320;
 
 Verification measured(double largest) {
     Verification made;
-    made.interior.summary_px = {largest, 0.5 * largest, 0.1 * largest, 0.001 * largest, 1000};
-    made.interior.summary_m = {1e6 * largest, 200.0 * largest, largest, 0.0, 1000};
+    made.errors.ground.summary_displacement_px = {largest, 0.5 * largest, 0.1 * largest, 0.001 * largest,
+                                                  1000};
+    made.errors.ground.summary_displacement_m = {1e6 * largest, 200.0 * largest, largest, 0.0, 1000};
     return made;
 }
 

@@ -108,8 +108,8 @@ TradeShot shot_of(const MadeView& view, const MadeSetting& setting) {
     const bool sky_only =
         std::string(view.name) == "plain at sunset" && setting.key.effect == EffectKind::flat;
     const double px = setting.px * view.rough;
-    shot.interior_px = sky_only ? ErrorSummary{} : summary(px, 180211);
-    shot.interior_m = sky_only ? ErrorSummary{} : summary(px * 31.4, 180211);
+    shot.displacement_px = sky_only ? ErrorSummary{} : summary(px, 180211);
+    shot.displacement_m = sky_only ? ErrorSummary{} : summary(px * 31.4, 180211);
     if (std::string(view.name) != "straight down") shot.skyline_px = summary(px * 1.7, 640);
     shot.skyline_in_one_only = setting.px > 100.0 ? 41 : 0;
     return shot;

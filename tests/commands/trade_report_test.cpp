@@ -30,8 +30,8 @@ TradeShot shot(const std::string& view, const TradeKey& setting, double gpu_ms, 
     made.gpu_ms = gpu_ms;
     made.triangles = 1000;
     made.bytes = 250000;
-    made.interior_m = {10.0 * px, 8.0 * px, 4.0 * px, px, 100};
-    made.interior_px = {px, 0.75 * px, 0.5 * px, 0.25 * px, 100};
+    made.displacement_m = {10.0 * px, 8.0 * px, 4.0 * px, px, 100};
+    made.displacement_px = {px, 0.75 * px, 0.5 * px, 0.25 * px, 100};
     made.skyline_px = {2.0 * px, 2.0 * px, px, 0.5 * px, 16};
     return made;
 }
@@ -52,7 +52,7 @@ TEST(TradeReport, SumsSettingsOverTheViews) {
     known.key = level(2);
     known.options = "--tau 2";
     known.limit_px = 2.0;
-    known.interior_px = 99.0;
+    known.displacement_px = 99.0;
     report.settings = {known};
     sum_up(report);
     ASSERT_EQ(report.settings.size(), 2U);
@@ -62,18 +62,18 @@ TEST(TradeReport, SumsSettingsOverTheViews) {
     EXPECT_EQ(one.gpu_ms, 2.0);  // of 1, 2, 3
     EXPECT_EQ(one.triangles, 3000U);
     EXPECT_EQ(one.bytes, 750000U);
-    EXPECT_EQ(one.interior_m, 10.0);
-    EXPECT_EQ(one.interior_px, 1.0);
-    EXPECT_EQ(one.interior_p99_px, 0.5);
-    EXPECT_EQ(one.interior_mean_px, 0.1875);  // (0.125 + 0.25 + 0.1875) / 3
+    EXPECT_EQ(one.displacement_m, 10.0);
+    EXPECT_EQ(one.displacement_px, 1.0);
+    EXPECT_EQ(one.displacement_p99_px, 0.5);
+    EXPECT_EQ(one.displacement_mean_px, 0.1875);  // (0.125 + 0.25 + 0.1875) / 3
     EXPECT_EQ(one.skyline_px, 2.0);
-    EXPECT_EQ(one.interior_pixels, 300U);
+    EXPECT_EQ(one.displacement_pixels, 300U);
     EXPECT_EQ(one.skyline_columns, 48U);
     const TradeSetting& two = report.settings[1];
     EXPECT_EQ(two.options, "--tau 2");
     EXPECT_EQ(two.limit_px, 2.0);
     EXPECT_EQ(two.gpu_ms, 1.5);  // of 1, 2
-    EXPECT_EQ(two.interior_px, 2.0);
+    EXPECT_EQ(two.displacement_px, 2.0);
 }
 
 TEST(TradeReport, TheFrontHoldsWhatNothingBeats) {
@@ -94,10 +94,10 @@ TEST(TradeReport, WhatWasNotMeasuredIsNotOnTheFront) {
     const TradeKey real = level(1), blank = level(2), broken = level(3);
     report.shots = {shot("v", real, 2.0, 1.0), shot("v", blank, 1.0, 0.0), shot("v", broken, 0.5, no_number),
                     shot("w", broken, 0.5, 0.1)};
-    report.shots[1].interior_px = report.shots[1].interior_m = {};
+    report.shots[1].displacement_px = report.shots[1].displacement_m = {};
     sum_up(report);
     EXPECT_EQ(front_of(report), std::vector<TradeKey>{real});
-    EXPECT_TRUE(std::isnan(report.settings[2].interior_px)) << "a good view hid a bad one";
+    EXPECT_TRUE(std::isnan(report.settings[2].displacement_px)) << "a good view hid a bad one";
 }
 
 TEST(TradeReport, CsvIsRfc4180WithAllDigits) {
@@ -106,16 +106,20 @@ TEST(TradeReport, CsvIsRfc4180WithAllDigits) {
                     shot("b", {EffectKind::flat, {}, {}}, 1.0 / 3.0, 256.0)};
     report.shots[1].skyline_px = {};
     report.shots[1].skyline_in_one_only = 7;
-    EXPECT_EQ(trade_csv(report),
-              "view,setting,gpu_ms,triangles,bytes,"
-              "interior_m_max,interior_m_p9999,interior_m_p99,interior_m_mean,interior_m_count,"
-              "interior_px_max,interior_px_p9999,interior_px_p99,interior_px_mean,interior_px_count,"
-              "skyline_px_max,skyline_px_p9999,skyline_px_p99,skyline_px_mean,skyline_px_count,"
-              "skyline_in_one_only\r\n"
-              "\"far, over \"\"the\"\" Alps\",\"no full detail, tau 1\",0.1,1000,250000,"
-              "5,4,2,0.5,100,0.5,0.375,0.25,0.125,100,1,1,0.5,0.25,16,0\r\n"
-              "b,no curve of the Earth,0.3333333333333333,1000,250000,"
-              "2560,2048,1024,256,100,256,192,128,64,100,0,0,0,0,0,7\r\n");
+    EXPECT_EQ(
+        trade_csv(report),
+        "view,setting,gpu_ms,triangles,bytes,"
+        "displacement_m_max,displacement_m_p9999,displacement_m_p99,displacement_m_mean,displacement_m_count,"
+        "displacement_px_max,displacement_px_p9999,displacement_px_p99,displacement_px_mean,displacement_px_"
+        "count,"
+        "surface_px_max,surface_px_p9999,surface_px_p99,surface_px_mean,surface_px_count,"
+        "seen_px_max,seen_px_p9999,seen_px_p99,seen_px_mean,seen_px_count,"
+        "skyline_px_max,skyline_px_p9999,skyline_px_p99,skyline_px_mean,skyline_px_count,"
+        "skyline_in_one_only\r\n"
+        "\"far, over \"\"the\"\" Alps\",\"no full detail, tau 1\",0.1,1000,250000,"
+        "5,4,2,0.5,100,0.5,0.375,0.25,0.125,100,0,0,0,0,0,0,0,0,0,0,1,1,0.5,0.25,16,0\r\n"
+        "b,no curve of the Earth,0.3333333333333333,1000,250000,"
+        "2560,2048,1024,256,100,256,192,128,64,100,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,7\r\n");
 }
 
 TEST(TradeReport, FiguresHaveTheDigitsThatMatter) {

@@ -34,8 +34,8 @@ TradeShot shot(const std::string& view, const TradeKey& setting, double gpu_ms, 
     made.gpu_ms = gpu_ms;
     made.triangles = 1000;
     made.bytes = 250000;
-    made.interior_m = {10.0 * px, 8.0 * px, 4.0 * px, px, 100};
-    made.interior_px = {px, 0.75 * px, 0.5 * px, 0.25 * px, 100};
+    made.displacement_m = {10.0 * px, 8.0 * px, 4.0 * px, px, 100};
+    made.displacement_px = {px, 0.75 * px, 0.5 * px, 0.25 * px, 100};
     made.skyline_px = {2.0 * px, 2.0 * px, px, 0.5 * px, 16};
     return made;
 }
@@ -241,7 +241,7 @@ TEST(TradeScript, ZerosAndWhatIsMissingAreOnThePage) {
     TradeReport report;
     report.shots = {shot("v", level(1), 0.0, 0.0), shot("v", level(2), 1.0, 0.0),
                     shot("v", level(3), 1.0, no_number), shot("v", level(4), 2.0, 1.0)};
-    report.shots[1].interior_px = {};
+    report.shots[1].displacement_px = {};
     report.effects = {{"v", level(1), 0.0, 0.0, 0.0, 0.0}, {"v", level(2), 1e300, no_number, {}, {}}};
     report.pictures = {{"no PNG", "", {1, 2, 3}}};
     sum_up(report);
@@ -288,7 +288,7 @@ TEST(TradeScript, FindingsSayWhatIsOverItsLimit) {
             "times what was measured; 0 could not be measured."),
         std::string::npos);
     EXPECT_NE(html.find("More than predicted in 1 of 2 views."), std::string::npos);
-    report.shots[0].interior_px.largest = 1.0;
+    report.shots[0].displacement_px.largest = 1.0;
     report.effects[0].measured_m = 0.5;
     sum_up(report);
     html = drawn_page(report);

@@ -41,7 +41,16 @@ class TradeOfViews : public test::GpuTest {
             TradeReport report;
             const auto measured = trade.measure(camera, name, false, report);
             ASSERT_TRUE(measured.ok()) << measured.error().line();
-            for (const TradeEffect& effect : report.effects) add(effect, camera);
+            for (const TradeEffect& effect : report.effects) {
+                for (const TradeShot& shot : report.shots) {
+                    if (shot.setting == effect.key)
+                        what_ = "displacement " + std::to_string(shot.displacement_px.largest) +
+                                ", surface " + std::to_string(shot.surface_px.largest) + ", seen " +
+                                std::to_string(shot.seen_px.largest) + ", skyline " +
+                                std::to_string(shot.skyline_px.largest);
+                }
+                add(effect, camera);
+            }
             view.camera = camera;
             const auto choice = choose_accuracy(view, region, trade.surface(), **pages, tolerance_px);
             ASSERT_TRUE(choice.ok()) << choice.error().line();
@@ -64,8 +73,8 @@ class TradeOfViews : public test::GpuTest {
         }
         if (*effect.measured_px <= effect.predicted_px && *effect.measured_m <= effect.predicted_m) return;
         ++held.broken;
-        ADD_FAILURE() << effect.view << ", " << name_of(effect.key) << ": " << *effect.measured_px
-                      << " px, predicted " << effect.predicted_px << "; " << *effect.measured_m
+        ADD_FAILURE() << effect.view << ", " << name_of(effect.key) << ": " << *effect.measured_px << " px ("
+                      << what_ << "), predicted " << effect.predicted_px << "; " << *effect.measured_m
                       << " m, predicted " << effect.predicted_m << "; eye " << camera.eye.lat_deg << ","
                       << camera.eye.lon_deg << " h " << camera.eye.h_m << " heading "
                       << camera.attitude.heading_deg << " pitch " << camera.attitude.pitch_deg << " fov "
@@ -112,6 +121,7 @@ class TradeOfViews : public test::GpuTest {
 
     std::map<std::string, Held> held_;
     std::map<std::string, int> chosen_;
+    std::string what_;
     double worst_chosen_px_{};
 };
 

@@ -70,7 +70,7 @@ function settingRow(setting) {
     cell([grouped(setting.triangles)]), cell(figureParts(megabytes(setting.bytes))), numberCell(setting.ground_m),
     numberCell(setting.ground_px, setting.over_limit ? 'alarm' : ''),
     setting.limit_px === null ? cell(['']) : cell([String(number(setting.limit_px))]), numberCell(setting.ground_p99_px),
-    numberCell(setting.ground_mean_px), numberCell(setting.skyline_px), cell(optionParts(setting.options), 'text')
+    numberCell(setting.ground_mean_px), numberCell(setting.seen_px), numberCell(setting.skyline_px), cell(optionParts(setting.options), 'text')
   ]);
 }
 
@@ -80,7 +80,7 @@ function settingsTable(report) {
     headings([
       {name: '\u25cf', rows: 2}, {name: 'Setting', rows: 2, text: true}, {name: 'Time\nms', rows: 2},
       {name: 'Triangles', rows: 2}, {name: 'Terrain\nMB', rows: 2}, {name: 'Ground', columns: 5},
-      {name: 'Skyline\nworst px', rows: 2}, {name: 'Options', rows: 2, text: true}
+      {name: 'Seen\nworst px', rows: 2}, {name: 'Skyline\nworst px', rows: 2}, {name: 'Options', rows: 2, text: true}
     ]),
     below(['worst m', 'worst px', 'limit px', '99 % px', 'mean px'])
   ], report.settings.map(settingRow));

@@ -1,0 +1,55 @@
+// The four measures of a picture, and the truth that they are taken against.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/earth/camera.h"
+#include "core/measure/drawn_point.h"
+#include "core/measure/ground_error.h"
+#include "core/measure/seen_error.h"
+#include "core/measure/skyline_error.h"
+#include "core/truth/oracle.h"
+#include "core/truth/true_surface.h"
+
+namespace oro {
+
+// What a view truly shows: made once, however many drawings of it are measured. All that it is made of
+// outlives it.
+class TruePicture {
+  public:
+    TruePicture(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads);
+
+    [[nodiscard]] const Skyline& skyline() const { return skyline_; }
+
+  private:
+    friend struct PictureErrors picture_errors(const TruePicture&, std::span<const DrawnPoint>,
+                                               std::span<const DrawnDepths>, int);
+    const TrueSurface& surface_;
+    const Sight& sight_;
+    Camera camera_;
+    Oracle oracle_;
+    std::vector<std::optional<SightHit>> hits_;
+    Skyline skyline_;
+};
+
+// How far a drawing is from the truth: what a drawing moves by no more than so many pixels, is not seen, has
+// no edge and no skyline farther off (docs/ARCHITECTURE.md, Truth).
+struct PictureErrors {
+    GroundErrors ground;  // displacement of each ground point, and distance from the surface
+    SeenErrors seen;      // what is truly seen there
+    SkylineError skyline;
+    double nearest_m{};  // along the view axis, of what is drawn; 0: nothing is
+    // Of all four, edges less what they are found to (seen_resolution_px).
+    [[nodiscard]] double largest_px() const;
+};
+// samples: as skyline_error().
+PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoint> points,
+                             std::span<const DrawnDepths> samples, int threads);
+
+// What drawing may round off on a picture, besides what tau allows: 0.05 px; and near ground half a step of
+// the heights, 0.24 mm, which is more than that within some metres.
+double drawing_slack_px(const Camera& camera, double nearest_m);
+
+}  // namespace oro
