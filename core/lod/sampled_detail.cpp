@@ -1,6 +1,8 @@
 #include "core/lod/sampled_detail.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "core/lod/levels_gpu.h"
 
@@ -12,11 +14,13 @@ struct SampledDetail::Page {
     std::array<gpu::MeshletBounds, gpu::meshlets_per_page> nodes;
 };
 
-SampledDetail::SampledDetail(const RegionPages& pages, const Camera& camera, double tau_px)
+SampledDetail::SampledDetail(const RegionPages& pages, const Camera& camera, double tau_px,
+                             const Refraction& light)
     : pages_(pages),
       view_(level_view(camera, tau_px)),
       view_from_ecef_(camera.view_from_ecef()),
-      eye_(camera.eye_ecef()) {}
+      eye_(camera.eye_ecef()),
+      light_(light) {}
 
 SampledDetail::~SampledDetail() = default;
 
@@ -39,11 +43,18 @@ Result<SampledDetail::Bound> SampledDetail::node_at(int row, int column) {
         ORO_TRY(const Page* const here, page({quad_row / quads, quad_column / quads, level}));
         const int node = quad_row % quads / static_cast<int>(gpu::meshlet_quads) * side +
                          quad_column % quads / static_cast<int>(gpu::meshlet_quads);
-        const gpu::MeshletBounds& bounds = here->nodes[static_cast<std::size_t>(node)];
-        const glm::dvec3 centre =
-            view_from_ecef_ *
-            (here->summary.origin_ecef.m + here->summary.ecef_from_page * glm::dvec3(bounds.centre) - eye_.m);
-        const gpu::vec3 centre_view(centre);
+        gpu::MeshletBounds bounds = here->nodes[static_cast<std::size_t>(node)];
+        glm::dvec3 offset_m =
+            here->summary.origin_ecef.m + here->summary.ecef_from_page * glm::dvec3(bounds.centre) - eye_.m;
+        if (!light_.straight()) {
+            // As shaders/place/bend.glsl, bend_node.
+            const double across_m = glm::length(offset_m - glm::dot(offset_m, light_.up()) * light_.up());
+            const double c = std::abs(light_.curvature_per_m()), r = static_cast<double>(bounds.lod_radius);
+            bounds.error_m *= static_cast<float>(1.0 + c * (across_m + r));
+            bounds.lod_radius = static_cast<float>(r + c * r * (across_m + 0.5 * r));
+            offset_m = light_.apparent_m(offset_m);
+        }
+        const gpu::vec3 centre_view(view_from_ecef_ * offset_m);
         if (!gpu::node_acceptable(static_cast<gpu::uint>(level), bounds, centre_view,
                                   view_.pixels_per_tangent, view_.corner_tangent, view_.tau_px))
             continue;
@@ -64,7 +75,9 @@ Result<SampledDetail::Bound> SampledDetail::at(int row, int column) {
     const int quad_row = (row >> worst.level) % side, quad_column = (column >> worst.level) % side;
     const int step = 1 << worst.level;
     const auto beside = [&](int down, int right) -> Result<void> {
-        const int beside_row = row + down * step, beside_column = column + right * step;
+        const int beside_row = row + down * step, round = grid.columns() - 1;
+        int beside_column = column + right * step;
+        if (pages_.goes_round()) beside_column = (beside_column + round) % round;
         if (beside_row < 0 || beside_column < 0 || beside_row >= grid.rows() - 1 ||
             beside_column >= grid.columns() - 1)
             return {};

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/earth/camera.h"
+#include "core/earth/world_model.h"
 #include "core/frame/region_pages.h"
 #include "core/lod/levels.h"
 
@@ -14,8 +15,8 @@ namespace oro {
 // Asks the pages' nodes as a frame does (shaders/choose/levels.glsl). Keeps the pages that it has asked for.
 class SampledDetail {
   public:
-    // pages outlives it.
-    SampledDetail(const RegionPages& pages, const Camera& camera, double tau_px);
+    // pages outlives it. light: as the frame bends it.
+    SampledDetail(const RegionPages& pages, const Camera& camera, double tau_px, const Refraction& light = {});
     ~SampledDetail();
 
     // Bounds of the node that is drawn over a cell of the region, and of coarser ones beside it, whose edges
@@ -37,6 +38,7 @@ class SampledDetail {
     LevelView view_;
     glm::dmat3 view_from_ecef_;
     Ecef eye_;
+    Refraction light_;
     std::map<std::tuple<int, int, int>, std::unique_ptr<Page>> kept_;
 };
 

@@ -218,7 +218,7 @@ EffectSize EffectPrediction::interpolation(int apart) const {
 Result<EffectSize> EffectPrediction::detail(double tau_px) const {
     Camera drawn = camera_;
     drawn.eye.h_m -= left_out_N_m(drawn.eye.lat_deg, drawn.eye.lon_deg);
-    SampledDetail detail(pages_, drawn, tau_px);
+    SampledDetail detail(pages_, drawn, tau_px, sight_.refraction);
     Sizes heights, sideways;
     for (const Sample& sample : samples_) {
         ORO_TRY(const SampledDetail::Bound bound, detail.at(sample.row, sample.column));
