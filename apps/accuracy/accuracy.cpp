@@ -25,20 +25,19 @@ std::optional<double> stated_le90_m(const Region& region) {
 
 // With its options written out.
 AccuracyBundle bundle_of(Bundle kind, const char* name, double tau_px, HeightStorage heights,
-                         double refraction_k) {
+                         const Air& air) {
     char text[100];
-    std::snprintf(text, sizeof text, "--tau %g --heights %s --refraction %g", tau_px, name_of(heights),
-                  refraction_k);
-    return {kind, name, tau_px, heights, refraction_k, text};
+    std::snprintf(text, sizeof text, "--tau %g --heights %s ", tau_px, name_of(heights));
+    return {kind, name, tau_px, heights, air, text + air_option(air)};
 }
 
 }  // namespace
 
 const std::vector<AccuracyBundle>& accuracy_bundles() {
     static const std::vector<AccuracyBundle> bundles{
-        bundle_of(Bundle::draft, "draft", 4.0, HeightStorage::i16, 0.0),
-        bundle_of(Bundle::balanced, "balanced", 0.5, HeightStorage::f32, usual_refraction_k),
-        bundle_of(Bundle::survey, "survey", 0.0, HeightStorage::f32, usual_refraction_k)};
+        bundle_of(Bundle::draft, "draft", 4.0, HeightStorage::i16, Air{}),
+        bundle_of(Bundle::balanced, "balanced", 0.5, HeightStorage::f32, standard_air),
+        bundle_of(Bundle::survey, "survey", 0.0, HeightStorage::f32, standard_air)};
     return bundles;
 }
 
@@ -65,13 +64,12 @@ Result<AccuracyBundle> accuracy_bundle(const std::string& name) {
 void apply_bundle(const AccuracyBundle& bundle, View& view) {
     view.tau_px = bundle.tau_px;
     view.heights = bundle.heights;
-    view.model.refraction_k = bundle.refraction_k;
+    view.model.air = bundle.air;
     view.accuracy = bundle.name;
 }
 
 bool is_drawn_as(const AccuracyBundle& bundle, const View& view) {
-    return view.tau_px == bundle.tau_px && view.heights == bundle.heights &&
-           view.model.refraction_k == bundle.refraction_k;
+    return view.tau_px == bundle.tau_px && view.heights == bundle.heights && view.model.air == bundle.air;
 }
 
 void forget_other_bundle(View& view) {
@@ -91,7 +89,7 @@ Result<double> parse_tolerance(const std::string& text) {
 
 Result<TrueWorld> true_world(const View& view, const Region& region, const RegionPages& pages) {
     TrueWorld world;
-    if (view.model.refraction_k != 0.0) world.refraction_k = view.model.refraction_k;
+    if (view.model.air.k != 0.0) world.air = view.model.air;
     world.source_le90_m = stated_le90_m(region);
     ORO_TRY(world.sixteen, height_quantization(pages, HeightStorage::i16));
     return world;
@@ -106,9 +104,12 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueSurfa
                          const RegionPages& pages, double tolerance_px) {
     ORO_TRY(const TrueWorld world, true_world(view, region, pages));
     const DrawingModel drawing = drawing_model(view, world);
-    const EffectPrediction prediction(truth, pages, true_camera(view, region), world, thread_count());
+    const Camera camera = true_camera(view, region);
+    const EffectPrediction prediction(truth, pages, camera, world, thread_count());
     Budget budget;
     budget.tolerance_px = tolerance_px;
+    budget.air = world.air;
+    budget.eye_h_m = camera.eye.h_m;
     budget.empty = prediction.empty();
     if (!budget.empty) {
         budget.nearest_m = prediction.nearest_m();
@@ -137,8 +138,7 @@ Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, c
                                        const FixedAccuracy& fixed) {
     const auto with_fixed = [&](const AccuracyBundle& bundle) {
         return bundle_of(bundle.kind, bundle.name, fixed.tau_px.value_or(bundle.tau_px),
-                         fixed.heights.value_or(bundle.heights),
-                         fixed.refraction_k.value_or(bundle.refraction_k));
+                         fixed.heights.value_or(bundle.heights), fixed.air.value_or(bundle.air));
     };
     View with = view;
     apply_bundle(with_fixed(accuracy_bundles().back()), with);

@@ -21,7 +21,7 @@ struct AccuracyBundle {
     const char* name;
     double tau_px;
     HeightStorage heights;
-    double refraction_k;
+    Air air;
     std::string options{};  // the same, as one would write them out
 };
 // draft, balanced, survey: the cheapest first.
@@ -60,12 +60,14 @@ struct Budget {
     EffectSize total;
     std::optional<EffectKind> dominant;  // the largest in the picture, in pixels
     bool empty{};                        // nothing is in view
+    Air air;                             // of the true world
+    double eye_h_m{};                    // where its eye truly is
     double nearest_m{};
     double median_distance_m{};
     std::size_t sight_lines{};  // that estimates are made of
 };
 
-// The true world of a view: refraction is the view's own, or the usual one where it has none.
+// The true world of a view: the air is the view's own, or standard air where light goes straight in it.
 Result<TrueWorld> true_world(const View& view, const Region& region, const RegionPages& pages);
 DrawingModel drawing_model(const View& view, const TrueWorld& world);
 
@@ -77,7 +79,7 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueSurfa
 struct FixedAccuracy {
     std::optional<double> tau_px;
     std::optional<HeightStorage> heights;
-    std::optional<double> refraction_k;
+    std::optional<Air> air;
 };
 
 // The cheapest bundle whose whole predicted error stays within a tolerance.

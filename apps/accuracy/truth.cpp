@@ -1,5 +1,6 @@
 #include "apps/accuracy/truth.h"
 
+#include "apps/view/model_names.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
 
@@ -13,7 +14,11 @@ Camera true_camera(const View& view, const Region& region) {
 }
 
 Sight true_sight(const View& view, const Region& region) {
-    return sight_from(true_camera(view, region).eye, view.model.refraction_k);
+    return sight_from(true_camera(view, region).eye, view.model.air);
+}
+
+std::string light_line(const View& view, const Region& region) {
+    return "Light: " + light_words(view.model.air, true_camera(view, region).eye.h_m) + ".\n";
 }
 
 Result<std::unique_ptr<TrueScene>> TrueScene::of(const View& view, const Region& region) {

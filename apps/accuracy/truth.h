@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "apps/view/view.h"
 #include "core/truth/oracle.h"
@@ -16,6 +17,9 @@ namespace oro {
 Camera true_camera(const View& view, const Region& region);
 // From there, through the view's own air.
 Sight true_sight(const View& view, const Region& region);
+
+// How light goes in it: "Light: k 0.13 at all heights.\n"
+std::string light_line(const View& view, const Region& region);
 
 // The full-resolution surface that a view really looks at: on WGS84, lifted by the geoid, exaggerated as the
 // view is. Holds on to the region.

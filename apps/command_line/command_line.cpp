@@ -132,14 +132,15 @@ void add_trade(CLI::App& app, TradeOptions& options) {
     add_region_options(command, options.region);
     add_view_options(command, options.view);
     command.get_option("--size")->description("Size of the pictures in pixels (default 640x360).");
-    hide(command, {"--tau", "--earth", "--refraction", "--precision", "--geoid", "--heights", "--accuracy",
-                   "--tolerance", "--samples"});
+    hide(command, {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights",
+                   "--accuracy", "--tolerance", "--samples"});
     add_memory_options(command, options.memory);
     add_quiet(command, options.quiet, "the table and errors");
-    set_help(command, {{"trade PATH... [OPTIONS]", "trade --view PICTURE [OPTIONS]"},
-                       "The settings to compare are --tau, --earth, --refraction, --precision, --geoid, "
-                       "--heights and --accuracy. trade sets them itself.",
-                       "docs/commands/trade.md"});
+    set_help(command,
+             {{"trade PATH... [OPTIONS]", "trade --view PICTURE [OPTIONS]"},
+              "The settings to compare are --tau, --earth, --refraction, --air, --precision, --geoid, "
+              "--heights and --accuracy. trade sets them itself.",
+              "docs/commands/trade.md"});
 }
 
 void add_bake(CLI::App& app, BakingOptions& options) {

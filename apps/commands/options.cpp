@@ -81,9 +81,17 @@ void add_model_options(OptionGroup& detail, ViewOptions& options) {
     detail.choice("--earth", options.earth, earth_words(),
                   "Shape of the Earth: ellipsoid (WGS84, as GPS has it; default), sphere, or flat around the "
                   "eye. The last two are there to show how far off they are.");
-    detail.number("--refraction", options.refraction_k, "K",
-                  "How much the air bends light (coefficient of refraction), " +
-                      span(view_limits::refraction_k) + ": 0 is not at all (default), 0.13 is usual by day.");
+    CLI::Option& refraction =
+        detail.number("--refraction", options.refraction_k, "K",
+                      "How much the air bends light (a surveyor's coefficient of refraction), the same at "
+                      "all heights, " +
+                          span(view_limits::refraction_k) +
+                          ": 0 is not at all (default), 0.13 is usual by day. Not with --air.");
+    detail
+        .choice("--air", options.air, air_words(),
+                "standard: air that bends light less the higher the eye is, by 0.13 at sea level, 0.091 at "
+                "3,000 m and nothing from space. Not with --refraction.")
+        .excludes(&refraction);
     detail.choice("--precision", options.precision, precision_words(),
                   "relative (default): positions are counted from the eye, and exact near it. naive: they "
                   "are counted from the Earth's centre with 7 digits, to show how far off that is.");
@@ -120,7 +128,8 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
                 "says nothing. ft is the international foot, us-ft the US survey foot.");
     data.flag("--strict-datum", options.strict_datum,
               "Stop where heights cannot be converted from a file's vertical datum (what they are heights "
-              "above). Without this they count as heights above sea level (EGM96), and a note says so.");
+              "above), or where PROJ lacks a grid or a way for its horizontal datum. Without this they count "
+              "as heights above sea level (EGM96), places are as good as they can be, and a note says so.");
     data.flag("--fill-voids", options.fill_voids,
               "Give points without a height (voids) one from their neighbours. Without this they are holes.");
 }

@@ -41,6 +41,7 @@ struct ViewOptions {
     std::optional<double> tau_px;
     std::optional<std::string> earth;
     std::optional<double> refraction_k;
+    std::optional<std::string> air;
     std::optional<std::string> precision;
     std::optional<std::string> geoid;
     std::optional<std::string> heights;

@@ -8,6 +8,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/view/model_names.h"
 #include "apps/view/view_changes.h"
 #include "core/base/parallel.h"
 #include "core/terrain/ground.h"
@@ -90,6 +91,7 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     json["nearest_m"] = budget.nearest_m;
     json["median_distance_m"] = budget.median_distance_m;
     json["sight_lines"] = budget.sight_lines;
+    json["light"] = light_json(budget.air, budget.eye_h_m);
     json["effects"] = ordered_json::array();
     for (const BudgetLine& line : budget.lines) json["effects"].push_back(effect_json(line));
     json["total"] = size_json(budget.total);

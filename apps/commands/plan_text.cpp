@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "apps/report/figures.h"
+#include "apps/view/model_names.h"
 
 namespace oro {
 namespace {
@@ -189,6 +190,8 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
         view.camera.height_px, view.camera.vertical_fov_deg, budget.tolerance_px);
     const std::string limit = pixels(budget.tolerance_px);
     std::string out = eye_text(view, eye) + text;
+    out += "Light: " + light_words(budget.air, budget.eye_h_m) +
+           (view.model.air == budget.air ? ".\n" : "; in this picture it goes straight.\n");
     out +=
         "Worst: no ground is moved farther, and so nothing that is seen, no edge and no skyline.\n"
         "Typical: half of the ground is moved by less.\n" +

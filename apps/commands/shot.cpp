@@ -157,7 +157,7 @@ Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages,
     FixedAccuracy fixed;
     if (options.view.tau_px) fixed.tau_px = shot.view.tau_px;
     if (options.view.heights) fixed.heights = shot.view.heights;
-    if (options.view.refraction_k) fixed.refraction_k = shot.view.model.refraction_k;
+    if (options.view.refraction_k || options.view.air) fixed.air = shot.view.model.air;
     ORO_TRY(shot.choice,
             choose_accuracy(shot.view, shot.region, truth->surface(), pages, tolerance_px, fixed));
     apply_bundle(shot.choice->bundle, shot.view);
@@ -182,7 +182,10 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
         say(options.quiet, "wrote " + files.error);
         // What was asked for: as a table, or with -q as JSON alone.
         if (!options.quiet || !options.json)
-            std::fputs(verification_text(*shot.verification, shot.view.tau_px, shot.unseen).c_str(), stderr);
+            std::fputs((verification_text(*shot.verification, shot.view.tau_px, shot.unseen) +
+                        light_line(shot.view, shot.region))
+                           .c_str(),
+                       stderr);
     }
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, gpu, style), true).c_str());
 }

@@ -1,5 +1,6 @@
 #include "apps/commands/shot_json.h"
 
+#include "apps/accuracy/truth.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
@@ -112,6 +113,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["models"] = models_json(shot.view);
     json["accuracy"] = accuracy_json(shot);
     json["models"]["height_step_m"] = shot.height_step_m;
+    json["light"] = light_json(shot.view.model.air, true_camera(shot.view, shot.region).eye.h_m);
     json["unseen"] = unseen_json(shot.unseen);
     json["settled"] = shot.picture.settled;
     json["tiles"] = shot.picture.tiles;

@@ -90,6 +90,7 @@ Result<void> leave_settings_out(const ViewOptions& view) {
     for (const auto& [option, is_given] : {std::pair{"--tau", view.tau_px.has_value()},
                                            {"--earth", view.earth.has_value()},
                                            {"--refraction", view.refraction_k.has_value()},
+                                           {"--air", view.air.has_value()},
                                            {"--precision", view.precision.has_value()},
                                            {"--geoid", view.geoid.has_value()},
                                            {"--heights", view.heights.has_value()},

@@ -54,8 +54,8 @@ Result<void> Trade::prepare() {
     ORO_TRY(truth_, TrueScene::of(view_, region_));
     ORO_TRY(pages_, region_pages(region_, view_.exaggeration));
     ORO_TRY(world_, true_world(view_, region_, *pages_));
-    // Whatever air the view asks for: settings are drawn in the usual one, but those that leave it out.
-    world_.refraction_k = usual_refraction_k;
+    // Whatever air the view asks for: settings are drawn in standard air, but those that leave it out.
+    world_.air = standard_air;
     return {};
 }
 
@@ -134,7 +134,7 @@ Result<TradeEffect> Trade::predicted(const TradeCase& one, const EffectPredictio
 
 Result<void> Trade::measure(const Camera& camera, const std::string& name, bool pictures,
                             TradeReport& report) {
-    const Sight sight = sight_from(camera.eye, world_.refraction_k);
+    const Sight sight = sight_from(camera.eye, world_.air);
     const EffectPrediction prediction(surface(), *pages_, camera, world_, thread_count());
     Verification drawn;
     const TruePicture truth(surface(), sight, camera, thread_count());

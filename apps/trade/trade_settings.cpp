@@ -7,12 +7,12 @@
 namespace oro {
 namespace {
 
-constexpr WorldModel true_air{Earth::ellipsoid, usual_refraction_k, Precision::relative};
+constexpr WorldModel true_air{Earth::ellipsoid, standard_air, Precision::relative};
 
 void add_levels(std::vector<TradeCase>& cases) {
     for (const double tau_px : {0.5, 1.0, 2.0, 4.0}) {
         char options[60];
-        std::snprintf(options, sizeof options, "--tau %g --refraction 0.13", tau_px);
+        std::snprintf(options, sizeof options, "--tau %g --air standard", tau_px);
         TradeCase one{{EffectKind::detail, tau_px, {}}, options, tau_px, true_air};
         one.keeps_tau = true;
         cases.push_back(one);
@@ -23,30 +23,30 @@ void add_models(std::vector<TradeCase>& cases) {
     const auto add = [&](EffectKind effect, const char* options) -> TradeCase& {
         return cases.emplace_back(TradeCase{{effect, {}, {}}, options, 0.0, true_air});
     };
-    add(EffectKind::geoid, "--tau 0 --refraction 0.13 --geoid none").has_geoid = false;
-    add(EffectKind::sphere, "--tau 0 --refraction 0.13 --earth sphere").world.earth = Earth::sphere;
-    add(EffectKind::flat, "--tau 0 --refraction 0.13 --earth flat").world.earth = Earth::flat;
-    add(EffectKind::refraction, "--tau 0 --refraction 0").world.refraction_k = 0.0;
+    add(EffectKind::geoid, "--tau 0 --air standard --geoid none").has_geoid = false;
+    add(EffectKind::sphere, "--tau 0 --air standard --earth sphere").world.earth = Earth::sphere;
+    add(EffectKind::flat, "--tau 0 --air standard --earth flat").world.earth = Earth::flat;
+    add(EffectKind::refraction, "--tau 0 --refraction 0").world.air = Air{};
     add(EffectKind::float32_posts, "").world.precision = Precision::rounded_posts;
-    add(EffectKind::float32_view, "--tau 0 --refraction 0.13 --precision naive").world.precision =
+    add(EffectKind::float32_view, "--tau 0 --air standard --precision naive").world.precision =
         Precision::naive;
-    add(EffectKind::steps_i16, "--tau 0 --refraction 0.13 --heights i16").heights = HeightStorage::i16;
+    add(EffectKind::steps_i16, "--tau 0 --air standard --heights i16").heights = HeightStorage::i16;
 }
 
 }  // namespace
 
 std::vector<TradeCase> trade_cases() {
-    std::vector<TradeCase> cases{{{}, "--tau 0 --refraction 0.13", 0.0, true_air}};
+    std::vector<TradeCase> cases{{{}, "--tau 0 --air standard", 0.0, true_air}};
     cases.front().keeps_tau = true;
     add_levels(cases);
     add_models(cases);
     for (const AccuracyBundle& bundle : accuracy_bundles()) {
         TradeCase one{
             {{}, {}, bundle.kind}, "--accuracy " + std::string(bundle.name), bundle.tau_px, true_air};
-        one.world.refraction_k = bundle.refraction_k;
+        one.world.air = bundle.air;
         one.heights = bundle.heights;
         // Where levels are all that is left out.
-        if (bundle.heights == HeightStorage::f32 && bundle.refraction_k == usual_refraction_k)
+        if (bundle.heights == HeightStorage::f32 && bundle.air == standard_air)
             one.keeps_tau = true;
         cases.push_back(one);
     }

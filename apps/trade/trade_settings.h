@@ -21,7 +21,7 @@ struct TradeCase {
 };
 
 // Full detail first, then levels, then one thing left out or rounded at a time, then bundles. All but those
-// that leave it out have the usual refraction.
+// that leave it out have standard air.
 std::vector<TradeCase> trade_cases();
 
 }  // namespace oro

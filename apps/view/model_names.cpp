@@ -1,11 +1,14 @@
 #include "apps/view/model_names.h"
 
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/command_line/refusals.h"
+#include "apps/report/figures.h"
 #include "apps/report/option_words.h"
 
 namespace oro {
@@ -20,6 +23,8 @@ constexpr Names<Earth, 3> earths{
 constexpr Names<Precision, 3> precisions{
     {{"relative", Precision::relative}, {"naive", Precision::naive}, {"", Precision::rounded_posts}}};
 constexpr Names<bool, 2> geoids{{{"egm96", true}, {"none", false}}};
+constexpr Names<Air, 1> airs{{{"standard", standard_air}}};
+constexpr Names<AirLaw, 2> air_laws{{{"constant", AirLaw::constant}, {"standard", AirLaw::standard}}};
 constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16", HeightStorage::i16}}};
 
 template <class Choice, std::size_t count>
@@ -52,6 +57,12 @@ Result<bool> geoid_named(const std::string& name) {
 Result<HeightStorage> heights_named(const std::string& name) {
     return named("--heights", storages, name);
 }
+Result<Air> air_named(const std::string& name) {
+    return named("--air", airs, name);
+}
+Result<AirLaw> air_law_named(const std::string& name) {
+    return named("air", air_laws, name);
+}
 
 std::vector<std::string> earth_words() {
     return words_of(earths);
@@ -65,15 +76,47 @@ std::vector<std::string> geoid_words() {
 std::vector<std::string> heights_words() {
     return words_of(storages);
 }
+std::vector<std::string> air_words() {
+    return words_of(airs);
+}
 const char* name_of(HeightStorage heights) {
     return name_in(storages, heights);
+}
+
+std::string air_option(const Air& air) {
+    if (air == standard_air) return "--air standard";
+    char text[40];
+    std::snprintf(text, sizeof text, "--refraction %g", air.k);
+    return text;
+}
+
+std::string light_words(const Air& air, double eye_h_m) {
+    if (air.k == 0.0) return "straight, without refraction";
+    char k[40];
+    std::snprintf(k, sizeof k, "%g", air.k);
+    if (air.law == AirLaw::constant) return "k " + std::string(k) + " at all heights";
+    const double here = air.k_at(eye_h_m);
+    const std::string law =
+        air == standard_air ? "standard air" : "by standard air, " + std::string(k) + " at sea level";
+    return "k " + std::string(here < 0.0 ? "-" : "") + about(std::abs(here)) + " at the eye's h of " +
+           metres(eye_h_m) + " m (" + law + ")";
+}
+
+nlohmann::ordered_json light_json(const Air& air, double eye_h_m) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    json["k"] = air.k_at(eye_h_m);
+    json["refraction"] = air.k;
+    json["air"] = name_in(air_laws, air.law);
+    json["eye_h_m"] = eye_h_m;
+    return json;
 }
 
 nlohmann::ordered_json models_json(const View& view) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["earth"] = name_in(earths, view.model.earth);
     json["geoid"] = name_in(geoids, view.has_geoid);
-    json["refraction"] = view.model.refraction_k;
+    json["refraction"] = view.model.air.k;
+    json["air"] = name_in(air_laws, view.model.air.law);
     json["precision"] = name_in(precisions, view.model.precision);
     json["heights"] = name_in(storages, view.heights);
     return json;

@@ -20,9 +20,20 @@ std::vector<std::string> earth_words();
 std::vector<std::string> precision_words();
 std::vector<std::string> geoid_words();
 std::vector<std::string> heights_words();
+std::vector<std::string> air_words();
 const char* name_of(HeightStorage heights);
 
-// The models of a view: earth, geoid, refraction, precision, heights.
+// What asks for that air: "--air standard", "--refraction 0.13".
+std::string air_option(const Air& air);
+// What --air stands for. Usage errors for unknown names.
+Result<Air> air_named(const std::string& name);  // "standard"
+// As view files have laws: "constant", "standard".
+Result<AirLaw> air_law_named(const std::string& name);
+// How light goes to an eye: "k 0.091 at the eye's h of 3,000 m (standard air)".
+std::string light_words(const Air& air, double eye_h_m);
+nlohmann::ordered_json light_json(const Air& air, double eye_h_m);
+
+// The models of a view: earth, geoid, refraction and air, precision, heights.
 nlohmann::ordered_json models_json(const View& view);
 
 }  // namespace oro

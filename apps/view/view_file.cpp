@@ -72,8 +72,13 @@ void read_models(const nlohmann::json& json, View& view) {
     read_choice(json, "precision", precision_named, view.model.precision);
     read_choice(json, "geoid", geoid_named, view.has_geoid);
     read_choice(json, "heights", heights_named, view.heights);
-    if (json.contains("refraction"))
-        view.model.refraction_k = number(json, "refraction", limits::refraction_k);
+    if (!json.contains("refraction")) return;
+    view.model.air.k = number(json, "refraction", limits::refraction_k);
+    // Views of before --refraction was the same at all heights do not say which air they have: theirs bent
+    // light less where the eye was higher.
+    view.model.air.law = AirLaw::standard;
+    read_choice(json, "air", air_law_named, view.model.air.law);
+    if (view.model.air.k == 0.0) view.model.air.law = AirLaw::constant;
 }
 
 void read_sources(const nlohmann::json& json, View& view) {

@@ -89,9 +89,12 @@ Result<void> apply_models(View& view, const ViewOptions& options) {
     if (options.earth) {
         ORO_TRY(view.model.earth, earth_named(*options.earth));
     }
+    if (options.air) {
+        ORO_TRY(view.model.air, air_named(*options.air));
+    }
     if (options.refraction_k) {
-        ORO_TRY(view.model.refraction_k,
-                within("--refraction", *options.refraction_k, view_limits::refraction_k));
+        ORO_TRY(const double k, within("--refraction", *options.refraction_k, view_limits::refraction_k));
+        view.model.air = {k, AirLaw::constant};
     }
     if (options.precision) {
         ORO_TRY(view.model.precision, precision_named(*options.precision));

@@ -13,7 +13,7 @@ namespace oro {
 Result<std::optional<SeenPlace>> place_seen(const View& view, const Region& region,
                                             const TrueSurface& surface, glm::dvec2 point_px) {
     const Camera& camera = view.camera;
-    const auto hit = first_hit(surface, sight_from(camera.eye, view.model.refraction_k),
+    const auto hit = first_hit(surface, sight_from(camera.eye, view.model.air),
                                camera.ecef_direction_at(point_px), sight_reach_m(camera.eye.h_m));
     // What could not be read counts as void: the sight line went through it.
     ORO_CHECK(surface.field().health());

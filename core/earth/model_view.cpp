@@ -36,7 +36,7 @@ ModelView::ModelView(const Camera& camera, const WorldModel& model, const Height
       eye_ecef_(camera.eye_ecef()),
       view_from_ecef_(camera.view_from_ecef()),
       up_view_(view_from_ecef_ * ecef_from_enu(eye_.lat_deg, eye_.lon_deg)[2]),
-      refraction_(eye_, model.refraction_k),
+      refraction_(eye_, model.air),
       rounding_m_(oro::rounding_m(model.precision, eye_ecef_) + coding.error_m()) {}
 
 glm::dvec3 ModelView::straight_m(const PageSummary& page, const glm::dvec3& in_page_m) const {

@@ -19,13 +19,17 @@ Ecef on_sphere(const Geodetic& point) {
 
 }  // namespace
 
-Refraction::Refraction(const Geodetic& eye, double k)
-    : curvature_per_m_(k * std::exp(-std::max(eye.h_m, 0.0) / scale_height_m) /
+double Air::k_at(double eye_h_m) const {
+    return law == AirLaw::constant ? k : k * std::exp(-std::max(eye_h_m, 0.0) / scale_height_m);
+}
+
+Refraction::Refraction(const Geodetic& eye, const Air& air)
+    : curvature_per_m_(air.k_at(eye.h_m) /
                        std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg))),
       up_(ecef_from_enu(eye.lat_deg, eye.lon_deg)[2]) {}
 
 Refraction Refraction::with_curvature(const Geodetic& eye, double curvature_per_m) {
-    Refraction refraction(eye, 0.0);
+    Refraction refraction(eye, Air{});
     refraction.curvature_per_m_ = curvature_per_m;
     return refraction;
 }
@@ -68,7 +72,7 @@ std::optional<Geodetic> model_point(Earth earth, const Geodetic& eye, const glm:
 }
 
 glm::dvec3 model_offset_m(const WorldModel& model, const Geodetic& eye, const Geodetic& point) {
-    return Refraction(eye, model.refraction_k).apparent_m(model_offset_m(model.earth, eye, point));
+    return Refraction(eye, model.air).apparent_m(model_offset_m(model.earth, eye, point));
 }
 
 }  // namespace oro

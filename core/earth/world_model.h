@@ -20,14 +20,33 @@ enum class Precision {
     naive,          // ECEF in float32 times a float32 view matrix: what is to be measured against
 };
 
+// How k of the air depends on the height of the eye.
+enum class AirLaw {
+    constant,  // not at all: what surveyors take k for
+    standard,  // as the air's density: by e each 8,434 m, so that an eye in space has none
+};
+
+// The air, as it bends light: near level sight lines have k times the curvature 1 / R of the Earth, and ground
+// at a distance d lies (1 - k) d^2 / (2 R) below the eye's horizontal plane. k is the coefficient of
+// refraction. Everything that asks how light goes asks this (docs/ARCHITECTURE.md, Light).
+struct Air {
+    double k{0.0};  // -1 .. 0.9; 0: light goes straight. AirLaw::standard: at sea level
+    AirLaw law{AirLaw::constant};
+
+    // For an eye at a height above the ellipsoid: k, or k exp(-h / 8434 m); below the ellipsoid as on it.
+    [[nodiscard]] double k_at(double eye_h_m) const;
+    bool operator==(const Air&) const = default;
+};
+// k by day near the ground. Source: Torge & Müller, Geodesy, 4th ed. 2012, section 5.1.1.2.
+inline constexpr double usual_refraction_k = 0.13;
+inline constexpr Air standard_air{usual_refraction_k, AirLaw::standard};
+
 struct WorldModel {
     Earth earth{Earth::ellipsoid};
-    double refraction_k{0.0};  // coefficient of refraction of the air, -1 .. 0.9; 0: light goes straight
+    Air air;  // default: light goes straight
     Precision precision{Precision::relative};
 };
 
-// The usual coefficient by day. Source: Torge & Müller, Geodesy, 4th ed. 2012, section 5.1.1.2.
-inline constexpr double usual_refraction_k = 0.13;
 // The mean Earth radius R1. Source: H. Moritz, Geodetic Reference System 1980, J. Geodesy 74, 2000.
 inline constexpr double mean_radius_m = 6371008.7714;
 
@@ -38,14 +57,14 @@ class Refraction {
   public:
     // Light goes straight.
     Refraction() = default;
-    // R is the Gaussian radius of curvature at the eye. k falls with the air's density at the eye (by e each
-    // 8,434 m): the air around the eye bends most of what is seen, so an eye in space has none.
-    Refraction(const Geodetic& eye, double k);
+    // R is the Gaussian radius of curvature at the eye, k the air's at the eye's height: the air around the
+    // eye bends most of what is seen.
+    Refraction(const Geodetic& eye, const Air& air);
     // Sight lines of that curvature, 1/m, whatever bends them: with the Earth's own it looks flat.
     static Refraction with_curvature(const Geodetic& eye, double curvature_per_m);
 
     [[nodiscard]] bool straight() const { return curvature_per_m_ == 0.0; }
-    // 1 / radius of the sight lines, 1/m: k / R at the eye's height.
+    // 1 / radius of the sight lines, 1/m: k / R.
     [[nodiscard]] double curvature_per_m() const { return curvature_per_m_; }
     // The eye's vertical, a unit ECEF direction.
     [[nodiscard]] const glm::dvec3& up() const { return up_; }

@@ -121,13 +121,13 @@ double seen_earth_radius_m(const WorldModel& model, const Geodetic& eye) {
         model.earth == Earth::sphere
             ? mean_radius_m
             : std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg));
-    return radius_m / (1.0 - Refraction(eye, model.refraction_k).curvature_per_m() * radius_m);
+    return radius_m / (1.0 - Refraction(eye, model.air).curvature_per_m() * radius_m);
 }
 
 // What place.glsl needs to place posts by other than the frame's tables alone.
 void set_model(const WorldModel& model, const Camera& camera, gpu::FrameConstants& constants) {
     constants.refraction_per_m =
-        static_cast<float>(Refraction(camera.eye, model.refraction_k).curvature_per_m());
+        static_cast<float>(Refraction(camera.eye, model.air).curvature_per_m());
     constants.placing = static_cast<gpu::uint>(model.precision);
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
     const glm::dvec3 eye = model_eye_ecef(model.earth, camera.eye).m;

@@ -62,7 +62,7 @@ struct DrawingModel {
 
 // What is known of the world and of the region, besides its posts.
 struct TrueWorld {
-    double refraction_k{usual_refraction_k};
+    Air air{standard_air};
     std::optional<double> source_le90_m;  // half the height interval that holds 90 % of the source's errors
     HeightQuantization sixteen;           // what i16 would be for the region
 };

@@ -61,7 +61,7 @@ EffectPrediction::EffectPrediction(const TrueSurface& surface, const RegionPages
       camera_(camera),
       world_(world),
       threads_(threads),
-      sight_(sight_from(camera.eye, world.refraction_k)),
+      sight_(sight_from(camera.eye, world.air)),
       view_from_ecef_(camera.view_from_ecef()),
       pixels_per_tangent_(0.5 * camera.height_px / camera.half_fov_tangent().y),
       samples_(view_samples(surface, sight_, camera_, threads)) {}
@@ -312,11 +312,11 @@ Result<std::optional<EffectSize>> EffectPrediction::new_size(EffectKind kind, do
         case EffectKind::geoid:
             return Size(without_geoid());
         case EffectKind::sphere:
-            return Size(moved_by({Earth::sphere, world_.refraction_k, Precision::relative}));
+            return Size(moved_by({Earth::sphere, world_.air, Precision::relative}));
         case EffectKind::flat:
-            return Size(moved_by({Earth::flat, world_.refraction_k, Precision::relative}));
+            return Size(moved_by({Earth::flat, world_.air, Precision::relative}));
         case EffectKind::refraction:
-            return Size(moved_by({Earth::ellipsoid, 0.0, Precision::relative}));
+            return Size(moved_by({Earth::ellipsoid, Air{}, Precision::relative}));
         case EffectKind::float32_posts:
             return Size(in_float32(Precision::rounded_posts));
         case EffectKind::float32_view:

@@ -332,12 +332,12 @@ bool Oracle::Search::take_root(const Triangle& triangle, const Piece& piece, dou
     return true;
 }
 
-Sight sight_from(const Geodetic& eye, double refraction_k) {
-    return {ecef_from_geodetic(eye), refraction_k == 0.0 ? Refraction() : Refraction(eye, refraction_k)};
+Sight sight_from(const Geodetic& eye, const Air& air) {
+    return {ecef_from_geodetic(eye), air.k == 0.0 ? Refraction() : Refraction(eye, air)};
 }
 
 Sight sight_of(const WorldModel& model, const Geodetic& eye) {
-    Sight sight = sight_from(eye, model.refraction_k);
+    Sight sight = sight_from(eye, model.air);
     sight.eye = model_eye_ecef(model.earth, eye);
     sight.earth = model.earth;
     sight.place = eye;

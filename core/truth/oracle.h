@@ -23,7 +23,7 @@ struct Sight {
     Earth earth{Earth::ellipsoid};
     Geodetic place{};  // of the eye; for other Earths than the ellipsoid
 };
-Sight sight_from(const Geodetic& eye, double refraction_k = 0.0);
+Sight sight_from(const Geodetic& eye, const Air& air = {});
 Sight sight_of(const WorldModel& model, const Geodetic& eye);
 
 // Where a sight line meets the surface.

@@ -114,7 +114,7 @@ TEST(Help, ExplainsEachOption) {
 TEST(Help, HidesWhatDoesNothing) {
     const std::map<std::string, Words> hidden{
         {"trade",
-         {"--tau", "--earth", "--refraction", "--precision", "--geoid", "--heights", "--accuracy",
+         {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
           "--tolerance", "--samples"}},
         {"plan", {"--style", "--sun", "--samples", "--pipeline", "--time"}},
         {"view", {"--tolerance", "--time"}},

@@ -22,7 +22,7 @@ oro::View unusual_view() {
     view.sun = oro::SunDirection{270.0, -3.5};
     view.style = "other";
     view.pipeline = "compute";
-    view.model = {oro::Earth::sphere, -0.25, oro::Precision::naive};
+    view.model = {oro::Earth::sphere, {-0.25}, oro::Precision::naive};
     view.has_geoid = false;
     view.heights = oro::HeightStorage::i16;
     view.time_utc_s = 1234567890;
@@ -38,9 +38,36 @@ TEST(ViewFile, EveryFieldComesBack) {
         EXPECT_EQ(oro::view_to_json(*read, pretty), text);
         EXPECT_EQ(read->pipeline, "compute");
         EXPECT_EQ(read->camera.eye.lat_deg, view.camera.eye.lat_deg);
-        EXPECT_EQ(read->model.refraction_k, -0.25);
+        EXPECT_EQ(read->model.air, oro::Air{-0.25});
         EXPECT_FALSE(read->has_geoid);
     }
+}
+
+// Found: none; --refraction meant another law before, and views of then draw what they drew.
+TEST(ViewFile, ViewsThatDoNotNameTheirAirHaveThatOfBefore) {
+    oro::View view = unusual_view();
+    const auto air_of = [&](double k, bool named) {
+        view.model.air = {k};
+        std::string text = oro::view_to_json(view, false);
+        const std::string field = R"("air":"constant",)";
+        EXPECT_NE(text.find(field), std::string::npos) << text;
+        if (!named) text.erase(text.find(field), field.size());
+        const auto read = oro::view_from_json(text, "test");
+        EXPECT_TRUE(read.ok());
+        return read.ok() ? read->model.air : oro::Air{99.0};
+    };
+    EXPECT_EQ(air_of(0.13, true), oro::Air{0.13});
+    EXPECT_EQ(air_of(0.13, false), oro::standard_air);
+    EXPECT_EQ(air_of(0.2, false), (oro::Air{0.2, oro::AirLaw::standard}));
+    EXPECT_EQ(air_of(0.0, false), oro::Air{});
+    view.model.air = oro::standard_air;
+    std::string text = oro::view_to_json(view, false);
+    EXPECT_NE(text.find(R"("refraction":0.13,"air":"standard",)"), std::string::npos) << text;
+    EXPECT_EQ(oro::view_from_json(text, "test")->model.air, oro::standard_air);
+    text.replace(text.find("\"standard\""), 10, "\"thick\"");
+    const auto read = oro::view_from_json(text, "test");
+    ASSERT_FALSE(read.ok());
+    EXPECT_NE(read.error().line().find("'air' is 'thick'"), std::string::npos) << read.error().line();
 }
 
 TEST(ViewFile, ViewsWithoutAPipelineAreAutomatic) {

@@ -121,7 +121,7 @@ class Jitter : public Extremes {
             camera.eye.lon_deg += step * 0.0006 / 111320.0;
             camera.eye.h_m += step * 0.000529;
             FramePlan plan =
-                stage.plan(camera, {0, 0, 16, 1080, {0.5, 0.5}}, 0.0, {Earth::ellipsoid, 0.0, precision});
+                stage.plan(camera, {0, 0, 16, 1080, {0.5, 0.5}}, 0.0, {Earth::ellipsoid, {}, precision});
             for (gpu::FramePage& page : plan.pages) page.cull = 0;
             EXPECT_TRUE(renderer->draw(std::move(plan), {}).ok());
             add(camera, renderer->recorded(), before, noise);

@@ -26,15 +26,15 @@ struct NamedModel {
 };
 constexpr NamedModel models[] = {
     {"ellipsoid", {}},
-    {"sphere", {Earth::sphere, 0.0, Precision::relative}},
-    {"flat", {Earth::flat, 0.0, Precision::relative}},
-    {"refraction 0.13", {Earth::ellipsoid, 0.13, Precision::relative}},
-    {"refraction 0.9", {Earth::ellipsoid, 0.9, Precision::relative}},
-    {"refraction -1", {Earth::ellipsoid, -1.0, Precision::relative}},
-    {"flat, refraction 0.5", {Earth::flat, 0.5, Precision::relative}},
-    {"naive", {Earth::ellipsoid, 0.0, Precision::naive}},
-    {"rounded posts", {Earth::ellipsoid, 0.0, Precision::rounded_posts}},
-    {"naive sphere, refraction 0.13", {Earth::sphere, 0.13, Precision::naive}},
+    {"sphere", {Earth::sphere, {}, Precision::relative}},
+    {"flat", {Earth::flat, {}, Precision::relative}},
+    {"refraction 0.13", {Earth::ellipsoid, {0.13}, Precision::relative}},
+    {"refraction 0.9", {Earth::ellipsoid, {0.9}, Precision::relative}},
+    {"refraction -1", {Earth::ellipsoid, {-1.0}, Precision::relative}},
+    {"flat, refraction 0.5", {Earth::flat, {0.5}, Precision::relative}},
+    {"naive", {Earth::ellipsoid, {}, Precision::naive}},
+    {"rounded posts", {Earth::ellipsoid, {}, Precision::rounded_posts}},
+    {"naive sphere, refraction 0.13", {Earth::sphere, {0.13}, Precision::naive}},
 };
 
 // Pages that nothing can hide.
@@ -194,7 +194,7 @@ TEST_F(ModelPlacement, RecordedViewsShowWhatPrecisionDoes) {
     std::mt19937 random(82);
     Camera camera = random_camera(random, field, 300.0, 300.0, -60.0, -50.0);
     const auto drawn = [&](FrameRenderer& renderer, Precision precision) {
-        FramePlan plan = plan_of(scene, camera, 0.0, {Earth::ellipsoid, 0.0, precision});
+        FramePlan plan = plan_of(scene, camera, 0.0, {Earth::ellipsoid, {}, precision});
         for (gpu::FramePage& page : plan.pages) page.cull = 0;
         EXPECT_TRUE(renderer.draw(plan, {}).ok());
         return renderer.recorded();
@@ -222,7 +222,7 @@ TEST_F(ModelPlacement, RecordedViewsShowWhatPrecisionDoes) {
 // The place on the model's Earth of a view position that was drawn.
 Geodetic place_of(const WorldModel& model, const Camera& camera, const glm::dvec3& view_m) {
     const glm::dvec3 ecef_m =
-        Refraction(camera.eye, model.refraction_k).true_m(glm::transpose(camera.view_from_ecef()) * view_m);
+        Refraction(camera.eye, model.air).true_m(glm::transpose(camera.view_from_ecef()) * view_m);
     const glm::dvec3 at = model_eye_ecef(model.earth, camera.eye).m + ecef_m;
     if (model.earth == Earth::ellipsoid) return geodetic_from_ecef({at});
     constexpr double deg = 180.0 / std::numbers::pi;
@@ -302,7 +302,7 @@ TEST_P(Models, BentLightKeepsTau) {
             double worst_px = 0.0;
             for (int i = 0; i < 12; ++i) {
                 const Camera camera = random_camera(random, field, 20.0, 20000.0, -30.0, -3.0);
-                const WorldModel model{Earth::ellipsoid, k, Precision::relative};
+                const WorldModel model{Earth::ellipsoid, {k}, Precision::relative};
                 FramePlan plan = plan_of(scene, camera, tau_px, model);
                 const auto pages = plan.page_indices;
                 const auto depths = depths_of(renderer, std::move(plan));

@@ -53,17 +53,18 @@ class Accuracy : public testing::Test {
 };
 
 void expect_models(const json& view, const char* bundle, double tau_px, const char* heights,
-                   double refraction_k) {
+                   double refraction_k, const char* air = "constant") {
     EXPECT_EQ(view.at("accuracy"), bundle);
     EXPECT_EQ(view.at("tau_px"), tau_px);
     EXPECT_EQ(view.at("heights"), heights);
     EXPECT_EQ(view.at("refraction"), refraction_k);
+    EXPECT_EQ(view.at("air"), air);
 }
 
 TEST_F(Accuracy, BundlesSetWhatTheySay) {
     expect_models(planned_view({"--accuracy", "draft"}), "draft", 4.0, "i16", 0.0);
-    expect_models(planned_view({"--accuracy", "balanced"}), "balanced", 0.5, "f32", 0.13);
-    expect_models(planned_view({"--accuracy", "survey"}), "survey", 0.0, "f32", 0.13);
+    expect_models(planned_view({"--accuracy", "balanced"}), "balanced", 0.5, "f32", 0.13, "standard");
+    expect_models(planned_view({"--accuracy", "survey"}), "survey", 0.0, "f32", 0.13, "standard");
     const json shot = said(run("shot", {"-q", "--accuracy", "draft"}));
     EXPECT_EQ(shot.at("accuracy"), json({{"bundle", "draft"}}));
     EXPECT_EQ(shot.at("tau_px"), 4.0);
@@ -75,8 +76,10 @@ TEST_F(Accuracy, BundlesSetWhatTheySay) {
 TEST_F(Accuracy, SingleOptionsWinAndTheNameGoes) {
     expect_models(planned_view({"--accuracy", "draft", "--tau", "2"}), "", 2.0, "i16", 0.0);
     expect_models(planned_view({"--refraction", "0.2", "--accuracy", "balanced"}), "", 0.5, "f32", 0.2);
-    expect_models(planned_view({"--accuracy", "survey", "--heights", "i16"}), "", 0.0, "i16", 0.13);
-    expect_models(planned_view({"--accuracy", "survey", "--tau", "0"}), "survey", 0.0, "f32", 0.13);
+    expect_models(planned_view({"--accuracy", "survey", "--heights", "i16"}), "", 0.0, "i16", 0.13,
+                  "standard");
+    expect_models(planned_view({"--accuracy", "survey", "--tau", "0"}), "survey", 0.0, "f32", 0.13,
+                  "standard");
     EXPECT_TRUE(said(run("shot", {"-q", "--accuracy", "draft", "--tau", "2"})).at("accuracy").is_null());
 }
 
@@ -84,13 +87,13 @@ TEST_F(Accuracy, AToleranceChoosesAndTheChoiceIsRecorded) {
     const Outcome outcome = run("shot", {"--tolerance", "1px"});
     const json accuracy = said(outcome).at("accuracy");
     EXPECT_EQ(accuracy.at("bundle"), "balanced");
-    EXPECT_EQ(accuracy.at("options"), "--tau 0.5 --heights f32 --refraction 0.13");
+    EXPECT_EQ(accuracy.at("options"), "--tau 0.5 --heights f32 --air standard");
     EXPECT_EQ(accuracy.at("tolerance_px"), 1.0);
     EXPECT_EQ(accuracy.at("holds"), true);
     EXPECT_GE(accuracy.at("predicted_px").get<double>(), 0.5);
     EXPECT_LE(accuracy.at("predicted_px").get<double>(), 1.0);
     EXPECT_NE(outcome.err.find("accuracy: balanced, predicted error 0.5"), std::string::npos) << outcome.err;
-    expect_models(view_of_picture(), "balanced", 0.5, "f32", 0.13);
+    expect_models(view_of_picture(), "balanced", 0.5, "f32", 0.13, "standard");
     const Outcome plan = run("plan", {"--tolerance", "1px", "--json", "-q"});
     EXPECT_EQ(said(plan).at("cheapest").at("accuracy"), accuracy.at("bundle"));
     EXPECT_EQ(said(plan).at("cheapest").at("predicted_px"), accuracy.at("predicted_px"));
@@ -113,12 +116,12 @@ TEST_F(Accuracy, WhatSingleOptionsFixIsInThePrediction) {
     const Outcome outcome = run("shot", {"--tolerance", "1px", "--tau", "50"});
     const json accuracy = said(outcome).at("accuracy");
     EXPECT_TRUE(accuracy.at("bundle").is_null());
-    EXPECT_EQ(accuracy.at("options"), "--tau 50 --heights f32 --refraction 0.13");
+    EXPECT_EQ(accuracy.at("options"), "--tau 50 --heights f32 --air standard");
     EXPECT_EQ(accuracy.at("holds"), false);
     EXPECT_GT(accuracy.at("predicted_px").get<double>(), 1.0);
     EXPECT_NE(outcome.err.find("accuracy: --tau 50 "), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("more than the tolerance"), std::string::npos) << outcome.err;
-    expect_models(view_of_picture(), "", 50.0, "f32", 0.13);
+    expect_models(view_of_picture(), "", 50.0, "f32", 0.13, "standard");
     const json held = said(run("shot", {"-q", "--tolerance", "1px", "--tau", "0.1"})).at("accuracy");
     EXPECT_EQ(held.at("options"), "--tau 0.1 --heights i16 --refraction 0") << "draft but for tau";
     EXPECT_EQ(held.at("holds"), true);
@@ -148,12 +151,23 @@ TEST_F(Accuracy, AViewIsWhatItsFieldsAre) {
     };
     expect_models(said(plan_with("tau_px", 3.0)).at("view"), "", 3.0, "i16", 0.0);
     expect_models(said(plan_with("accuracy", "survey")).at("view"), "", 4.0, "i16", 0.0);
-    const std::vector<std::pair<const char*, json>> broken{
-        {"accuracy", "nonsense"}, {"accuracy", 5},      {"accuracy", nullptr},
-        {"refraction", "0.13"},   {"refraction", -1.1}, {"refraction", 1e300},
-        {"refraction", nullptr},  {"earth", "disc"},    {"earth", 1},
-        {"heights", "i8"},        {"heights", nullptr}, {"geoid", true},
-        {"precision", ""},        {"tau_px", "1"},      {"tau_px", -1}};
+    const std::vector<std::pair<const char*, json>> broken{{"accuracy", "nonsense"},
+                                                           {"accuracy", 5},
+                                                           {"accuracy", nullptr},
+                                                           {"refraction", "0.13"},
+                                                           {"refraction", -1.1},
+                                                           {"refraction", 1e300},
+                                                           {"refraction", nullptr},
+                                                           {"earth", "disc"},
+                                                           {"earth", 1},
+                                                           {"heights", "i8"},
+                                                           {"heights", nullptr},
+                                                           {"geoid", true},
+                                                           {"precision", ""},
+                                                           {"tau_px", "1"},
+                                                           {"tau_px", -1},
+                                                           {"air", "thick"},
+                                                           {"air", 1}};
     for (const auto& [field, value] : broken) {
         SCOPED_TRACE(field + (" " + value.dump()));
         expect_refusal(plan_with(field, value), failed, {"v.json", "'" + std::string(field) + "'"});

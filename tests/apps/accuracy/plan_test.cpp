@@ -171,7 +171,7 @@ TEST(Plan, EndsInASentence) {
     EXPECT_EQ(draft.rfind("Good to ", 0), 0U) << draft;
     EXPECT_TRUE(says(draft, " px where the data reach: more than the tolerance of 1 px.\n")) << draft;
     EXPECT_TRUE(says(draft, "`--accuracy balanced` makes it 0.5")) << draft;
-    EXPECT_TRUE(says(draft, "px (--tau 0.5 --heights f32 --refraction 0.13)")) << draft;
+    EXPECT_TRUE(says(draft, "px (--tau 0.5 --heights f32 --air standard)")) << draft;
     EXPECT_TRUE(says(draft, "The data themselves may be off by ")) << draft;
     EXPECT_TRUE(says(draft, " px, which no setting can help; and the source does not say")) << draft;
     const std::string balanced = end_of({"--accuracy", "balanced"});

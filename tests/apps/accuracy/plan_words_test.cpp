@@ -41,6 +41,28 @@ TEST(Plan, BeginsWithTheEye) {
               "Eye: 36.600000 -90.500000, H 12,345 m, towards 0.");
 }
 
+// The effective k: that of the air which is taken for true.
+TEST(Plan, SaysHowLightGoes) {
+    EXPECT_TRUE(says(plan({"--accuracy", "survey"}).out, "\nLight: k 0.12 at the eye's h of "));
+    EXPECT_TRUE(says(plan({"--accuracy", "survey"}).out, " m (standard air).\n"));
+    EXPECT_TRUE(says(plan({}).out, " m (standard air); in this picture it goes straight.\n"));
+    EXPECT_TRUE(says(plan({"--refraction", "0.2"}).out, "\nLight: k 0.2 at all heights.\n"));
+    const json light = json::parse(plan({"--json", "-q", "--refraction", "0.2"}).out).at("light");
+    EXPECT_EQ(light.at("k"), 0.2);
+    EXPECT_EQ(light.at("air"), "constant");
+    // An eye in space bends no light by itself: refraction left out costs nothing there.
+    const json high =
+        json::parse(run_orograph({"plan", oro::test::bundled_data() / "jacksboro.tif", "--at", "36.6,-84.2",
+                                  "--above", "400000", "--pitch", "-90", "--size", "32x18", "--json", "-q"})
+                        .out);
+    EXPECT_LT(high.at("light").at("k").get<double>(), 1e-20);
+    for (const json& effect : high.at("effects")) {
+        if (effect.at("kind") == "refraction") {
+            EXPECT_LT(effect["size"]["worst_px"].get<double>(), 1e-9);
+        }
+    }
+}
+
 // Found: "no" in the table for 1.03 px, and "Good to 1 px." below it.
 TEST(Plan, TheLastLineIsOnTheTablesSideOfTheTolerance) {
     const json said = json::parse(plan({"--json", "-q", "--accuracy", "draft"}).out);

@@ -226,9 +226,9 @@ TEST_F(TradeCommand, MakesItsFolder) {
 }
 
 TEST_F(TradeCommand, RefusesWhatItTriesItself) {
-    const std::vector<Words> own{{"--tau", "1"},          {"--earth", "flat"},   {"--refraction", "0.1"},
-                                 {"--geoid", "none"},     {"--heights", "i16"},  {"--precision", "naive"},
-                                 {"--accuracy", "draft"}, {"--tolerance", "1px"}};
+    const std::vector<Words> own{{"--tau", "1"},          {"--earth", "flat"},    {"--refraction", "0.1"},
+                                 {"--geoid", "none"},     {"--heights", "i16"},   {"--precision", "naive"},
+                                 {"--accuracy", "draft"}, {"--tolerance", "1px"}, {"--air", "standard"}};
     for (const Words& option : own) expect_refusal(trade(option), usage, {"trade", option[0]});
     for (const Words& bad :
          {Words{"--views", "0"}, Words{"--views", "-1"}, Words{"--views", "1001"}, Words{"--views", "nan"},

@@ -54,7 +54,7 @@ Told told_of(const Words& data, const Words& view, const Words& more = {}) {
     told.shot = json::parse(shot.out).at("unseen");
     const Outcome verified = run(joined(joined(joined({"shot", "--verify"}, data), view), out));
     told.verified = line_with(verified.err, "beyond the data");
-    EXPECT_FALSE(says(verified.err, "note: ")) << verified.err;
+    EXPECT_FALSE(says(told.verified, "note: ")) << verified.err << "said twice";
     const Outcome compared = run(joined({"compare", picture, "--json"}, more));
     told.compared = line_with(compared.err, "beyond the data");
     told.comparison = json::parse(compared.out).at("unseen");

@@ -44,11 +44,12 @@ TEST_F(ModelOptions, AreSaidAndKeptAndDrawnAgain) {
     EXPECT_EQ(plain["models"], json({{"earth", "ellipsoid"},
                                      {"geoid", "egm96"},
                                      {"refraction", 0.0},
+                                     {"air", "constant"},
                                      {"precision", "relative"},
                                      {"heights", "f32"},
                                      {"height_step_m", 0.00048828125}}));
     const std::vector<std::pair<std::string, std::string>> options{
-        {"earth", "sphere"},    {"earth", "flat"}, {"refraction", "0.9"},
+        {"earth", "sphere"},    {"earth", "flat"}, {"refraction", "0.9"}, {"air", "standard"},
         {"precision", "naive"}, {"geoid", "none"}, {"heights", "i16"}};
     for (const auto& [name, value] : options) {
         SCOPED_TRACE(name + " " + value);
@@ -91,7 +92,7 @@ TEST_F(ModelOptions, WithoutGeoidHeightsAreAboveTheEllipsoid) {
 TEST_F(ModelOptions, ViewsOfBeforeDrawAsBefore) {
     shoot(folder / "new.png", {});
     json view = json::parse(oro::test::view_in(folder / "new.png"));
-    for (const char* field : {"earth", "geoid", "refraction", "precision", "heights"})
+    for (const char* field : {"earth", "geoid", "refraction", "air", "precision", "heights"})
         EXPECT_EQ(view.erase(field), 1U) << field;
     oro::test::write_bytes(folder / "old.json", view.dump());
     const Outcome outcome =
@@ -100,11 +101,32 @@ TEST_F(ModelOptions, ViewsOfBeforeDrawAsBefore) {
     EXPECT_TRUE(bytes_of(folder / "again.png") == bytes_of(folder / "new.png"));
 }
 
+// Before, --refraction 0.13 was what --air standard is now, and views did not name their air.
+TEST_F(ModelOptions, RefractionOfBeforeDrawsAsStandardAir) {
+    const json standard = shoot(folder / "standard.png", {"--air", "standard"});
+    const json surveyed = shoot(folder / "surveyed.png", {"--refraction", "0.13"});
+    EXPECT_EQ(surveyed["light"]["k"], 0.13);
+    EXPECT_EQ(surveyed["light"]["air"], "constant");
+    EXPECT_EQ(standard["light"]["air"], "standard");
+    EXPECT_EQ(standard["light"]["refraction"], 0.13);
+    const double eye_h_m = standard["light"]["eye_h_m"];
+    EXPECT_NEAR(standard["light"]["k"].get<double>(), 0.13 * std::exp(-eye_h_m / 8434.0), 1e-12);
+    json view = json::parse(oro::test::view_in(folder / "surveyed.png"));
+    EXPECT_EQ(view.erase("air"), 1U);
+    oro::test::write_bytes(folder / "old.json", view.dump());
+    const Outcome outcome =
+        run_orograph({"shot", "--view", folder / "old.json", "--out", folder / "again.png", "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(bytes_of(folder / "again.png") == bytes_of(folder / "standard.png"));
+    EXPECT_FALSE(bytes_of(folder / "again.png") == bytes_of(folder / "surveyed.png"));
+}
+
 TEST_F(ModelOptions, BadValuesAreRefused) {
     for (const Words& bad :
          {Words{"--earth", "disc"}, Words{"--geoid", "egm2008"}, Words{"--precision", "rounded_posts"},
           Words{"--heights", "i8"}, Words{"--refraction", "0.91"}, Words{"--refraction", "-1.5"},
-          Words{"--refraction", "nan"}, Words{"--refraction", "much"}}) {
+          Words{"--refraction", "nan"}, Words{"--refraction", "much"}, Words{"--air", "thick"},
+          Words{"--air", "standard", "--refraction", "0.13"}}) {
         Words words{"shot", bundled(), "--out", folder / "x.png"};
         words.insert(words.end(), bad.begin(), bad.end());
         const Outcome outcome = run_orograph(words);

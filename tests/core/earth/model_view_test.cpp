@@ -37,7 +37,7 @@ void judge(std::mt19937_64& random, double k, double highest_m, Tally& tally) {
     Camera camera;
     camera.eye = {-90.0 + 180.0 * unit(random), 360.0 * unit(random), std::pow(3.0e4, unit(random))};
     const SeenHorizon horizon =
-        ModelView(camera, {Earth::ellipsoid, k, Precision::relative}, {}).horizon(occluder);
+        ModelView(camera, {Earth::ellipsoid, {k}, Precision::relative}, {}).horizon(occluder);
     const double h_m = highest_m * unit(random) * unit(random);
     // About as far as either sees over the horizon.
     const double bent_radius_m = 6.37e6 / (1.0 - std::max(0.0, k));
@@ -53,7 +53,7 @@ void judge(std::mt19937_64& random, double k, double highest_m, Tally& tally) {
     const glm::dvec3 point = ecef_from_geodetic(place).m;
     const HorizonCone cone = horizon_cone(occluder, std::span(&point, 1));
     const bool culled = beyond_horizon(horizon.eye, {cone.direction, cone.angle_rad * horizon.stretch});
-    const bool seen = is_seen(occluder, camera.eye_ecef(), Refraction(camera.eye, k), point);
+    const bool seen = is_seen(occluder, camera.eye_ecef(), Refraction(camera.eye, {k}), point);
     ++(seen ? tally.seen : tally.hidden);
     tally.culled += culled ? 1 : 0;
     tally.lost += culled && seen ? 1 : 0;
@@ -82,14 +82,14 @@ TEST(ModelView, WithoutWideningBentLightWouldBeLost) {
     camera.eye = {46.0, 8.0, 100.0};
     const SeenHorizon straight = ModelView(camera, {}, {}).horizon(occluder);
     const SeenHorizon bent =
-        ModelView(camera, {Earth::ellipsoid, 0.13, Precision::relative}, {}).horizon(occluder);
+        ModelView(camera, {Earth::ellipsoid, {0.13}, Precision::relative}, {}).horizon(occluder);
     EXPECT_EQ(straight.stretch, 1.0);
     EXPECT_EQ(straight.eye.angle_rad, horizon_eye(occluder, camera.eye_ecef()).angle_rad);
     EXPECT_NEAR(bent.eye.angle_rad / straight.eye.angle_rad, 1.02 / std::sqrt(1.0 - 0.13), 0.002);
     // 0.2 m above the sea 39 km away: hidden behind 35.7 km of horizon, but not with bent light (38.3 km).
     const glm::dvec3 point = ecef_from_geodetic({46.0 + 39.0 / 111.15, 8.0, 0.2}).m;
     const HorizonCone cone = horizon_cone(occluder, std::span(&point, 1));
-    EXPECT_TRUE(is_seen(occluder, camera.eye_ecef(), Refraction(camera.eye, 0.13), point));
+    EXPECT_TRUE(is_seen(occluder, camera.eye_ecef(), Refraction(camera.eye, {0.13}), point));
     EXPECT_FALSE(is_seen(occluder, camera.eye_ecef(), Refraction(), point));
     EXPECT_TRUE(beyond_horizon(straight.eye, cone));
     EXPECT_FALSE(beyond_horizon(bent.eye, {cone.direction, cone.angle_rad * bent.stretch}));

@@ -23,7 +23,7 @@ glm::dvec3 east_north_up_m(const WorldModel& model, const Geodetic& eye, const G
 // A degree of latitude at the equator is 110,574.3 m, one of longitude 111,319.5 m. Source: P. Osborne, The
 // Mercator Projections, 2013, section 5.7.
 TEST(WorldModel, LiteralsOnThePlane) {
-    const WorldModel flat{Earth::flat, 0.0, Precision::relative};
+    const WorldModel flat{Earth::flat, {}, Precision::relative};
     const glm::dvec3 at = east_north_up_m(flat, {0.0, 179.5, 100.0}, {-1.0, -179.5, 350.0});
     EXPECT_NEAR(at.x, 111319.5, 0.05);
     EXPECT_NEAR(at.y, -110574.3, 0.05);
@@ -36,7 +36,7 @@ TEST(WorldModel, LiteralsOnThePlane) {
 
 // A quarter of a sphere of 6,371,008.7714 m from the eye: as far down as away.
 TEST(WorldModel, LiteralsOnTheSphere) {
-    const WorldModel sphere{Earth::sphere, 0.0, Precision::relative};
+    const WorldModel sphere{Earth::sphere, {}, Precision::relative};
     const glm::dvec3 at = east_north_up_m(sphere, {0.0, 10.0, 0.0}, {90.0, 0.0, 0.0});
     EXPECT_NEAR(at.y, 6371008.7714, 1e-6);
     EXPECT_NEAR(at.z, -6371008.7714, 1e-6);
@@ -49,10 +49,37 @@ TEST(WorldModel, LiteralsOnTheSphere) {
 TEST(WorldModel, LiteralsOfBentLight) {
     const Geodetic eye{46.0, 8.0, 0.0}, point{46.0 + 100000.0 / 111146.0, 8.0, 0.0};
     const glm::dvec3 straight = model_offset_m({}, eye, point);
-    const glm::dvec3 bent = model_offset_m({Earth::ellipsoid, 0.13, Precision::relative}, eye, point);
+    const glm::dvec3 bent = model_offset_m({Earth::ellipsoid, {0.13}, Precision::relative}, eye, point);
     EXPECT_NEAR(glm::length(bent - straight), 101.9, 0.15);
     EXPECT_GT(glm::dot(bent - straight, ecef_from_enu(46.0, 8.0)[2]), 0.0);
     EXPECT_EQ(model_offset_m({}, eye, point), ecef_from_geodetic(point).m - ecef_from_geodetic(eye).m);
+}
+
+// A surveyor's (1 - k) d^2 / (2 R) is 244.703 m for d = 60 km and k = 0.13 at a pole, where all radii of
+// curvature are a / sqrt(1 - e^2) = 6,399,593.6258 m. Source: Torge & Müller, Geodesy, 4th ed. 2012, section
+// 5.1.1.2 and appendix. Fourth order in d / R: 2 mm. It was 10.94 m more from 3,000 m, where k was 0.0911.
+TEST(WorldModel, ASurveyorsRefractionIsTheSameAtAllHeights) {
+    const double lat_deg = 90.0 - 0.5371820418;
+    for (const double h_m : {-400.0, 0.0, 3000.0, 8848.0, 400000.0}) {
+        const glm::dvec3 at = east_north_up_m({Earth::ellipsoid, {0.13}, Precision::relative},
+                                              {90.0, 0.0, h_m}, {lat_deg, 0.0, 0.0});
+        EXPECT_NEAR(at.z, -h_m - 244.703, 0.01) << h_m;
+    }
+}
+
+// 0.13 exp(-h / 8434 m): 0.091088 at 3,000 m, 0.04783 at 8,434 m, and nothing 400 km up.
+TEST(WorldModel, StandardAirThinsWithHeight) {
+    EXPECT_EQ(standard_air.k_at(-400.0), 0.13);
+    EXPECT_EQ(standard_air.k_at(0.0), 0.13);
+    EXPECT_NEAR(standard_air.k_at(3000.0), 0.091088, 1e-6);
+    EXPECT_NEAR(standard_air.k_at(8434.0), 0.0478243, 1e-6);
+    EXPECT_LT(standard_air.k_at(400000.0), 1e-20);
+    EXPECT_EQ(Air{0.2}.k_at(400000.0), 0.2);
+    EXPECT_TRUE(Refraction({46.0, 8.0, 0.0}, {}).straight());
+    const double lat_deg = 90.0 - 0.5371820418;
+    const glm::dvec3 at = east_north_up_m({Earth::ellipsoid, standard_air, Precision::relative},
+                                          {90.0, 0.0, 3000.0}, {lat_deg, 0.0, 0.0});
+    EXPECT_NEAR(at.z, -3000.0 - 244.703 - 10.945, 0.01);
 }
 
 struct Worst {

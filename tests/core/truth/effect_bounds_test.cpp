@@ -58,7 +58,7 @@ TEST(EffectBounds, DetailGrowsWithTauAndNeverBeyondIt) {
 
 DrawingModel balanced() {
     DrawingModel drawing;
-    drawing.world.refraction_k = usual_refraction_k;
+    drawing.world.air = standard_air;
     return drawing;
 }
 
@@ -82,11 +82,11 @@ TEST(EffectBounds, AreInTheDrawingsThatLeaveThingsOut) {
     EXPECT_EQ(in(drawing),
               (Kinds{geoid, steps_f32, placement, depth, pixel_grid, flat_cells, interpolation, source}));
     drawing = usual;
-    drawing.world = {Earth::sphere, 0.0, Precision::rounded_posts};
+    drawing.world = {Earth::sphere, {}, Precision::rounded_posts};
     EXPECT_EQ(in(drawing), (Kinds{sphere, refraction, float32_posts, detail, steps_f32, depth, pixel_grid,
                                   flat_cells, interpolation, source}));
     drawing = usual;
-    drawing.world = {Earth::flat, usual_refraction_k, Precision::naive};
+    drawing.world = {Earth::flat, standard_air, Precision::naive};
     drawing.coding = {true, 3, 0};
     EXPECT_EQ(in(drawing), (Kinds{flat, float32_view, steps_i16, detail, depth, pixel_grid, flat_cells,
                                   interpolation, source}));
@@ -107,9 +107,9 @@ TEST(EffectBounds, WhatALargerEffectContainsIsNotModelled) {
     using Kinds = std::vector<EffectKind>;
     DrawingModel drawing = balanced();
     EXPECT_EQ(not_modelled(drawing), (Kinds{detail}));
-    drawing.world = {Earth::sphere, usual_refraction_k, Precision::rounded_posts};
+    drawing.world = {Earth::sphere, standard_air, Precision::rounded_posts};
     EXPECT_EQ(not_modelled(drawing), (Kinds{sphere, float32_posts, detail}));
-    drawing.world = {Earth::flat, 0.0, Precision::naive};
+    drawing.world = {Earth::flat, {}, Precision::naive};
     drawing.tau_px = 0.0;
     EXPECT_EQ(not_modelled(drawing), (Kinds{sphere, flat, refraction, float32_posts, float32_view}));
 }
@@ -208,18 +208,18 @@ TEST(EffectBounds, OfTheSkyThereAreNone) {
 glm::dvec3 drawn_m(EffectKind kind, const HeightField& field, const Geodetic& eye, const Geodetic& point) {
     if (kind == EffectKind::refraction) return model_offset_m({}, eye, point);
     if (kind == EffectKind::sphere)
-        return model_offset_m({Earth::sphere, usual_refraction_k, Precision::relative}, eye, point);
+        return model_offset_m({Earth::sphere, standard_air, Precision::relative}, eye, point);
     const auto lowered = [&](const Geodetic& at) {
         return Geodetic{at.lat_deg, at.lon_deg, at.h_m - field.undulation.at_m(at.lat_deg, at.lon_deg)};
     };
-    return Refraction(eye, usual_refraction_k)
+    return Refraction(eye, standard_air)
         .apparent_m(model_offset_m(Earth::ellipsoid, lowered(eye), lowered(point)));
 }
 
 // How far the farthest of a picture's points is moved.
 Distance measured_worst(const TrueSurface& surface, const Camera& camera, EffectKind kind,
                         const std::vector<std::optional<SightHit>>& picture) {
-    const Sight sight = sight_from(camera.eye, usual_refraction_k);
+    const Sight sight = sight_from(camera.eye, standard_air);
     const GroundMeter meter(surface, sight, camera);
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
     Distance worst;
@@ -246,7 +246,7 @@ TEST(EffectBounds, HoldBetweenTheSamples) {
     for (const Camera& camera : made_cameras(seed, field, 5, 320, 180)) {
         const EffectPrediction prediction(surface, *pages, camera, {}, thread_count());
         const auto picture =
-            Oracle(surface, sight_from(camera.eye, usual_refraction_k)).cast_picture(camera, thread_count());
+            Oracle(surface, sight_from(camera.eye, standard_air)).cast_picture(camera, thread_count());
         for (const EffectKind kind : {EffectKind::refraction, EffectKind::sphere, EffectKind::geoid}) {
             const Distance worst = measured_worst(surface, camera, kind, picture);
             const EffectSize size = prediction.size(kind, 1.0).value().value();

@@ -28,7 +28,7 @@ TEST_P(OracleOfModels, HitsLieOnTheRayAndNothingIsNearer) {
     for (int i = 0; i < 300; ++i) {
         Geodetic eye{46.5 + 0.5 * unit(random), 8.0 + 0.5 * unit(random), 0.0};
         eye.h_m = ground_h_m(field, eye.lat_deg, eye.lon_deg).value() + std::pow(10.0, 4.0 * unit(random));
-        const WorldModel model{GetParam(), i % 2 == 0 ? 0.0 : 0.13, Precision::relative};
+        const WorldModel model{GetParam(), Air{i % 2 == 0 ? 0.0 : 0.13}, Precision::relative};
         const Sight sight = sight_of(model, eye);
         const double turn = 6.2831853 * unit(random), fall = 0.6 * unit(random) * unit(random);
         const glm::dvec3 direction =

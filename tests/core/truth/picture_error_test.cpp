@@ -40,10 +40,10 @@ class Equator : public testing::Test {
     const TrueSurface surface{field, 1.0, 2};
 
     // Of a picture with ground in the middle pixel only.
-    InteriorError with_one_point(const Camera& camera, float depth, double refraction_k = 0.0) const {
+    InteriorError with_one_point(const Camera& camera, float depth, const Air& air = {}) const {
         std::vector<float> depths(static_cast<std::size_t>(camera.height_px), 0.0F);
         depths[static_cast<std::size_t>(camera.height_px / 2)] = depth;
-        return interior_error(surface, sight_from(camera.eye, refraction_k), camera, {depths, {0.5, 0.5}}, 2);
+        return interior_error(surface, sight_from(camera.eye, air), camera, {depths, {0.5, 0.5}}, 2);
     }
 };
 
@@ -114,7 +114,7 @@ TEST_F(Equator, SmallHeightToAMillionth) {
 // 0.01735995 m lower: 100.1173157326 m too high. The true point below it is seen as much higher as its own
 // distance asks for: 38.2305162758 px.
 TEST_F(Equator, RefractionIsTakenOutBeforeHeightsAreCompared) {
-    const InteriorError error = with_one_point(eastward(100.0), at_1310_72_m, 0.13);
+    const InteriorError error = with_one_point(eastward(100.0), at_1310_72_m, standard_air);
     EXPECT_NEAR(error.summary_m.largest, 100.1173157326, 1e-5);
     EXPECT_NEAR(error.summary_px.largest, 38.2305162758, 2e-6);
 }
@@ -214,7 +214,7 @@ TEST_F(Equator, SkylineIsFoundAndItsShiftMeasured) {
 // px to 15.1208 px (the largest tangent over the lifted circle, by search).
 TEST_F(Equator, SkylineThroughBendingAir) {
     const Camera camera = column_of(101);
-    const Skyline truth = true_skyline(surface, sight_from(camera.eye, 0.13), camera, 1);
+    const Skyline truth = true_skyline(surface, sight_from(camera.eye, standard_air), camera, 1);
     EXPECT_NEAR(truth.y_px[0], 50.5 + 15.1208, 1.0 / 128.0 + 1e-4);
 }
 

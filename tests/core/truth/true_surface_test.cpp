@@ -280,7 +280,7 @@ TEST(TrueSurface, PostsOfAFileAreTheSameSurface) {
         camera.eye.h_m = in_memory.h_m(camera.eye.lat_deg, camera.eye.lon_deg).value_or(3000.0) +
                          std::pow(10.0, 4.0 * unit(random));
         camera.attitude = {360.0 * unit(random), 5.0 - 40.0 * unit(random), 0.0};
-        const Sight sight = sight_from(camera.eye, 0.13);
+        const Sight sight = sight_from(camera.eye, {0.13});
         const glm::dvec3 direction = camera.ecef_direction_at({0.5, 0.5});
         const auto one = first_hit(in_memory, sight, direction, 1.0e6);
         const auto two = first_hit(asked, sight, direction, 1.0e6);

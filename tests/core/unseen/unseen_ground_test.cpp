@@ -48,12 +48,12 @@ Camera looking(const Geodetic& eye, double heading_deg, double pitch_deg, int wi
 }
 
 UnseenGround unseen_from(const Land& land, const Camera& camera, double ceiling = ceiling_m) {
-    return unseen_ground(land.look(camera, usual_refraction_k, ceiling), camera, ceiling);
+    return unseen_ground(land.look(camera, standard_air, ceiling), camera, ceiling);
 }
 
 // Where the ground of each column begins, in pixels from the top, to half a pixel.
 std::vector<double> skyline_px(const TrueSurface& surface, const Camera& camera) {
-    const Oracle oracle(surface, sight_from(camera.eye, usual_refraction_k));
+    const Oracle oracle(surface, sight_from(camera.eye, standard_air));
     std::vector<double> skyline(static_cast<std::size_t>(camera.width_px));
     in_parallel(camera.width_px, thread_count(), [&](int x) {
         double y = 0.0;
@@ -164,7 +164,7 @@ TEST(UnseenGround, TheBoundIsTheCeilingAtTheEdge) {
         const Camera camera = looking(eye, 0.0, 0.0, 321);
         const UnseenGround unseen = unseen_from(land, camera, ceiling);
         // Refraction by height: k exp(-3000 / 8434).
-        const double k = usual_refraction_k * std::exp(-3000.0 / 8434.0);
+        const double k = 0.13 * std::exp(-3000.0 / 8434.0);
         const double expected_px = 217.28 * (tangent(ceiling + 86.0, k) - tangent(0.0, k));
         const double bound_px = static_cast<double>(unseen.column_px[160]);
         EXPECT_GE(bound_px, expected_px);
@@ -208,7 +208,7 @@ TEST(UnseenGround, CostsLittle) {
     for (const double above_m : {2.0, 3000.0, 30000.0}) {
         const Geodetic eye{46.5, 9.6, *land.surface->h_m(46.5, 9.6) + above_m};
         const Camera camera = looking(eye, 90.0, 0.0, 1280, 720);
-        const Sight sight = sight_from(camera.eye, usual_refraction_k);
+        const Sight sight = sight_from(camera.eye, standard_air);
         const std::clock_t start = std::clock();
         const UnseenPicture picture = unseen_picture(*land.surface, *land.known, sight, camera, ceiling_m, 1);
         const UnseenGround unseen = unseen_ground(picture, camera, ceiling_m);

@@ -40,8 +40,8 @@ struct Land {
         surface = std::make_unique<TrueSurface>(field, exaggeration, thread_count());
         known = std::make_unique<KnownGround>(field, missing, has_rims);
     }
-    [[nodiscard]] UnseenPicture look(const Camera& camera, double k, double ceiling = ceiling_m) const {
-        return unseen_picture(*surface, *known, sight_from(camera.eye, k), camera, ceiling, thread_count());
+    [[nodiscard]] UnseenPicture look(const Camera& camera, const Air& air, double ceiling = ceiling_m) const {
+        return unseen_picture(*surface, *known, sight_from(camera.eye, air), camera, ceiling, thread_count());
     }
 };
 

@@ -75,9 +75,9 @@ struct Comparison {
     int amiss{};
     int columns_amiss{};
 };
-Comparison compare(const Land& land, const Camera& camera, double k) {
-    const UnseenPicture picture = land.look(camera, k);
-    const Sight sight = sight_from(camera.eye, k);
+Comparison compare(const Land& land, const Camera& camera, const Air& air) {
+    const UnseenPicture picture = land.look(camera, air);
+    const Sight sight = sight_from(camera.eye, air);
     const int width = camera.width_px, height = camera.height_px;
     std::vector<First> truth(static_cast<std::size_t>(width * height));
     in_parallel(height, thread_count(), [&](int y) {
@@ -147,8 +147,8 @@ void expect_as_walked(const Land& land, unsigned seed, int views, double lowest_
     int with_some = 0, amiss = 0, unknown = 0;
     for (int view = 0; view < views; ++view) {
         const Camera camera = random_camera(land, random, lowest_m, highest_m);
-        const double k = view % 3 == 0 ? 0.0 : view % 3 == 1 ? usual_refraction_k : -0.3;
-        const Comparison comparison = compare(land, camera, k);
+        const Air air = view % 3 == 0 ? Air{} : view % 3 == 1 ? standard_air : Air{-0.3, AirLaw::standard};
+        const Comparison comparison = compare(land, camera, air);
         with_some += comparison.unknown > 0;
         amiss += comparison.amiss;
         unknown += comparison.unknown;

@@ -143,7 +143,7 @@ Verdicts ProjectedCopy::viewshed(const std::array<double, 2>& at_m, double reach
 Sight matched_sight(const Geodetic& eye) {
     const double radius_m = std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg));
     const double light_per_m = 1.0 / radius_m - curvature_coefficient / wgs84_a_m;
-    return sight_from(eye, light_per_m / Refraction(eye, 1.0).curvature_per_m());
+    return sight_from(eye, {light_per_m / Refraction(eye, {1.0}).curvature_per_m()});
 }
 
 // Whether a sight line reaches a target over each cell that is within reach.
