@@ -93,6 +93,7 @@ std::string short_unit(HeightUnit unit) {
 std::vector<std::string> common_facts(const SourceReport& source) {
     std::vector<std::string> facts{
         format_words(source), "posts are " + posts_words(source.posts_are), source.crs,
+        horizontal_words(source.horizontal_datum),
         datum_words(source.vertical_datum) + " in " + short_unit(source.height_unit)};
     facts.push_back(source.placement ? placement_text(*source.placement) : "");
     facts.push_back(source.attribution.empty() ? "attribution not stated" : source.attribution);
@@ -110,6 +111,8 @@ std::string one_file(const SourceReport& source, Posts posts) {
     std::string text = one_line(source.path) + "\n";
     text += line("format", format_words(source) + ", posts are " + posts_words(source.posts_are));
     text += line("coordinates", source.crs);
+    if (const std::string datum = horizontal_words(source.horizontal_datum); !datum.empty())
+        text += line("datum", datum);
     text += line("heights", datum_words(source.vertical_datum) + ", in " + short_unit(source.height_unit));
     text += line("posts", text_of("%d x %d, every %.6g x %.6g degrees (", source.columns, source.rows,
                                   source.lon_spacing_deg, source.lat_spacing_deg) +

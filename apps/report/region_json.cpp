@@ -21,6 +21,9 @@ ordered_json box_json(const BoundingBox& box) {
 ordered_json source_json(const SourceReport& s) {
     ordered_json json = ordered_json::object();
     put_source_words(json, s);
+    json["horizontal_datum"] = nullptr;
+    if (!s.horizontal_datum.is_wgs84)
+        json["horizontal_datum"] = horizontal_fields<ordered_json>(s.horizontal_datum);
     json["posts"] = json_object("rows", s.rows, "columns", s.columns);
     json["spacing"] =
         json_object("lat_deg", s.lat_spacing_deg, "lon_deg", s.lon_spacing_deg, "metres", s.spacing_m);

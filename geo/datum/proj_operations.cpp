@@ -18,14 +18,10 @@ struct FreeFactory {
     }
 };
 
-struct Grids {
-    std::vector<std::string> paths;  // of those that are there
-    std::string names;               // of all, joined
-    bool all_there{true};
-};
+}  // namespace
 
-Grids grids_of(PJ_CONTEXT* context, const PJ* operation) {
-    Grids grids;
+OperationGrids grids_of(PJ_CONTEXT* context, const PJ* operation) {
+    OperationGrids grids;
     const int count = proj_coordoperation_get_grid_used_count(context, operation);
     for (int i = 0; i < count; ++i) {
         const char* short_name = nullptr;
@@ -35,14 +31,51 @@ Grids grids_of(PJ_CONTEXT* context, const PJ* operation) {
                                           nullptr, nullptr, &available);
         const bool located = available && full_name && *full_name;
         if (located) grids.paths.emplace_back(full_name);
-        if (!grids.names.empty()) grids.names += ", ";
-        grids.names += located ? file_names({full_name}) : short_name ? short_name : "unnamed grid";
-        grids.all_there = grids.all_there && located;
+        const std::string name = located ? file_names({full_name}) : short_name ? short_name : "unnamed grid";
+        grids.names += (grids.names.empty() ? "" : ", ") + name;
+        if (!located) grids.missing.push_back(name);
     }
     return grids;
 }
 
-}  // namespace
+std::vector<ProjObject> operations_between(PJ_CONTEXT* context, const PJ* from, const PJ* to,
+                                           const BoundingBox& unwrapped, bool with_ballpark) {
+    std::vector<ProjObject> operations;
+    const std::unique_ptr<PJ_OPERATION_FACTORY_CONTEXT, FreeFactory> factory(
+        proj_create_operation_factory_context(context, nullptr));
+    if (!from || !to || !factory) return operations;
+    PJ_OPERATION_FACTORY_CONTEXT* const f = factory.get();
+    proj_operation_factory_context_set_allow_ballpark_transformations(context, f, with_ballpark ? 1 : 0);
+    proj_operation_factory_context_set_spatial_criterion(context, f,
+                                                         PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
+    proj_operation_factory_context_set_grid_availability_use(context, f,
+                                                             PROJ_GRID_AVAILABILITY_USED_FOR_SORTING);
+    if (unwrapped.east_deg - unwrapped.west_deg < 360.0)
+        proj_operation_factory_context_set_area_of_interest(
+            context, f, normalised_lon_deg(unwrapped.west_deg), unwrapped.south_deg,
+            normalised_lon_deg(unwrapped.east_deg), unwrapped.north_deg);
+    const std::unique_ptr<PJ_OBJ_LIST, FreeList> list(proj_create_operations(context, from, to, f));
+    const int count = list ? proj_list_get_count(list.get()) : 0;
+    for (int i = 0; i < count; ++i) {
+        ProjObject operation(proj_list_get(context, list.get(), i));
+        if (operation) operations.push_back(std::move(operation));
+    }
+    return operations;
+}
+
+ProjObject unbound(PJ_CONTEXT* context, ProjObject crs) {
+    while (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS)
+        crs.reset(proj_get_source_crs(context, crs.get()));
+    return crs;
+}
+
+std::string code_and_name(const PJ* object) {
+    const char* const name = proj_get_name(object);
+    const char* const authority = proj_get_id_auth_name(object, 0);
+    const char* const code = proj_get_id_code(object, 0);
+    const std::string text = name ? name : "unnamed";
+    return authority && code ? std::string(authority) + ":" + code + " " + text : text;
+}
 
 ProjContext new_proj_context() {
     ProjContext context(proj_context_create());
@@ -63,27 +96,10 @@ std::string file_names(const std::vector<std::string>& paths) {
 LiftingOperation find_lifting_operation(PJ_CONTEXT* context, const PJ* from, const BoundingBox& unwrapped) {
     LiftingOperation found;
     const ProjObject to(proj_create(context, "EPSG:4979"));
-    const std::unique_ptr<PJ_OPERATION_FACTORY_CONTEXT, FreeFactory> factory(
-        proj_create_operation_factory_context(context, nullptr));
-    if (!to || !factory) return found;
-    PJ_OPERATION_FACTORY_CONTEXT* const f = factory.get();
     // A "ballpark" operation is the one that leaves heights as they are: never acceptable here.
-    proj_operation_factory_context_set_allow_ballpark_transformations(context, f, 0);
-    proj_operation_factory_context_set_spatial_criterion(context, f,
-                                                         PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
-    proj_operation_factory_context_set_grid_availability_use(context, f,
-                                                             PROJ_GRID_AVAILABILITY_USED_FOR_SORTING);
-    if (unwrapped.east_deg - unwrapped.west_deg < 360.0)
-        proj_operation_factory_context_set_area_of_interest(
-            context, f, normalised_lon_deg(unwrapped.west_deg), unwrapped.south_deg,
-            normalised_lon_deg(unwrapped.east_deg), unwrapped.north_deg);
-    const std::unique_ptr<PJ_OBJ_LIST, FreeList> list(proj_create_operations(context, from, to.get(), f));
-    const int count = list ? proj_list_get_count(list.get()) : 0;
-    for (int i = 0; i < count; ++i) {
-        const ProjObject operation(proj_list_get(context, list.get(), i));
-        if (!operation) continue;
-        Grids grids = grids_of(context, operation.get());
-        if (!grids.all_there) {
+    for (const ProjObject& operation : operations_between(context, from, to.get(), unwrapped, false)) {
+        OperationGrids grids = grids_of(context, operation.get());
+        if (!grids.missing.empty()) {
             if (found.missing.empty()) found.missing = grids.names;
             continue;
         }

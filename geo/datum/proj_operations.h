@@ -1,5 +1,5 @@
-// PROJ as this program uses it for heights: a context without network or chatter, and the ways from one
-// vertical datum to another with the grids that they need.
+// PROJ as this program uses it for datums: a context without network or chatter, and the ways from one
+// datum to another with the grids that they need.
 #pragma once
 
 #include <proj.h>
@@ -22,6 +22,23 @@ using ProjContext = std::unique_ptr<PJ_CONTEXT, FreeProjContext>;
 using ProjObject = std::unique_ptr<PJ, FreeProjObject>;
 
 ProjContext new_proj_context();
+
+// "EPSG:4267 NAD27"
+std::string code_and_name(const PJ* object);
+// A CRS without the wrapping that TOWGS84 parameters or a geoid model give it.
+ProjObject unbound(PJ_CONTEXT* context, ProjObject crs);
+
+struct OperationGrids {
+    std::vector<std::string> paths;    // of those that are there, whole
+    std::vector<std::string> missing;  // names of those that are not
+    std::string names;                 // of all, joined
+};
+OperationGrids grids_of(PJ_CONTEXT* context, const PJ* operation);
+
+// All operations that PROJ knows for a box, best first, those that lack a grid last; ballpark ones leave out
+// what they know no way for. None where a CRS is null. They must not outlive the context.
+std::vector<ProjObject> operations_between(PJ_CONTEXT* context, const PJ* from, const PJ* to,
+                                           const BoundingBox& unwrapped, bool with_ballpark);
 
 // A way from heights of a CRS to heights above WGS84's ellipsoid.
 struct LiftingOperation {

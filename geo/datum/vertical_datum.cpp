@@ -14,21 +14,6 @@ namespace {
 constexpr const char* egm96_heights = "EPSG:4326+5773";
 constexpr double egm96_nodes_per_deg = 4.0;
 
-std::string code_and_name(const PJ* object) {
-    const char* const name = proj_get_name(object);
-    const char* const authority = proj_get_id_auth_name(object, 0);
-    const char* const code = proj_get_id_code(object, 0);
-    const std::string text = name ? name : "unnamed";
-    return authority && code ? std::string(authority) + ":" + code + " " + text : text;
-}
-
-// A CRS without the wrapping that TOWGS84 parameters or a geoid model give it.
-ProjObject unbound(PJ_CONTEXT* context, ProjObject crs) {
-    while (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS)
-        crs.reset(proj_get_source_crs(context, crs.get()));
-    return crs;
-}
-
 std::string wkt(PJ_CONTEXT* context, const PJ* crs) {
     const char* const text = proj_as_wkt(context, crs, PJ_WKT2_2019, nullptr);
     return text ? text : "";
@@ -49,18 +34,29 @@ double metres_per_unit(PJ_CONTEXT* context, const PJ* crs, int axis) {
     return direction && std::string_view(direction) == "down" ? -factor : factor;
 }
 
-// True for heights above EGM96, in whatever unit: by the datum that PROJ knows as its own.
-bool is_egm96(PJ_CONTEXT* context, const PJ* vertical_crs) {
+constexpr const char* egm96_datum = "5171";  // of EPSG
+constexpr const char* egm2008_datum = "1027";
+
+// True for heights above a geoid, in whatever unit: by the datum that PROJ knows as its own.
+bool is_above(const char* datum_code, PJ_CONTEXT* context, const PJ* vertical_crs) {
     const ProjObject stated(proj_crs_get_datum_forced(context, vertical_crs));
-    const ProjObject egm96(
-        proj_create_from_database(context, "EPSG", "5171", PJ_CATEGORY_DATUM, false, nullptr));
-    return stated && egm96 &&
-           proj_is_equivalent_to_with_ctx(context, stated.get(), egm96.get(), PJ_COMP_EQUIVALENT) != 0;
+    const ProjObject geoid(
+        proj_create_from_database(context, "EPSG", datum_code, PJ_CATEGORY_DATUM, false, nullptr));
+    return stated && geoid &&
+           proj_is_equivalent_to_with_ctx(context, stated.get(), geoid.get(), PJ_COMP_EQUIVALENT) != 0;
 }
+
+// How far EGM96 may be from the geoid that it stands in for: without a grid of that one only what is known of
+// the whole Earth. Source: P. Guth, U.S. Naval Academy, MICRODEM, geoid models: 0.5 m RMS, at most about 10
+// m, over deep-sea trenches.
+constexpr const char* egm2008_differs =
+    ", which is 0.5 m (RMS) and at most about 10 m from EGM2008 over the whole Earth";
+constexpr const char* differs_unknown = ", off by an amount that is not known here";
 
 // A CRS's heights over latitude and longitude.
 struct GeographicHeights {
     StatedDatum datum;
+    bool is_egm2008{};
     ProjObject crs;  // geographic, with the vertical part of the CRS; null when it has none
     // Of the height that operations from `crs` take: a projected CRS may count in feet what the geographic
     // one below it counts in metres.
@@ -78,7 +74,8 @@ GeographicHeights geographic_with_heights(PJ_CONTEXT* context, const std::string
         if (!horizontal || !vertical) return heights;
         heights.metres_per_unit = metres_per_unit(context, vertical.get(), 0);
         heights.datum = {code_and_name(vertical.get()), heights.metres_per_unit,
-                         is_egm96(context, vertical.get())};
+                         is_above(egm96_datum, context, vertical.get())};
+        heights.is_egm2008 = is_above(egm2008_datum, context, vertical.get());
         const ProjObject geographic(proj_crs_get_geodetic_crs(context, horizontal.get()));
         if (!geographic) return heights;
         const std::string text_of_both = "COMPOUNDCRS[\"heights\"," + wkt(context, geographic.get()) + "," +
@@ -263,7 +260,7 @@ Result<GeoidOfRegion::Shift> GeoidOfRegion::shift_from(const std::string& crs, c
                                 : "PROJ lacks " + found.missing + " for " + datum.name;
     if (strict) return Error{ErrorKind::failed, "vertical datum", why};
     shift.egm96_stands_in_ = true;
-    shift.note_ = why + ": EGM96 stands in";
+    shift.note_ = why + ": EGM96 stands in" + (heights.is_egm2008 ? egm2008_differs : differs_unknown);
     return shift;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "geo/datum/horizontal_datum.h"
 #include "geo/datum/vertical_datum.h"
 #include "geo/posts/holes.h"
 #include "geo/posts/laying.h"
@@ -109,6 +110,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     ORO_TRY(region.field.undulation, geoid.undulation(posts));
     region.geoid = geoid.name();
     add_note(region.notes, geoid.note());
+    ORO_CHECK(find_horizontal_datums(sources, request.strict_datum, region.notes));
     add_doubts(request, sources, grid, region.notes);
     ORO_CHECK(check_last_rows(sources));
 
@@ -145,6 +147,7 @@ Result<std::vector<SourceReport>> sources_too_large(const RegionRequest& request
         std::vector<SourceReport> reports;
         const auto extent = choose_extent(found.sources, request.box);
         if (!extent || region_grid(found.sources, *extent).ok()) return reports;
+        ORO_CHECK(find_horizontal_datums(found.sources, false, found.notes));
         for (Source& source : found.sources) reports.push_back(std::move(source.report));
         return reports;
     } catch (const std::bad_alloc&) {

@@ -32,6 +32,8 @@ std::string print_text(std::uint64_t print) {
 ordered_json source_text(const SourceReport& s) {
     ordered_json text = ordered_json::object();
     put_source_words(text, s);
+    if (!s.horizontal_datum.is_wgs84)
+        text["horizontal_datum"] = horizontal_fields<ordered_json>(s.horizontal_datum);
     text["attribution"] = s.attribution;
     text["rows"] = s.rows;
     text["columns"] = s.columns;
@@ -103,6 +105,13 @@ class Field {
         require(std::isfinite(number), "a finite number");
         return number;
     }
+    [[nodiscard]] std::optional<double> number_if_any(const char* name) const {
+        return has(name) ? std::optional((*this)[name].number()) : std::nullopt;
+    }
+    [[nodiscard]] bool flag() const {
+        require(value_.is_boolean(), "true or false");
+        return value_.get<bool>();
+    }
     [[nodiscard]] std::uint64_t count() const {
         require(value_.is_number_unsigned(), "a whole number from 0 on");
         return value_.get<std::uint64_t>();
@@ -144,11 +153,31 @@ Fact known(const Field& field, std::optional<Fact> (*of_words)(const std::string
     return *fact;
 }
 
+// WGS84, and regions baked earlier, have none.
+HorizontalDatum horizontal_of(const Field& source) {
+    HorizontalDatum datum;
+    if (!source.has("horizontal_datum")) return datum;
+    const Field field = source["horizontal_datum"];
+    datum.is_wgs84 = false;
+    datum.name = field["name"].text();
+    datum.operation = field["operation"].text();
+    datum.accuracy_m = field.number_if_any("accuracy_m");
+    datum.ballpark = field["ballpark"].flag();
+    datum.unchanged = field["unchanged"].flag();
+    datum.one_to_two_metres = field["one_to_two_metres"].flag();
+    datum.missing_grids = field["missing_grids"].texts();
+    datum.accuracy_with_grids_m = field.number_if_any("accuracy_with_grids_m");
+    datum.frame_epoch = field.number_if_any("frame_epoch");
+    datum.coordinate_epoch = field.number_if_any("coordinate_epoch");
+    return datum;
+}
+
 SourceReport source_of(const Field& field) {
     SourceReport s;
     s.path = field["path"].text();
     set_format(s, field["format"].text());
     s.crs = field["crs"].text();
+    s.horizontal_datum = horizontal_of(field);
     s.vertical_datum = datum_of_words(field["vertical_datum"].text());
     s.height_unit = unit_of_words(field["height_unit"].text());
     s.posts_are = known(field["posts_are"], posts_of_words);

@@ -17,6 +17,26 @@ Json seam_fields(const SeamReport& seams) {
     return fields;
 }
 
+// Of another datum than WGS84. What is not known has no field.
+template <class Json>
+Json horizontal_fields(const HorizontalDatum& datum) {
+    Json fields = Json::object();
+    const auto put = [&](const char* name, const std::optional<double>& value) {
+        if (value) fields[name] = *value;
+    };
+    fields["name"] = datum.name;
+    fields["operation"] = datum.operation;
+    put("accuracy_m", datum.accuracy_m);
+    fields["ballpark"] = datum.ballpark;
+    fields["unchanged"] = datum.unchanged;
+    fields["one_to_two_metres"] = datum.one_to_two_metres;
+    fields["missing_grids"] = datum.missing_grids;
+    put("accuracy_with_grids_m", datum.accuracy_with_grids_m);
+    put("frame_epoch", datum.frame_epoch);
+    put("coordinate_epoch", datum.coordinate_epoch);
+    return fields;
+}
+
 // What a source says of itself in words.
 template <class Json>
 void put_source_words(Json& object, const SourceReport& source) {

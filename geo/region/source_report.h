@@ -38,6 +38,23 @@ struct HeightDatum {
     bool egm96_stands_in{};  // a grid for it is missing
 };
 
+// What a source's latitudes and longitudes refer to, and how good the way from there to WGS84 is that PROJ
+// has on this machine.
+struct HorizontalDatum {
+    bool is_wgs84{true};               // then nothing else is known, nor needs to be
+    std::string name{};                // "EPSG:4267 NAD27"
+    std::string operation{};           // PROJ's name: "NAD27 to WGS 84 (4)"; "" where PROJ lists none
+    std::optional<double> accuracy_m;  // as the operation's authors state it
+    bool ballpark{};                   // it leaves the datums' difference out
+    bool unchanged{};                  // by an operation that leaves degrees as they are: WGS84 by convention
+    bool one_to_two_metres{};          // such a one, which is known to be that far off (NAD83, ETRS89)
+    // Of the most accurate operation for the place that is better, and lacks grids.
+    std::vector<std::string> missing_grids{};
+    std::optional<double> accuracy_with_grids_m;
+    std::optional<double> frame_epoch;       // year; of a dynamic datum, where ground moves
+    std::optional<double> coordinate_epoch;  // year for which the file states its coordinates
+};
+
 enum class UnitFrom { file, request, assumed };
 
 struct HeightUnit {
@@ -69,6 +86,7 @@ struct SourceReport {
     SourceFormat format{SourceFormat::raster};
     std::string driver;  // of a raster: GDAL's name of its format, "GTiff"
     std::string crs;     // e.g. "EPSG:4326 WGS 84"
+    HorizontalDatum horizontal_datum;
     HeightDatum vertical_datum;
     HeightUnit height_unit;
     PostsAre posts_are{PostsAre::points};

@@ -37,6 +37,13 @@ constexpr const char* interpolated =
     "interpolated over its triangles (one post for %lld x %lld of the region)";
 constexpr std::string_view resampled = "cubic resampling from ";
 
+// "10", "0.9", "2010.5"
+std::string number_words(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
 template <class Table, class Fact>
 std::string words_in(const Table& table, Fact fact) {
     for (const auto& entry : table)
@@ -64,6 +71,39 @@ std::string posts_words(PostsAre which) {
 std::string datum_words(const HeightDatum& datum) {
     return (datum.from == DatumFrom::crs ? datum.name : words_in(datums, datum.from)) +
            std::string(datum.egm96_stands_in ? stands_in : "");
+}
+
+std::string horizontal_words(const HorizontalDatum& datum) {
+    if (datum.is_wgs84) return "";
+    std::string words;
+    if (datum.operation.empty())
+        words = "how near to WGS84 is not known: PROJ lists no way from it";
+    else if (datum.ballpark)
+        words =
+            "taken as WGS84, because PROJ knows no way from it here (ballpark): off by an unknown amount, "
+            "often 100 m and more";
+    else if (datum.one_to_two_metres)
+        words = "taken as WGS84, within 1 to 2 m";
+    else if (datum.unchanged)
+        words = "taken as WGS84" + (datum.accuracy_m ? ", within " + number_words(*datum.accuracy_m) + " m"
+                                                     : ", how near is not stated");
+    else
+        words = (datum.accuracy_m ? "within " + number_words(*datum.accuracy_m) + " m of WGS84"
+                                  : "how near to WGS84 is not stated") +
+                ", by " + datum.operation;
+    if (!datum.missing_grids.empty()) {
+        std::string grids;
+        for (const std::string& grid : datum.missing_grids) grids += (grids.empty() ? "" : " and ") + grid;
+        words += "; within " + number_words(datum.accuracy_with_grids_m.value_or(0.0)) + " m with " + grids +
+                 ", which PROJ lacks";
+    }
+    if (datum.frame_epoch)
+        words += "; dynamic, reference epoch " + number_words(*datum.frame_epoch) +
+                 (datum.coordinate_epoch ? ""
+                                         : ", the coordinates' epoch is not stated: ground moves by "
+                                           "centimetres a year");
+    if (datum.coordinate_epoch) words += "; coordinates of epoch " + number_words(*datum.coordinate_epoch);
+    return words;
 }
 
 std::string unit_words(const HeightUnit& unit) {

@@ -9,9 +9,12 @@
 
 namespace oro {
 
-std::string format_words(const SourceReport& source);     // "SRTM1 .hgt", "GTiff"
-std::string posts_words(PostsAre posts);                  // "points", "cell centres (area)"
-std::string datum_words(const HeightDatum& datum);        // "EGM96 height (assumed: .hgt states none)"
+std::string format_words(const SourceReport& source);  // "SRTM1 .hgt", "GTiff"
+std::string posts_words(PostsAre posts);               // "points", "cell centres (area)"
+std::string datum_words(const HeightDatum& datum);     // "EGM96 height (assumed: .hgt states none)"
+// "within 10 m of WGS84 by NAD27 to WGS 84 (4); within 5 m with us_noaa_conus.tif, which PROJ lacks"; "" for
+// WGS84. There is no way back.
+std::string horizontal_words(const HorizontalDatum& datum);
 std::string unit_words(const HeightUnit& unit);           // "m", "ft (as told)"
 std::string placement_words(const SourceReport& source);  // "posts copied"; "" where it was not laid
 std::string void_method_words(VoidMethod method);         // "holes"

@@ -212,6 +212,8 @@ Result<Source> described(const SourcePath& path, const Dataset& dataset, const s
     if (OSRGetAxesCount(horizontal.get()) == 3) OSRDemoteTo2D(horizontal.get(), nullptr);
     OSRSetAxisMappingStrategy(horizontal.get(), OAMS_TRADITIONAL_GIS_ORDER);
     source.report.crs = crs_name(horizontal.get());
+    if (const double epoch = OSRGetCoordinateEpoch(crs.get()); epoch > 0.0)
+        source.report.horizontal_datum.coordinate_epoch = epoch;
     source.crs_wkt = wkt_of(horizontal.get());
     ORO_CHECK(place_on_earth(source, horizontal.get()));
     return source;

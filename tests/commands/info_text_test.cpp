@@ -55,6 +55,40 @@ TEST(InfoText, OneFileTellsAllOfItself) {
     EXPECT_LT(text.find("region: "), text.find("N46E008.hgt"));
 }
 
+// Found: how far a datum's own degrees may be off was said nowhere.
+TEST(InfoText, AnotherDatumSaysHowNearItIsToWgs84) {
+    SourceReport source = tile("a/old.tif");
+    expect_none(info_text(region_of({source})), {"\n  datum"});
+    HorizontalDatum& datum = source.horizontal_datum;
+    datum.is_wgs84 = false;
+    datum.operation = "NAD27 to WGS 84 (6)";
+    datum.accuracy_m = 7.0;
+    datum.missing_grids = {"us_noaa_conus.tif", "us_noaa_kshpgn.tif"};
+    datum.accuracy_with_grids_m = 1.5;
+    const std::string words =
+        "within 7 m of WGS84, by NAD27 to WGS 84 (6); within 1.5 m with us_noaa_conus.tif and "
+        "us_noaa_kshpgn.tif, which PROJ lacks";
+    expect_words(info_text(region_of({source})), {"\n  datum       " + words + "\n"});
+    expect_words(info_text(region_of({source, source})), {"EPSG:4326 WGS 84; " + words + "; "});
+    datum = {};
+    datum.is_wgs84 = false;
+    expect_words(info_text(region_of({source})), {"how near to WGS84 is not known"});
+    datum.operation = "made up";
+    datum.ballpark = true;
+    expect_words(info_text(region_of({source})), {"(ballpark): off by an unknown amount"});
+    datum.ballpark = false;
+    datum.unchanged = true;
+    datum.accuracy_m = 0.5;
+    expect_words(info_text(region_of({source})), {"taken as WGS84, within 0.5 m\n"});
+    datum.one_to_two_metres = true;
+    datum.frame_epoch = 2010.0;
+    expect_words(info_text(region_of({source})),
+                 {"taken as WGS84, within 1 to 2 m; dynamic, reference epoch 2010, the coordinates' epoch is "
+                  "not stated"});
+    datum.coordinate_epoch = 2020.5;
+    expect_words(info_text(region_of({source})), {"epoch 2010; coordinates of epoch 2020.5\n"});
+}
+
 TEST(InfoText, ManyFilesAreALineEachAfterWhatTheyShare) {
     SourceReport other = tile("b/fine.tif");
     other.format = SourceFormat::raster;

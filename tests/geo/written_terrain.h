@@ -63,6 +63,7 @@ struct Raster {
     std::optional<double> scale, offset;
     std::string copyright;
     std::string format{"GTiff"};
+    double epoch{0.0};  // of the coordinates, a year; 0: not stated
 };
 
 inline std::string write_raster(const std::filesystem::path& file, const Raster& raster,
@@ -77,6 +78,7 @@ inline std::string write_raster(const std::filesystem::path& file, const Raster&
     if (!raster.crs.empty()) {
         const OGRSpatialReferenceH crs = OSRNewSpatialReference(nullptr);
         OSRSetFromUserInput(crs, raster.crs.c_str());
+        if (raster.epoch > 0.0) OSRSetCoordinateEpoch(crs, raster.epoch);
         GDALSetSpatialRef(dataset, crs);
         OSRDestroySpatialReference(crs);
     }

@@ -8,6 +8,8 @@
 #include <random>
 #include <set>
 
+#include "geo/region/source_words.h"
+
 namespace oro {
 namespace {
 
@@ -18,6 +20,17 @@ SourceReport unusual_source(const std::string& path) {
     s.path = path;
     s.format = SourceFormat::srtm3_hgt;
     s.crs = "EPSG:4326 WGS 84";
+    s.horizontal_datum = {false,
+                          "EPSG:4267 NAD27",
+                          "NAD27 to WGS 84 (6)",
+                          7.0,
+                          true,
+                          true,
+                          true,
+                          {"one.tif", "two"},
+                          1.5,
+                          2010.0,
+                          2020.25};
     s.vertical_datum = {DatumFrom::assumed_for_hgt, "", true};
     s.height_unit = {"us-ft", UnitFrom::request};
     s.posts_are = PostsAre::cell_centres;
@@ -117,6 +130,8 @@ TEST(RegionDescription, EveryFieldComesBack) {
     EXPECT_EQ(s.placement->lat_part, expected.placement->lat_part);
     EXPECT_EQ(s.placement->lon_part, expected.placement->lon_part);
     EXPECT_EQ(s.seams.shared_posts, expected.seams.shared_posts);
+    EXPECT_EQ(horizontal_words(s.horizontal_datum), horizontal_words(expected.horizontal_datum));
+    EXPECT_EQ(s.horizontal_datum.missing_grids, expected.horizontal_datum.missing_grids);
     EXPECT_EQ(s.seams.disagreeing_posts, expected.seams.disagreeing_posts);
     EXPECT_EQ(s.seams.largest_difference_m, expected.seams.largest_difference_m);
     EXPECT_EQ(read->seams.shared_posts, region.seams.shared_posts);
@@ -141,7 +156,10 @@ TEST(RegionDescription, NamesThatAreNoUtf8AreStillText) {
 TEST(RegionDescription, EveryFieldIsNeededAndOfItsKind) {
     const json whole = json::parse(region_description(unusual_region()));
     // Files that were baked before these were counted have none of them, and stay readable.
-    const std::set<std::string> since_then{"in_missing", "outside"};
+    const std::set<std::string> since_then{"in_missing", "outside", "horizontal_datum",
+                                           // Nor is all of a datum always known.
+                                           "accuracy_m", "accuracy_with_grids_m", "frame_epoch",
+                                           "coordinate_epoch"};
     int fields = 0;
     const auto check_all = [&](const json::json_pointer& object) {
         for (const auto& [name, value] : whole.at(object).items()) {
@@ -160,9 +178,9 @@ TEST(RegionDescription, EveryFieldIsNeededAndOfItsKind) {
             EXPECT_NE(refusal(other.dump()).find(name), std::string::npos);
         }
     };
-    for (const char* object : {"", "/seams", "/sources/1", "/sources/1/seams"})
+    for (const char* object : {"", "/seams", "/sources/1", "/sources/1/seams", "/sources/1/horizontal_datum"})
         check_all(json::json_pointer(object));
-    EXPECT_EQ(fields, 11 + 3 + 19 + 3);
+    EXPECT_EQ(fields, 11 + 3 + 20 + 3 + 10);
 }
 
 TEST(RegionDescription, NumbersOutOfRangeAreRefused) {

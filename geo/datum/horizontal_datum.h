@@ -1,0 +1,25 @@
+// What a source's latitudes and longitudes refer to, and how well PROJ can turn them into WGS84's here.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "geo/region/source_report.h"
+#include "geo/sources/source.h"
+
+namespace oro {
+
+// Of a horizontal CRS (WKT) at a place: x and y there, longitude (or east) first. `unwrapped`: the box that
+// the operation is for, degrees of WGS84. Without coordinate_epoch, which a CRS does not hold.
+HorizontalDatum horizontal_datum(const std::string& crs_wkt, double x, double y,
+                                 const BoundingBox& unwrapped);
+
+// Puts the horizontal datum of each source into its report, and what a user must know of it into the notes.
+// Errors, with strict: a source whose datum PROJ knows no way from, or for which it lacks a grid that it
+// would be more accurate with.
+Result<void> find_horizontal_datums(std::span<Source> sources, bool strict, std::vector<std::string>& notes);
+
+}  // namespace oro
