@@ -32,8 +32,8 @@ class Sizes {
   public:
     // even: counts for the median.
     void add(double metres, double px, bool even) {
-        worst_m_ = std::max(worst_m_, metres);
-        worst_px_ = std::max(worst_px_, px);
+        worst_m_ = worse(worst_m_, metres);
+        worst_px_ = worse(worst_px_, px);
         if (!even) return;
         metres_.push_back(metres);
         px_.push_back(px);
@@ -46,6 +46,9 @@ class Sizes {
     }
 
   private:
+    // What is no number stays: a bound that leaves it out would hold nothing.
+    static double worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+
     double worst_m_{};
     double worst_px_{};
     std::vector<double> metres_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <random>
@@ -12,6 +13,7 @@
 
 #include "core/lod/levels.h"
 #include "tests/core/lod/pyramid_region.h"
+#include "tests/core/truth/world_field.h"
 
 namespace oro {
 namespace {
@@ -110,6 +112,78 @@ TEST(SampledDetail, IsExactAtTauZero) {
             ASSERT_EQ(bound.value().error_px, 0.0);
         }
     }
+}
+
+// Where the region's last column is its first again, a node there takes on the edge of a coarser one beyond
+// it.
+TEST(SampledDetail, GoesRoundTheEarth) {
+    // Rough in the west, from post to post; even in the east.
+    const auto H_m = [](double lat_deg, double lon_deg) {
+        return lon_deg < 0.0 ? 3000.0 * std::sin(9.6 * lat_deg) * std::sin(10.1 * lon_deg) : 0.0;
+    };
+    constexpr int per_deg = 4, rows = 40 * per_deg + 1, columns = 360 * per_deg + 1;
+    const HeightField field = test::world_field(
+        per_deg, 20 * per_deg, -180 * per_deg, rows, columns,
+        [&](double lat, double lon) { return lon >= 180.0 ? H_m(lat, lon - 360.0) : H_m(lat, lon); });
+    const auto pages = pages_in_memory(field, 1.0, 2);
+    ASSERT_TRUE(pages->goes_round());
+    Camera camera;
+    camera.eye = {3.0, 180.0, 400.0e3};
+    camera.attitude = {0.0, -90.0, 0.0};
+    camera.width_px = camera.height_px = 500;
+    int taken_on = 0;
+    for (const double tau_px : {1.0, 4.0, 16.0}) {
+        SampledDetail detail(*pages, camera, tau_px);
+        for (int row = 0; row < rows - 1; ++row) {
+            const auto west = detail.at(row, 0);
+            ASSERT_TRUE(west.ok());
+            // In the middle of the node beyond: its own error, no other's.
+            for (int level = pages->levels() - 1; level > 0; --level) {
+                const int cells = static_cast<int>(gpu::meshlet_quads) << level;
+                const int middle_row = row / cells * cells + cells / 2;
+                const int middle_column = (columns - 2) / cells * cells + cells / 2;
+                if (middle_row >= rows - 1 || middle_column >= columns - 1) continue;
+                const auto beyond = detail.at(middle_row, middle_column);
+                ASSERT_TRUE(beyond.ok());
+                if (beyond->level != level || level <= west->level) continue;
+                ++taken_on;
+                ASSERT_GE(west->error_m, beyond->error_m) << "row " << row << ", tau " << tau_px;
+                break;
+            }
+        }
+    }
+    EXPECT_GT(taken_on, 10) << "or nothing was seen";
+}
+
+// Through bending air a node is as far off as the frame takes it for: its error grows by its distance across
+// the eye's vertical times the light's curvature.
+TEST(SampledDetail, BendsLightAsTheFrameDoes) {
+    const HeightField field = patchy_field(600, 521);
+    const auto pages = pages_in_memory(field, 1.0, 2);
+    Camera camera;
+    camera.eye = {46.99, 8.01, 3000.0};
+    camera.attitude = attitude_towards(camera.eye, {46.5, 8.4, 1000.0});
+    const Air air{0.9};
+    const Refraction light(camera.eye, air);
+    SampledDetail straight(*pages, camera, 8.0), bent(*pages, camera, 8.0, light);
+    int compared = 0;
+    for (int row = 100; row < 590; row += 10) {
+        for (int column = 100; column < 510; column += 10) {
+            const auto before = straight.at(row, column), after = bent.at(row, column);
+            ASSERT_TRUE(before.ok() && after.ok());
+            if (before->level != after->level || before->error_m == 0.0) continue;
+            const Geodetic place{field.grid.lat.at_deg(row), field.grid.lon.at_deg(column), 1000.0};
+            const double across_m =
+                glm::length(ecef_from_geodetic(place).m - ecef_from_geodetic(camera.eye).m);
+            // A node is 8 x 8 of its level's cells, no longer than 150 m here.
+            const double node_m = 1700.0 * (1 << before->level);
+            const double growth = after->error_m / before->error_m - 1.0;
+            EXPECT_NEAR(growth, light.curvature_per_m() * across_m, light.curvature_per_m() * 2.0 * node_m)
+                << row << ", " << column;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 100);
 }
 
 // Behind a page that cannot be read there is no answer, but an error.
