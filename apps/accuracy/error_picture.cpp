@@ -14,8 +14,8 @@ namespace oro {
 namespace {
 
 constexpr Rgb paper{255, 255, 255}, ink{20, 20, 20}, sky{190, 190, 190};
-constexpr Rgb unmeasured{255, 0, 255}, unmeasured_gap{90, 0, 90}, skyline_mark{255, 90, 0};
-constexpr float marked_from_px = 0.5F;
+constexpr Rgb unmeasured{255, 0, 255}, unmeasured_gap{90, 0, 90}, tau_mark{255, 90, 0};
+constexpr Rgb plain_ground{225, 220, 210};
 constexpr int least_width_px = 320;
 
 // Dark to light throughout, and told apart by all kinds of colour vision. Source: viridis, S. van der Walt,
@@ -44,38 +44,61 @@ bool is_on_scale(double error_px) {
     return error_px >= error_scale_from_px && error_px <= error_scale_to_px;
 }
 
-void draw_errors(Canvas& canvas, const Verification& verification) {
-    const DepthPicture& picture = verification.picture;
+// A picture of one measure, at a place of the canvas.
+struct Panel {
+    const char* name;
+    int left, top;
+};
+
+void set_error(Canvas& canvas, int x, int y, bool ground, float error_px) {
+    if (error_px != not_measured)
+        canvas.set(x, y, ramp_at(scale_share(static_cast<double>(error_px))));
+    else if (ground)
+        canvas.set(x, y, (x + y) % 4 < 2 ? unmeasured : unmeasured_gap);
+    else
+        canvas.set(x, y, sky);
+}
+
+// Of the measures that each pixel has.
+void draw_errors(Canvas& canvas, const Panel& panel, const DepthPicture& picture,
+                 const std::vector<float>& errors_px) {
     std::size_t pixel = 0;
     for (int y = 0; y < picture.height_px; ++y) {
-        for (int x = 0; x < picture.width_px; ++x, ++pixel) {
-            const float error_px = verification.errors.ground.displacement_px[pixel];
-            if (!(picture.depths[pixel] > 0.0F))
-                canvas.set(x, y, sky);
-            else if (error_px == not_measured)
-                canvas.set(x, y, (x + y) % 4 < 2 ? unmeasured : unmeasured_gap);
-            else
-                canvas.set(x, y, ramp_at(scale_share(static_cast<double>(error_px))));
-        }
+        for (int x = 0; x < picture.width_px; ++x, ++pixel)
+            set_error(canvas, panel.left + x, panel.top + y, picture.depths[pixel] > 0.0F, errors_px[pixel]);
     }
 }
 
-// Above the true skyline; below it where there is no room.
-void mark_skyline(Canvas& canvas, const Verification& verification, int scale) {
-    const int mark_px = 8 * scale;
-    for (int x = 0; x < verification.picture.width_px; ++x) {
-        const float error_px = verification.errors.skyline.px[static_cast<std::size_t>(x)];
-        if (error_px == not_measured || error_px <= marked_from_px) continue;
-        const int y = static_cast<int>(verification.true_skyline.y_px[static_cast<std::size_t>(x)]);
-        const int top = y >= mark_px ? y - mark_px : y;
-        canvas.fill(x, top, 1, std::min(mark_px, verification.picture.height_px - top), skyline_mark);
+// The true skyline as a band in the colour of its error, upwards from it; downwards where there is no room.
+void draw_skyline(Canvas& canvas, const Panel& panel, const Verification& verification, int scale) {
+    const DepthPicture& picture = verification.picture;
+    std::size_t pixel = 0;
+    for (int y = 0; y < picture.height_px; ++y) {
+        for (int x = 0; x < picture.width_px; ++x, ++pixel)
+            canvas.set(panel.left + x, panel.top + y, picture.depths[pixel] > 0.0F ? plain_ground : sky);
     }
+    const int band_px = 8 * scale;
+    for (int x = 0; x < picture.width_px; ++x) {
+        const float error_px = verification.errors.skyline.px[static_cast<std::size_t>(x)];
+        const float true_px = verification.true_skyline.y_px[static_cast<std::size_t>(x)];
+        if (error_px == not_measured || true_px == not_measured) continue;
+        const int y = std::min(static_cast<int>(true_px), picture.height_px - 1);
+        const int top = y >= band_px ? y - band_px : y;
+        canvas.fill(panel.left + x, panel.top + top, 1, std::min(band_px, picture.height_px - top),
+                    ramp_at(scale_share(static_cast<double>(error_px))));
+    }
+}
+
+void write_name(Canvas& canvas, const Panel& panel, int scale) {
+    canvas.fill(panel.left, panel.top, Canvas::text_width_px(panel.name, scale) + 8 * scale,
+                (Canvas::text_height_dots + 4) * scale, paper);
+    canvas.write(panel.left + 4 * scale, panel.top + 3 * scale, panel.name, ink, scale);
 }
 
 // No exponents: what is finer than a thousandth is "<0.001".
 std::string figures_line(const char* what, const ErrorSummary& of) {
     std::string line = what;
-    line.resize(11, ' ');
+    line.resize(12, ' ');
     for (const double value : {of.largest, of.p9999, of.p99, of.mean}) {
         const std::string text = of.count == 0 ? "n/a" : value < 1.0e6 ? coarse_figure(value) : ">999,999";
         line += std::string(text.size() < 10 ? 10 - text.size() : 0, ' ') + text;
@@ -84,7 +107,7 @@ std::string figures_line(const char* what, const ErrorSummary& of) {
 }
 
 constexpr int line_dots = 11, margin_dots = 6, bar_dots = 10;
-constexpr int legend_dots = 2 * margin_dots + bar_dots + 8 + 9 * line_dots;
+constexpr int legend_dots = 2 * margin_dots + bar_dots + 8 + 10 * line_dots;
 
 // The scale with its ticks and tau.
 void draw_scale(Canvas& canvas, int top, double tau_px, int scale) {
@@ -102,7 +125,7 @@ void draw_scale(Canvas& canvas, int top, double tau_px, int scale) {
         canvas.write(text_left, top + (bar_dots + 4) * scale, label, ink, scale);
     }
     if (is_on_scale(tau_px))
-        canvas.fill(place(tau_px), top - 3 * scale, scale, (bar_dots + 3) * scale, skyline_mark);
+        canvas.fill(place(tau_px), top - 3 * scale, scale, (bar_dots + 3) * scale, tau_mark);
 }
 
 void draw_legend(Canvas& canvas, const Verification& verification, double tau_px, int top, int scale) {
@@ -119,45 +142,58 @@ void draw_legend(Canvas& canvas, const Verification& verification, double tau_px
     for (std::size_t i = 1; i < lines.size(); ++i) write(lines[i]);
 }
 
-Canvas error_canvas(const Verification& verification, double tau_px) {
+// The four measures, a picture each, two beside two; or the displacement alone.
+Canvas error_canvas(const Verification& verification, double tau_px, ErrorPanels panels) {
     const DepthPicture& picture = verification.picture;
     const int scale = std::clamp(picture.width_px / (3 * least_width_px / 2), 1, 8);
-    Canvas canvas(std::max(picture.width_px, least_width_px * scale), picture.height_px + legend_dots * scale,
-                  paper);
-    draw_errors(canvas, verification);
-    mark_skyline(canvas, verification, scale);
-    draw_legend(canvas, verification, tau_px, picture.height_px, scale);
+    const int gap_px = 2 * scale, count = panels == ErrorPanels::four ? 2 : 1;
+    const int width_px = count * picture.width_px + (count - 1) * gap_px;
+    const int height_px = count * picture.height_px + (count - 1) * gap_px;
+    Canvas canvas(std::max(width_px, least_width_px * scale), height_px + legend_dots * scale, paper);
+    const PictureErrors& errors = verification.errors;
+    const Panel displacement{"displacement", 0, 0};
+    draw_errors(canvas, displacement, picture, errors.ground.displacement_px);
+    if (panels == ErrorPanels::four) {
+        const int right = picture.width_px + gap_px, below = picture.height_px + gap_px;
+        const Panel surface{"surface", right, 0}, seen{"seen", 0, below}, skyline{"skyline", right, below};
+        draw_errors(canvas, surface, picture, errors.ground.surface_px);
+        draw_errors(canvas, seen, picture, errors.seen.px);
+        draw_skyline(canvas, skyline, verification, scale);
+        for (const Panel& panel : {displacement, surface, seen, skyline}) write_name(canvas, panel, scale);
+    }
+    draw_legend(canvas, verification, tau_px, height_px, scale);
     return canvas;
 }
 
 }  // namespace
 
 std::vector<std::string> error_legend(const Verification& verification, double tau_px) {
-    char tau[80], heads[80], skyline[80];
+    char tau[80], heads[80];
     const bool tiny = tau_px > 0.0 && tau_px < error_scale_from_px;
     std::snprintf(tau, sizeof tau, "%stau %s%g px", is_on_scale(tau_px) ? "line: " : "",
                   tiny ? "less than " : "", tiny ? error_scale_from_px : tau_px);
-    std::snprintf(heads, sizeof heads, "%-11s%10s%10s%10s%10s", "", "largest", "99.99 %", "99 %", "mean");
-    std::snprintf(skyline, sizeof skyline, "orange: skyline off by more than %g px",
-                  static_cast<double>(marked_from_px));
-    return {"colour: how far off the ground is, in pixels (px)",
+    std::snprintf(heads, sizeof heads, "%-12s%10s%10s%10s%10s", "", "largest", "99.99 %", "99 %", "mean");
+    const PictureErrors& errors = verification.errors;
+    return {"colour: how far off, in pixels (px)",
             tau,
             heads,
-            figures_line("ground, px", verification.errors.ground.summary_displacement_px),
-            figures_line("ground, m", verification.errors.ground.summary_displacement_m),
-            figures_line("skyline, px", verification.errors.skyline.summary_px),
-            skyline,
+            figures_line("displacement", errors.ground.summary_displacement_px),
+            figures_line("surface", errors.ground.summary_surface_px),
+            figures_line("seen", errors.seen.summary_px),
+            figures_line("skyline", errors.skyline.summary_px),
+            figures_line("displaced, m", errors.ground.summary_displacement_m),
             "grey: sky, magenta: could not be measured"};
 }
 
-Result<std::vector<std::uint8_t>> error_picture_png(const Verification& verification, double tau_px) {
-    const Canvas canvas = error_canvas(verification, tau_px);
+Result<std::vector<std::uint8_t>> error_picture_png(const Verification& verification, double tau_px,
+                                                    ErrorPanels panels) {
+    const Canvas canvas = error_canvas(verification, tau_px, panels);
     return png_bytes(canvas.rgb(), canvas.width_px(), canvas.height_px());
 }
 
 Result<void> write_error_picture(const std::string& path, const Verification& verification, double tau_px,
                                  bool overwrite) {
-    const Canvas canvas = error_canvas(verification, tau_px);
+    const Canvas canvas = error_canvas(verification, tau_px, ErrorPanels::four);
     return write_png(path, canvas.rgb(), canvas.width_px(), canvas.height_px(), overwrite);
 }
 

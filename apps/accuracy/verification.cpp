@@ -71,9 +71,9 @@ std::string verification_text(const Verification& verification, double tau_px,
         ".\n"
         "Surface: how far the drawn ground is from the true surface, wherever along it.\n"
         "Seen: how far away on the picture the truth has what is drawn; what is missing or should be hidden "
-        "counts." +
+        "counts" +
         if_any(seen.other, " pixels show something else, at an edge") +
-        "\n"
+        ".\n"
         "Skyline: how far the drawn skyline is from the true one. " +
         (skyline.summary_px.count == 0 ? "None in view"
                                        : counted(skyline.summary_px.count, "column", "columns")) +

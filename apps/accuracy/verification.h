@@ -34,11 +34,13 @@ nlohmann::ordered_json verification_json(const Verification& verification);
 
 // What is in an error picture, where it is not a colour of the scale.
 inline constexpr double error_scale_from_px = 0.001, error_scale_to_px = 10.0;
-// The picture of the ground's errors: its colours are those of a logarithmic scale; sky is grey, ground that
-// could not be measured is hatched magenta, columns whose skyline is off by more than 0.5 px have an orange
-// mark. A legend with the figures stands below. At least 320 px wide.
-Result<std::vector<std::uint8_t>> error_picture_png(const Verification& verification, double tau_px);
-// The same as a file.
+enum class ErrorPanels { four, displacement };
+// The picture of errors: displacement, surface, seen and skyline, a picture each, two beside two; or the
+// first alone. Colours are those of a logarithmic scale; sky is grey, ground that could not be measured is
+// hatched magenta. A legend with the figures stands below. At least 320 px wide.
+Result<std::vector<std::uint8_t>> error_picture_png(const Verification& verification, double tau_px,
+                                                    ErrorPanels panels);
+// All four as a file.
 Result<void> write_error_picture(const std::string& path, const Verification& verification, double tau_px,
                                  bool overwrite);
 // The legend's lines: what the colours mean, then what stands below the scale.

@@ -92,7 +92,8 @@ Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& fi
     const auto start = Clock::now();
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
     ORO_TRY(shot.verification, verify_view(shot.view, *truth, gpu, scene, shot.picture.path, style.frame));
-    ORO_TRY(const std::vector<std::uint8_t> png, error_picture_png(*shot.verification, shot.view.tau_px));
+    ORO_TRY(const std::vector<std::uint8_t> png,
+            error_picture_png(*shot.verification, shot.view.tau_px, ErrorPanels::four));
     ORO_TRY(WholeFile file, WholeFile::create(files.error, options.overwrite));
     ORO_CHECK(file.write(png.data(), png.size()));
     shot.times.verify_s = seconds_since(start);

@@ -42,9 +42,11 @@ Result<void> add_pictures(const Verification& drawn, const TradeCase& one, const
         rgb.insert(rgb.end(), {picture.rgba[i], picture.rgba[i + 1], picture.rgba[i + 2]});
     ORO_TRY(std::vector<std::uint8_t> png, png_bytes(rgb, picture.width_px, picture.height_px));
     report.pictures.push_back({view + ": " + name_of(one.key), one.options, std::move(png)});
-    ORO_TRY(std::vector<std::uint8_t> errors, error_picture_png(drawn, one.tau_px));
+    ORO_TRY(std::vector<std::uint8_t> errors,
+            error_picture_png(drawn, one.tau_px, ErrorPanels::displacement));
     report.pictures.push_back({view + ": errors of " + name_of(one.key),
-                               "how far each pixel's ground is from the true ground", std::move(errors)});
+                               "how far each pixel's ground is drawn from where it is seen",
+                               std::move(errors)});
     return {};
 }
 

@@ -39,13 +39,13 @@ TEST(ErrorLegend, IsReadableWhateverWasMeasured) {
 
 TEST(ErrorLegend, SaysWhatColoursMeanAndItsUnits) {
     const std::vector<std::string> lines = error_legend(measured(0.0042), 0.5);
-    ASSERT_EQ(lines.size(), 8U);
-    EXPECT_EQ(lines[0], "colour: how far off the ground is, in pixels (px)");
+    ASSERT_EQ(lines.size(), 9U);
+    EXPECT_EQ(lines[0], "colour: how far off, in pixels (px)");
     EXPECT_EQ(lines[1], "line: tau 0.5 px");
     EXPECT_EQ(error_legend(measured(0.0042), 0.0)[1], "tau 0 px") << "beyond the scale";
-    EXPECT_EQ(lines[2], "              largest   99.99 %      99 %      mean");
-    EXPECT_EQ(lines[3], "ground, px     0.0042    0.0021    <0.001    <0.001");
-    EXPECT_EQ(lines[5], "skyline, px       n/a       n/a       n/a       n/a") << "none in view";
+    EXPECT_EQ(lines[2], "               largest   99.99 %      99 %      mean");
+    EXPECT_EQ(lines[3], "displacement    0.0042    0.0021    <0.001    <0.001");
+    EXPECT_EQ(lines[6], "skyline            n/a       n/a       n/a       n/a") << "none in view";
 }
 
 }  // namespace

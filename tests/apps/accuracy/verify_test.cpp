@@ -89,19 +89,27 @@ TEST_F(Verify, SaysHowFarOffThePictureIs) {
 TEST_F(Verify, TheErrorPictureHasALegend) {
     ASSERT_EQ(shoot({"-q", "--tau", "8"}).exit_code, 0);
     const Pixels pixels = pixels_of(error_picture);
-    // 400 px wide as the picture is; below its 200 rows a legend of 2 * 6 + 18 + 9 * 11 = 129.
-    ASSERT_EQ(pixels.width, 400U);
-    ASSERT_EQ(pixels.height, 329U);
-    const auto colours = [&](std::size_t from_row, std::size_t to_row) {
+    // Two beside two pictures of 400 x 200, 2 px between them; below a legend of 2 * 6 + 18 + 10 * 11 = 140.
+    ASSERT_EQ(pixels.width, 802U);
+    ASSERT_EQ(pixels.height, 542U);
+    const auto colours = [&](std::size_t from_row, std::size_t to_row, std::size_t from, std::size_t to) {
         std::set<std::vector<png_byte>> found;
-        for (std::size_t i = 3 * 400 * from_row; i < 3 * 400 * to_row; i += 3)
-            found.insert({pixels.rgb[i], pixels.rgb[i + 1], pixels.rgb[i + 2]});
+        for (std::size_t row = from_row; row < to_row; ++row) {
+            for (std::size_t i = 3 * (802 * row + from); i < 3 * (802 * row + to); i += 3)
+                found.insert({pixels.rgb[i], pixels.rgb[i + 1], pixels.rgb[i + 2]});
+        }
         return found;
     };
-    const auto drawn = colours(0, 200), legend = colours(200, 329);
-    EXPECT_TRUE(drawn.contains({190, 190, 190})) << "sky is grey";
-    EXPECT_GT(drawn.size(), 50U) << "errors of many sizes";
-    EXPECT_FALSE(drawn.contains({255, 0, 255})) << "all of it could be measured";
+    const auto legend = colours(402, 542, 0, 802);
+    const auto displacement = colours(0, 200, 0, 400), surface = colours(0, 200, 402, 802),
+               seen = colours(202, 402, 0, 400), skyline = colours(202, 402, 402, 802);
+    for (const auto& drawn : {displacement, surface, seen, skyline}) {
+        EXPECT_TRUE(drawn.contains({190, 190, 190})) << "sky is grey";
+        EXPECT_FALSE(drawn.contains({255, 0, 255})) << "all of it could be measured";
+        EXPECT_GT(drawn.size(), 50U) << "errors of many sizes";
+    }
+    EXPECT_NE(displacement, surface);
+    EXPECT_NE(displacement, seen);
     EXPECT_TRUE(legend.contains({20, 20, 20})) << "letters";
     EXPECT_TRUE(legend.contains({68, 1, 84}) && legend.contains({253, 231, 37})) << "both ends of the scale";
 }
@@ -131,7 +139,7 @@ TEST_F(Verify, ReplacesOnlyWhenTold) {
     EXPECT_EQ(bytes_of(error_picture), "mine");
     EXPECT_EQ(names_in(folder), Words{"p.error.png"}) << "refused before anything was drawn";
     ASSERT_EQ(shoot({"-q", "--overwrite"}).exit_code, 0);
-    EXPECT_EQ(pixels_of(error_picture).width, 400U);
+    EXPECT_EQ(pixels_of(error_picture).width, 802U);
 }
 
 // The picture is the same with and without, and a check writes the picture of errors only.
