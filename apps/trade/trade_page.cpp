@@ -50,9 +50,10 @@ ordered_json setting_json(const TradeSetting& setting) {
     json["ground_px"] = measured(ground, setting.displacement_px);
     json["ground_p99_px"] = measured(ground, setting.displacement_p99_px);
     json["ground_mean_px"] = measured(ground, setting.displacement_mean_px);
+    json["surface_px"] = measured(ground, setting.surface_px);
     json["seen_px"] = measured(ground, setting.seen_px);
     json["skyline_px"] = measured(setting.skyline_columns > 0, setting.skyline_px);
-    json["over_limit"] = ground && setting.limit_px && !(setting.displacement_px <= *setting.limit_px);
+    json["over_limit"] = setting.over_limit;
     json["best"] = setting.on_front;
     return json;
 }
@@ -117,11 +118,9 @@ ordered_json limits_json(const TradeReport& report) {
     std::size_t pictures = 0;
     std::size_t over = 0;
     for (const TradeShot& shot : report.shots) {
-        const auto at = std::find_if(report.settings.begin(), report.settings.end(),
-                                     [&](const TradeSetting& one) { return one.key == shot.setting; });
-        if (at == report.settings.end() || !at->limit_px || shot.displacement_px.count == 0) continue;
+        if (!shot.limit_px || shot.displacement_px.count == 0) continue;
         ++pictures;
-        if (!(shot.largest_px() <= shot.limit_px.value_or(*at->limit_px))) ++over;
+        if (shot.over_limit()) ++over;
     }
     return json_object("pictures", pictures, "over", over);
 }

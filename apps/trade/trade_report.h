@@ -27,8 +27,9 @@ struct TradeShot {
         return std::max({displacement_px.largest, surface_px.largest, seen_px.largest - seen_resolution_px,
                          skyline_px.largest - seen_resolution_px});
     }
-    std::optional<double>
-        limit_px;  // of each of them: tau and what drawing rounds off, where all else is there
+    // Of each of them: tau and what drawing rounds off, where all else is there.
+    std::optional<double> limit_px;
+    [[nodiscard]] bool over_limit() const { return limit_px && !(largest_px() <= *limit_px); }
     std::uint64_t skyline_in_one_only{};
 };
 
@@ -40,11 +41,12 @@ struct TradeSetting {
     double gpu_ms{};                 // median over the views
     std::uint64_t triangles{};       // sums over the views
     std::uint64_t bytes{};
-    double displacement_m{}, displacement_px{}, displacement_p99_px{}, displacement_mean_px{}, seen_px{},
-        skyline_px{};  // worst (mean of means) over the views
+    double displacement_m{}, displacement_px{}, displacement_p99_px{}, displacement_mean_px{}, surface_px{},
+        seen_px{}, skyline_px{};  // worst (mean of means) over the views
     std::uint64_t
         displacement_pixels{};  // sums over the views of what was measured; 0: the errors mean nothing
     std::uint64_t skyline_columns{};
+    bool over_limit{};  // a shot is off by more than its own limit, by any of the four
     // Pareto: no other setting is at least as good in gpu_ms and displacement_px, and better in one; equals
     // are on it together. Settings where nothing was measured, or a number is not finite, are not.
     bool on_front{};

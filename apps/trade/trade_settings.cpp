@@ -46,8 +46,7 @@ std::vector<TradeCase> trade_cases() {
         one.world.air = bundle.air;
         one.heights = bundle.heights;
         // Where levels are all that is left out.
-        if (bundle.heights == HeightStorage::f32 && bundle.air == standard_air)
-            one.keeps_tau = true;
+        if (bundle.heights == HeightStorage::f32 && bundle.air == standard_air) one.keeps_tau = true;
         cases.push_back(one);
     }
     return cases;

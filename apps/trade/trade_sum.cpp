@@ -24,6 +24,8 @@ TradeSetting sum_of(const std::vector<TradeShot>& shots, const TradeKey& key) {
         sum.displacement_m = worse(sum.displacement_m, shot.displacement_m.largest);
         sum.displacement_px = worse(sum.displacement_px, shot.displacement_px.largest);
         sum.displacement_p99_px = worse(sum.displacement_p99_px, shot.displacement_px.p99);
+        sum.surface_px = worse(sum.surface_px, shot.surface_px.largest);
+        sum.over_limit = sum.over_limit || (shot.over_limit() && shot.displacement_px.count > 0);
         sum.seen_px = worse(sum.seen_px, shot.seen_px.largest);
         sum.skyline_px = worse(sum.skyline_px, shot.skyline_px.largest);
         if (shot.limit_px) sum.limit_px = std::max(sum.limit_px.value_or(0.0), *shot.limit_px);

@@ -211,6 +211,18 @@ TEST(TradeReport, EffectsSayTheWorstAndTheirRatios) {
     EXPECT_NE(one.find("<0.001"), std::string::npos) << one;
 }
 
+TEST(TradeReport, ABoundThatIsNoNumberHoldsNothing) {
+    const TradeKey sphere{EffectKind::sphere, {}, {}};
+    TradeReport report;
+    report.effects = {{"a", sphere, no_number, no_number, 50.0, 8.0}, {"b", sphere, 100.0, 10.0, 50.0, 8.0}};
+    const std::vector<EffectWorst> effects = worst_effects(report);
+    ASSERT_EQ(effects.size(), 1U);
+    EXPECT_EQ(effects[0].broken_in, std::vector<std::string>{"a"});
+    EXPECT_TRUE(std::isnan(effects[0].predicted_px)) << "a good view hid a bad one";
+    const std::string text = trade_text(report);
+    EXPECT_NE(text.find("MORE THAN PREDICTED in 1 of 2"), std::string::npos) << text;
+}
+
 // Figures of a column stand below each other by their points.
 TEST(TradeReport, FiguresOfTheTextAreAligned) {
     TradeReport report;
@@ -254,8 +266,8 @@ TEST(TradeReport, TextFitsATerminal) {
     EXPECT_NE(text.find("\n* no full detail, tau 2 "), std::string::npos);
     EXPECT_NE(text.find("\n  no ellipsoid "), std::string::npos);
     // Each measure is explained where it is printed.
-    for (const char* line : {"\n* unbeaten: ", "\nground: ", "\nskyline: ", "\nlimit: ", "\nterrain: ",
-                             "\npredicted: ", "\nratio: "})
+    for (const char* line : {"\n* unbeaten: ", "\nground: ", "\nsurface: ", "\nseen: ", "\nskyline: ",
+                             "\nlimit: ", "\nterrain: ", "\npredicted: ", "\nratio: "})
         EXPECT_NE(text.find(line), std::string::npos) << line << text;
     for (const char* word : {"interior", "promise", "Pareto"})
         EXPECT_EQ(text.find(word), std::string::npos) << word;

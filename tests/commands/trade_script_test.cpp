@@ -273,10 +273,7 @@ TEST(TradeScript, AnEmptyReportIsDrawnToo) {
 TEST(TradeScript, FindingsSayWhatIsOverItsLimit) {
     TradeReport report;
     report.shots = {shot("v", level(1), 1.0, 1.5), shot("w", level(1), 1.0, 0.5), shot("v", {}, 2.0, 9.0)};
-    TradeSetting limited;
-    limited.key = level(1);
-    limited.limit_px = 1.05;
-    report.settings = {limited};
+    report.shots[0].limit_px = report.shots[1].limit_px = 1.05;
     report.effects = {{"v", level(1), 1.0, 1.0, 2.0, 0.5}, {"w", level(1), 1.0, 1.0, 0.5, 0.05}};
     sum_up(report);
     std::string html = drawn_page(report);
@@ -288,7 +285,12 @@ TEST(TradeScript, FindingsSayWhatIsOverItsLimit) {
             "times what was measured; 0 could not be measured."),
         std::string::npos);
     EXPECT_NE(html.find("More than predicted in 1 of 2 views."), std::string::npos);
+    // Ground is within it now, and the skyline not yet.
     report.shots[0].displacement_px.largest = 1.0;
+    sum_up(report);
+    html = drawn_page(report);
+    EXPECT_NE(html.find("Of the 2 pictures of settings that have a limit, 1 is over it."), std::string::npos);
+    report.shots[0].skyline_px.largest = 1.0;
     report.effects[0].measured_m = 0.5;
     sum_up(report);
     html = drawn_page(report);

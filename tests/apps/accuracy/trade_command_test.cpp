@@ -214,10 +214,10 @@ TEST_F(TradeCommand, MakesItsFolder) {
         if (row.size() > 2 && row[0] == "no" && row[1] == "full") row.erase(row.begin());
         for (const char* name : {"full", "balanced", "survey", "draft"}) {
             if (row.size() < 9 || row[0] != name) continue;
-            limits.push_back(row[row.size() - 2]);
+            limits.push_back(row.back());
         }
     }
-    // The draft has none, as it leaves refraction out and rounds heights: its mean stands there.
+    // The draft has none, as it leaves refraction out and rounds heights: its skyline stands there.
     ASSERT_EQ(limits.size(), 8U) << outcome.out;
     const std::string draft = limits[5];
     EXPECT_NE(draft, "4.05");
