@@ -116,6 +116,9 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueSurfa
         budget.median_distance_m = prediction.median_distance_m();
         budget.sight_lines = prediction.sight_lines();
     }
+    // A part by itself is judged to a thousandth of a pixel, as it is shown: tau 1 is within 1 px, whatever
+    // micrometres coarse triangles move ground along the surface. The sum is judged as it is.
+    constexpr double judged_to_px = 0.001;
     double largest_px = 0.0;
     for (const EffectFacts& effect : effect_table()) {
         // At full resolution, what the default would leave out.
@@ -123,8 +126,8 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueSurfa
         ORO_TRY(const std::optional<EffectSize> size, prediction.size(effect.kind, tau_px));
         const bool in_picture = effect.in_picture(drawing, world);
         const bool modelled = effect.group == EffectGroup::model && is_modelled(effect.kind, drawing, world);
-        budget.lines.push_back(
-            {effect.kind, size, in_picture, modelled, !size || size->worst_px <= tolerance_px});
+        budget.lines.push_back({effect.kind, size, in_picture, modelled,
+                                !size || size->worst_px <= tolerance_px + judged_to_px});
         if (!in_picture || !size || size->worst_px <= largest_px) continue;
         largest_px = size->worst_px;
         budget.dominant = effect.kind;

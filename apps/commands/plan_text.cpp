@@ -167,7 +167,7 @@ std::string estimates_text(const Budget& budget) {
         if (facts.bound != EffectBound::estimated || facts.group != EffectGroup::model) continue;
         names += (names.empty() ? "" : ", ") + std::string(facts.name);
     }
-    return "Estimates, not bounds: " + names + ". They are the largest of " + grouped(budget.sight_lines) +
+    return "Estimates, not bounds: " + names + ".\nThey are the largest of " + grouped(budget.sight_lines) +
            " sight lines, and a margin.\n";
 }
 
