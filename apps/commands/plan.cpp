@@ -70,6 +70,11 @@ ordered_json effect_json(const BudgetLine& line) {
     effect["bound"] = key_of(facts.bound);
     effect["size"] = nullptr;
     if (line.size) effect["size"] = size_json(*line.size);
+    // Of estimates alone.
+    effect["spread_px"] = nullptr;
+    if (line.size && facts.bound == EffectBound::estimated)
+        effect["spread_px"] = json_object("typical", line.size->typical_px, "p99", line.size->p99_px,
+                                          "largest", line.size->largest_px);
     effect["in_picture"] = line.in_picture;
     effect["limit_of_the_data"] = facts.group == EffectGroup::data;
     effect["below_tolerance"] = line.within_tolerance;

@@ -40,9 +40,14 @@ class Sizes {
     }
     // The bound is the largest times `margin`. Uses the values up.
     EffectSize size(double margin) {
-        const bool none = px_.empty();
-        return {margin * worst_m_, none ? 0.0 : median_of(std::move(metres_)), margin * worst_px_,
-                none ? 0.0 : median_of(std::move(px_))};
+        EffectSize size{margin * worst_m_, 0.0, margin * worst_px_, 0.0, 0.0, worst_px_};
+        if (px_.empty()) return size;
+        const std::size_t p99 = (px_.size() - 1) * 99 / 100;
+        std::nth_element(px_.begin(), px_.begin() + static_cast<std::ptrdiff_t>(p99), px_.end());
+        size.p99_px = px_[p99];
+        size.typical_m = median_of(std::move(metres_));
+        size.typical_px = median_of(std::move(px_));
+        return size;
     }
 
   private:
@@ -115,6 +120,7 @@ EffectSize EffectPrediction::moved_by(const WorldModel& model) const {
     const EffectSize of_shown = shown.size(between_samples);
     size.worst_m = std::max(size.worst_m, of_shown.worst_m);
     size.worst_px = std::max(size.worst_px, of_shown.worst_px);
+    size.largest_px = std::max(size.largest_px, of_shown.largest_px);
     return size;
 }
 

@@ -28,6 +28,10 @@ struct EffectSize {
     double typical_m{};
     double worst_px{};
     double typical_px{};
+    // How sizes spread over what is in view, as estimates tell it: 99 of 100 are within p99_px, all that were
+    // looked at within largest_px. worst_px is that times a margin.
+    double p99_px{};
+    double largest_px{};
 };
 
 // Predicts the effects in one view, from what it sees (core/truth/view_samples.h), and on another Earth from

@@ -82,7 +82,8 @@ json planned(const Outcome& outcome) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const json said = json::parse(outcome.out, nullptr, false);
     EXPECT_TRUE(said.is_object()) << outcome.out;
-    expect_numbers(said, "", {"size", "dominates", "dominates_kind", "modelled", "needed", "bbox", "sun"});
+    expect_numbers(said, "",
+                   {"size", "spread_px", "dominates", "dominates_kind", "modelled", "needed", "bbox", "sun"});
     return said.is_object() ? said : json::object();
 }
 
@@ -222,6 +223,14 @@ TEST(Plan, JsonHasEveryEffectWithNumbers) {
     EXPECT_EQ(effect_in(said, "no geoid")["in_picture"], false);
     EXPECT_EQ(effect_in(said, "no geoid")["modelled"], true);
     EXPECT_EQ(effect_in(said, "no geoid")["needed"], false);
+    // An estimate says how what it is made of spreads.
+    const json sphere = effect_in(said, "no ellipsoid");
+    EXPECT_EQ(sphere.at("bound"), "estimated");
+    EXPECT_LE(sphere.at("spread_px").at("typical"), sphere.at("spread_px").at("p99"));
+    EXPECT_LE(sphere.at("spread_px").at("p99"), sphere.at("spread_px").at("largest"));
+    EXPECT_NEAR(sphere.at("spread_px").at("largest").get<double>() * 1.5,
+                sphere.at("size").at("worst_px").get<double>(), 1e-9);
+    EXPECT_TRUE(effect_in(said, "no 32-bit heights").at("spread_px").is_null()) << "derived";
 }
 
 // Facts with names of their own, for programs: what is shown to people may be worded anew.
