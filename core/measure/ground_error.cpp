@@ -51,10 +51,19 @@ std::optional<glm::dvec3> GroundMeter::seen_m(double row, double column) const {
     return sight_.refraction.apparent_m(place.m - sight_.eye.m);
 }
 
+std::optional<glm::dvec2> GroundMeter::place_px(const glm::dvec3& seen_m) const {
+    const glm::dvec3 seen = view_from_ecef_ * seen_m;
+    if (seen.z >= 0.0) return std::nullopt;
+    const glm::dvec2 share = glm::dvec2(seen.x, -seen.y) / -seen.z / tangent_;
+    return 0.5 * (share + 1.0) * size_px_;
+}
+
 double GroundMeter::apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const {
     const glm::dvec3 drawn = view_from_ecef_ * drawn_m, seen = view_from_ecef_ * seen_m;
-    if (seen.z >= 0.0) return glm::length(seen - drawn) * pixels_per_tangent_ / -drawn.z;
-    return glm::length(glm::dvec2(seen) / seen.z - glm::dvec2(drawn) / drawn.z) * pixels_per_tangent_;
+    const double tangent = seen.z >= 0.0
+                               ? glm::length(seen - drawn) / -drawn.z
+                               : glm::length(glm::dvec2(seen) / seen.z - glm::dvec2(drawn) / drawn.z);
+    return std::min(tangent * pixels_per_tangent_, glm::length(size_px_));
 }
 
 // Goes from the foot straight below the point to the foot of the perpendicular on the triangle there, and so

@@ -44,8 +44,11 @@ class GroundMeter {
     [[nodiscard]] glm::dvec3 offset_m(const glm::dvec2& point_px, double z_m) const;
     // Where a ground point is truly seen; nothing over no data.
     [[nodiscard]] std::optional<glm::dvec3> seen_m(double row, double column) const;
+    // Where an offset from the eye is on the picture; nothing behind the picture's plane.
+    [[nodiscard]] std::optional<glm::dvec2> place_px(const glm::dvec3& seen_m) const;
     // How far apart two offsets from the eye are on the picture. Of one behind the picture's plane: as far as
-    // the metres between them would reach at the other's distance, if they lay across.
+    // the metres between them would reach at the other's distance, if they lay across. At most the picture's
+    // diagonal: beyond, towards the picture's plane, pixels grow without end and say nothing.
     [[nodiscard]] double apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const;
 
     // Of a pixel that shows `point`; nothing where its ground point lies over no data. Error: rounding of

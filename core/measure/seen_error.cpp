@@ -63,6 +63,31 @@ class TruthPicture {
         return seen_reach_px;
     }
 
+    // The same on many circles, up to `at_most_px`, each with many rays: what shows in narrow gaps. An edge
+    // counts, too, where most of what is in the way of `drawn` ends at once: beside it may lie ground that is
+    // a little nearer or farther.
+    [[nodiscard]] double fine_circle_px(const glm::dvec2& point_px, Nearness drawn, double at_most_px) const {
+        const Nearness seen = through(point_px);
+        const bool nearer = seen > drawn;
+        const double most = 0.5 * std::abs(seen - drawn);
+        constexpr double growth = 1.1, arc_px = 0.125;
+        constexpr int least_directions = 32;
+        for (double radius_px = seen_resolution_px; radius_px < at_most_px; radius_px *= growth) {
+            const double round_px = 2.0 * std::acos(-1.0) * radius_px;
+            const int directions = std::max(least_directions, static_cast<int>(round_px / arc_px));
+            for (int i = 0; i < directions; ++i) {
+                const double turn = 2.0 * std::acos(-1.0) * i / directions;
+                const glm::dvec2 towards(std::cos(turn), std::sin(turn));
+                const Nearness here = through(point_px + radius_px * towards);
+                if (same(here, drawn) || (here > drawn) != nearer) return radius_px;
+                if (std::abs(here - drawn) > most) continue;
+                const Nearness before = through(point_px + radius_px / growth * towards);
+                if (std::abs(here - before) > most) return radius_px;
+            }
+        }
+        return at_most_px;
+    }
+
     [[nodiscard]] Nearness at(int x, int y) const {
         return nearness_[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width_px) +
                          static_cast<std::size_t>(x)];
@@ -124,21 +149,63 @@ class TruthPicture {
     std::vector<Nearness> nearness_;
 };
 
+Nearness drawn_nearness(const GroundMeter& meter, const glm::dvec2& centre_px, const DrawnPoint& point) {
+    return point.background() ? 0.0 : 1.0 / (point.z_m * glm::length(meter.ray_view(centre_px)));
+}
+
 // How far away on the true picture something is seen like what a pixel shows.
-double off_px(const TruthPicture& picture, const GroundMeter& meter, int x, int y, const DrawnPoint& point) {
+struct Away {
+    double px;
+    bool searched;  // its own ground is truly hidden: by some rays around, which may miss what is nearer
+};
+Away away_from(const TruthPicture& picture, const GroundMeter& meter, int x, int y, const DrawnPoint& point) {
     const glm::dvec2 centre_px = glm::dvec2(x, y) + 0.5;
-    const Nearness drawn =
-        point.background() ? 0.0 : 1.0 / (point.z_m * glm::length(meter.ray_view(centre_px)));
+    const Nearness drawn = drawn_nearness(meter, centre_px, point);
     const double between_px = picture.away_px(x, y, drawn);
-    if (between_px <= seen_resolution_px) return between_px;
+    if (between_px <= seen_resolution_px) return {between_px, false};
     if (!point.background()) {
         const std::optional<glm::dvec3> seen_m = meter.seen_m(point.row, point.column);
         const double moved_px =
             seen_m ? meter.apart_px(meter.offset_m(centre_px, point.z_m), *seen_m) : between_px;
-        if (moved_px >= between_px) return between_px;
-        if (picture.shows(*seen_m)) return moved_px;
+        if (moved_px >= between_px) return {between_px, true};
+        if (picture.shows(*seen_m)) return {moved_px, false};
     }
-    return std::min(between_px, picture.circle_px(centre_px, drawn));
+    return {std::min(between_px, picture.circle_px(centre_px, drawn)), true};
+}
+
+// By many rays around a pixel, or around where its ground truly is: what hides it there may end beside it.
+double fine_px(const TruthPicture& picture, const GroundMeter& meter, const glm::dvec2& centre_px,
+               const DrawnPoint& point, double at_most_px) {
+    const Nearness drawn = drawn_nearness(meter, centre_px, point);
+    const double found_px = picture.fine_circle_px(centre_px, drawn, at_most_px);
+    const auto seen_m = point.background() ? std::nullopt : meter.seen_m(point.row, point.column);
+    const auto true_px = seen_m ? meter.place_px(*seen_m) : std::nullopt;
+    if (!true_px) return found_px;
+    const double moved_px = glm::length(*true_px - centre_px);
+    if (moved_px >= found_px) return found_px;
+    return moved_px + picture.fine_circle_px(*true_px, 1.0 / glm::length(*seen_m), found_px - moved_px);
+}
+
+// Looks more closely at the largest of the errors that few rays have told, until the largest is found: gaps
+// of less than a pixel show what is drawn, too.
+void look_closely(const TruthPicture& picture, const GroundMeter& meter, const Camera& camera,
+                  std::span<const DrawnPoint> points, std::vector<std::size_t> searched,
+                  std::vector<float>& errors_px) {
+    constexpr std::size_t most_pixels = 64;
+    constexpr double farthest_px = 4.0;
+    const std::size_t count = std::min(searched.size(), most_pixels);
+    std::partial_sort(searched.begin(), searched.begin() + static_cast<std::ptrdiff_t>(count), searched.end(),
+                      [&](std::size_t a, std::size_t b) { return errors_px[a] > errors_px[b]; });
+    float largest_px = 0.0F;
+    for (std::size_t i = 0; i < count && errors_px[searched[i]] > largest_px; ++i) {
+        const std::size_t pixel = searched[i], width = static_cast<std::size_t>(camera.width_px);
+        const glm::dvec2 centre_px = glm::dvec2(pixel % width, pixel / width) + 0.5;
+        const double known_px = static_cast<double>(errors_px[pixel]);
+        const double within_px = std::min(known_px, farthest_px);
+        const double found_px = fine_px(picture, meter, centre_px, points[pixel], within_px);
+        if (found_px < within_px) errors_px[pixel] = static_cast<float>(found_px);
+        largest_px = std::max(largest_px, errors_px[pixel]);
+    }
 }
 
 }  // namespace
@@ -154,6 +221,7 @@ SeenErrors seen_errors(const Oracle& oracle, const GroundMeter& meter,
     const TruthPicture picture(oracle, truth, camera);
     std::vector<std::uint64_t> other_in_row(static_cast<std::size_t>(camera.height_px));
     std::vector<std::vector<float>> even_m(other_in_row.size());
+    std::vector<std::vector<std::size_t>> searched_in_row(other_in_row.size());
     in_parallel(camera.height_px, threads, [&](int y) {
         const std::size_t row = static_cast<std::size_t>(y);
         for (int x = 0; x < camera.width_px; ++x) {
@@ -161,7 +229,9 @@ SeenErrors seen_errors(const Oracle& oracle, const GroundMeter& meter,
             const DrawnPoint& point = points[pixel];
             const Nearness seen = picture.at(x, y);
             if (seen == 0.0 && point.background()) continue;
-            errors.px[pixel] = static_cast<float>(off_px(picture, meter, x, y, point));
+            const Away away = away_from(picture, meter, x, y, point);
+            errors.px[pixel] = static_cast<float>(away.px);
+            if (away.searched) searched_in_row[row].push_back(pixel);
             const double drawn_m =
                 point.background() ? 0.0 : point.z_m * glm::length(meter.ray_view(glm::dvec2(x, y) + 0.5));
             const bool edge = point.background() || is_edge(seen, 1.0 / drawn_m);
@@ -172,6 +242,10 @@ SeenErrors seen_errors(const Oracle& oracle, const GroundMeter& meter,
         }
     });
     errors.other = std::accumulate(other_in_row.begin(), other_in_row.end(), std::uint64_t{0});
+    std::vector<std::size_t> searched;
+    for (const std::vector<std::size_t>& some : searched_in_row)
+        searched.insert(searched.end(), some.begin(), some.end());
+    look_closely(picture, meter, camera, points, std::move(searched), errors.px);
     errors.summary_px = summary_of(errors.px);
     std::vector<float> all_even_m;
     for (const std::vector<float>& some : even_m)

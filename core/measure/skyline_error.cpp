@@ -95,10 +95,19 @@ struct Apart {
 };
 constexpr double by_chance_px = 0.05;
 
+// The circles on which places are tried: each so much larger than the one before.
+struct Circles {
+    double from_px;
+    double growth;
+    int directions;
+};
+constexpr double finest_px = 0.0125;
+
 // How far the true picture is to be moved, in any direction, so that it has what is drawn in a column: ground
 // at its first sample with ground, sky at those above. At most `off_px`, which columns alone tell: between
-// them a line was drawn where there may be a step, up to a pixel aside.
-double moved_px(const Oracle& oracle, const Camera& camera, const Apart& apart, double off_px) {
+// them a line was drawn where there may be a step.
+double moved_px(const Oracle& oracle, const Camera& camera, const Apart& apart, double off_px,
+                const Circles& circles) {
     const double reach_m = sight_reach_m(camera.eye.h_m);
     constexpr double step_px = 1.0 / skyline_samples;
     const auto has_all = [&](const glm::dvec2& by_px) {
@@ -111,15 +120,39 @@ double moved_px(const Oracle& oracle, const Camera& camera, const Apart& apart, 
             if (is_ground(y_px)) return false;
         return std::isinf(apart.drawn.sky_px) || !is_ground(apart.drawn.sky_px);
     };
-    constexpr int directions = 16;
-    constexpr double finest_px = 0.0125, growth = 1.2, step_aside_px = 1.0;
-    for (double by_px = std::max(finest_px, off_px - step_aside_px); by_px < off_px; by_px *= growth) {
-        for (int direction = 0; direction < directions; ++direction) {
-            const double turn = 2.0 * std::acos(-1.0) * direction / directions;
+    for (double by_px = circles.from_px; by_px < off_px; by_px *= circles.growth) {
+        for (int direction = 0; direction < circles.directions; ++direction) {
+            const double turn = 2.0 * std::acos(-1.0) * direction / circles.directions;
             if (has_all(by_px * glm::dvec2(std::cos(turn), std::sin(turn)))) return by_px;
         }
     }
     return off_px;
+}
+
+// A few places near where the line says: what most columns need.
+double moved_px(const Oracle& oracle, const Camera& camera, const Apart& apart, double off_px) {
+    constexpr double step_aside_px = 1.0;
+    return moved_px(oracle, camera, apart, off_px, {std::max(finest_px, off_px - step_aside_px), 1.2, 16});
+}
+
+// Tries many places for the columns that are farthest off, until the farthest is found.
+void look_closely(const Oracle& oracle, const Camera& camera, std::vector<Apart> columns,
+                  std::vector<float>& errors_px) {
+    constexpr std::size_t most_columns = 32;
+    const auto error_px = [&](const Apart& one) -> float& {
+        return errors_px[static_cast<std::size_t>(one.column)];
+    };
+    const std::size_t count = std::min(columns.size(), most_columns);
+    std::partial_sort(columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(count), columns.end(),
+                      [&](const Apart& a, const Apart& b) { return error_px(a) > error_px(b); });
+    float largest_px = 0.0F;
+    for (std::size_t i = 0; i < count && error_px(columns[i]) > largest_px; ++i) {
+        float& known_px = error_px(columns[i]);
+        const double found_px =
+            moved_px(oracle, camera, columns[i], static_cast<double>(known_px), {finest_px, 1.1, 96});
+        known_px = static_cast<float>(found_px);
+        largest_px = std::max(largest_px, known_px);
+    }
 }
 
 }  // namespace
@@ -145,6 +178,7 @@ SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span
     const double last_sample_px = camera.height_px - 1 + from_top.back().sample_px.y;
     SkylineError error;
     error.px.assign(truth.y_px.size(), not_measured);
+    std::vector<Apart> apart;
     for (std::size_t column = 0; column < truth.y_px.size(); ++column) {
         const float true_px = truth.y_px[column];
         const auto drawn = drawn_skyline(camera, from_top, static_cast<int>(column));
@@ -157,10 +191,13 @@ SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span
         if (!drawn || (true_px <= 0.0F && std::isinf(drawn->sky_px))) continue;
         const int x = static_cast<int>(column);
         double off_px = off_line_px(truth, camera, x, *drawn);
-        if (oracle && off_px > by_chance_px)
-            off_px = moved_px(*oracle, camera, {x, static_cast<double>(true_px), *drawn}, off_px);
+        if (oracle && off_px > skyline_step_px) {
+            apart.push_back({x, static_cast<double>(true_px), *drawn});
+            if (off_px > by_chance_px) off_px = moved_px(*oracle, camera, apart.back(), off_px);
+        }
         error.px[column] = static_cast<float>(off_px);
     }
+    if (oracle) look_closely(*oracle, camera, std::move(apart), error.px);
     error.summary_px = summary_of(error.px);
     return error;
 }

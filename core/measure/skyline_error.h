@@ -35,8 +35,8 @@ struct SkylineError {
 };
 // samples: pictures of the same view, sampled at several heights in the middle of their pixels. oracle: asked
 // about columns that are off by more than 0.05 px: how far the truth is to be moved to have what is drawn
-// there (to a fifth of that); a spire or a step between two columns of rays is in one picture or the other by
-// chance. Without an oracle such columns count as they look.
+// there (to a fifth of that, the farthest to a tenth); a spire or a step between two columns of rays is in
+// one picture or the other by chance. Without an oracle such columns count as they look.
 SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span<const DrawnDepths> samples,
                            const Oracle* oracle = nullptr);
 SkylineError skyline_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
