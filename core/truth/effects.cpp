@@ -24,6 +24,8 @@ constexpr double between_samples = 1.5;
 constexpr double unlike_the_truth = 2.5;
 // Ground between the samples may be somewhat nearer than at them.
 constexpr double nearer = 1.3;
+// Ground behind edges that is farther from them comes out only where it is moved farther.
+constexpr double in_gaps_px = 1.5;
 // Half a unit in the last place of a float, relative.
 constexpr double float_rounding = 1.0 / 16777216.0;
 
@@ -76,8 +78,14 @@ EffectPrediction::EffectPrediction(const TrueSurface& surface, const RegionPages
 
 double EffectPrediction::nearest_m() const {
     double nearest_m = std::numeric_limits<double>::infinity();
-    for (const Sample& sample : samples_) nearest_m = std::min(nearest_m, sample.distance_m);
+    for (const Sample& sample : samples_)
+        if (sample.beside_px == 0.0) nearest_m = std::min(nearest_m, sample.distance_m);
     return nearest_m;
+}
+
+std::size_t EffectPrediction::sight_lines() const {
+    return static_cast<std::size_t>(std::count_if(
+        samples_.begin(), samples_.end(), [](const Sample& sample) { return sample.beside_px == 0.0; }));
 }
 
 double EffectPrediction::median_distance_m() const {
@@ -95,6 +103,7 @@ double EffectPrediction::apart_px(const glm::dvec3& drawn_m, const glm::dvec3& s
 EffectSize EffectPrediction::moved(const Drawn& drawn, double margin) const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
+        if (sample.beside_px > in_gaps_px) continue;
         const glm::dvec3 at = drawn(sample);
         if ((view_from_ecef_ * at).z >= -near_plane_m) continue;  // not in the picture
         sizes.add(glm::length(sight_.refraction.true_m(at) - sight_.refraction.true_m(sample.apparent_m)),
@@ -109,6 +118,7 @@ EffectSize EffectPrediction::moved_by(const WorldModel& model) const {
               between_samples);
     Sizes shown;
     for (const Sample& sample : view_samples(surface_, sight_of(model, camera_.eye), camera_, threads_)) {
+        if (sample.beside_px > in_gaps_px) continue;
         const glm::dvec3 offset_m = ecef_from_geodetic(sample.point).m - sight_.eye.m;
         const glm::dvec3 seen_m = sight_.refraction.apparent_m(offset_m);
         const double metres = glm::length(sight_.refraction.true_m(sample.apparent_m) - offset_m);
@@ -149,6 +159,7 @@ double EffectPrediction::any_way_px(const Sample& sample, double metres) const {
 EffectSize EffectPrediction::lifted(const Bound& height_m) const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
+        if (sample.beside_px > in_gaps_px) continue;
         const double height = height_m(sample);
         sizes.add(height, vertical_px(sample, height), sample.even);
     }
@@ -158,6 +169,7 @@ EffectSize EffectPrediction::lifted(const Bound& height_m) const {
 EffectSize EffectPrediction::anywhere(const Bound& bound_m, const Bound& typical_m) const {
     Sizes bounds, typical;
     for (const Sample& sample : samples_) {
+        if (sample.beside_px > in_gaps_px) continue;
         const double most_m = bound_m(sample), usual_m = typical_m(sample);
         bounds.add(most_m, any_way_px(sample, most_m), sample.even);
         typical.add(usual_m, any_way_px(sample, usual_m), sample.even);
@@ -204,6 +216,7 @@ EffectSize EffectPrediction::without_geoid() const {
 EffectSize EffectPrediction::interpolation(int apart) const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
+        if (sample.beside_px > 0.0) continue;  // what is seen
         double bend_m = 0.0;
         for (const auto& [down, right] : {std::pair(apart, 0), std::pair(0, apart)}) {
             const PostGrid& grid = surface_.field().grid;
@@ -228,15 +241,16 @@ Result<EffectSize> EffectPrediction::detail(double tau_px) const {
     Camera drawn = camera_;
     drawn.eye.h_m -= left_out_N_m(drawn.eye.lat_deg, drawn.eye.lon_deg);
     SampledDetail detail(pages_, drawn, tau_px, sight_.refraction);
+    constexpr double between_nodes = 1.5;
     Sizes heights, sideways;
     for (const Sample& sample : samples_) {
         ORO_TRY(const SampledDetail::Bound bound, detail.at(sample.row, sample.column));
+        if (sample.beside_px > in_gaps_px + between_nodes * bound.error_px) continue;
         heights.add(bound.error_m, bound.error_px, sample.even);
         const double flat_m =
             bound.level == 0 ? 0.0 : flat_triangle(sample, std::ldexp(1.0, bound.level)).sideways_m;
         sideways.add(flat_m, any_way_px(sample, flat_m), sample.even);
     }
-    constexpr double between_nodes = 1.5;
     EffectSize size = heights.size(between_nodes);
     size.worst_px = std::min(size.worst_px, tau_px);
     // Levels are certified by how far the surface moves; along it ground points move a little, too.
@@ -257,6 +271,7 @@ Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double
 EffectSize EffectPrediction::in_flat_cells() const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
+        if (sample.beside_px > in_gaps_px) continue;
         const FlatTriangle off = flat_triangle(sample, 1.0);
         sizes.add(std::hypot(off.up_m, off.sideways_m),
                   vertical_px(sample, off.up_m) + any_way_px(sample, off.sideways_m), sample.even);

@@ -45,9 +45,9 @@ class EffectPrediction {
                      const TrueWorld& world, int threads);
 
     // Nothing is in view: all sizes are 0.
-    [[nodiscard]] bool empty() const { return samples_.empty(); }
+    [[nodiscard]] bool empty() const { return sight_lines() == 0; }
     // Sight lines that met ground.
-    [[nodiscard]] std::size_t sight_lines() const { return samples_.size(); }
+    [[nodiscard]] std::size_t sight_lines() const;
     [[nodiscard]] double nearest_m() const;
     [[nodiscard]] double median_distance_m() const;
 

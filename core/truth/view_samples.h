@@ -10,7 +10,7 @@
 
 namespace oro {
 
-// A point that is seen.
+// A point that is seen, or would be if the ground before it were a little lower.
 struct ViewSample {
     Geodetic point;
     glm::dvec3 apparent_m;  // offset from the eye at which it is seen, ECEF axes
@@ -18,14 +18,20 @@ struct ViewSample {
     double slope;  // of its triangle, metres a metre
     int row;       // of its cell
     int column;
-    bool south_west;  // of the cell's triangles
-    bool even;        // one of those spread evenly over the picture: medians are taken of these alone
+    bool south_west;        // of the cell's triangles
+    bool even;              // one of those spread evenly over the picture: medians are taken of these alone
+    double beside_px{0.0};  // 0: seen at a pixel's centre; else how far it lies from one that is, on the
+                            // picture: behind an edge, or in a gap that no centre looks through
 };
+// What lies behind edges is given up to this far from them.
+inline constexpr double behind_edges_px = 5.0;
 
 // Casts sight lines through centres of pixels: up to 160 x 640 all over the picture (14,400 for 16:9; those
 // of its rim included), then wherever four of them see ground whose distances differ by more than a fifth, or
 // ground and sky, more between them, down to single pixels: what is seen through gaps between hills is seen
-// here, too, but for gaps narrower than a pixel.
+// here, too. Behind edges between two pixels, or between a pixel and the picture's rim, the ground is
+// followed along the sight line to what lies beyond: what is within `behind_edges_px` of the edge is given,
+// too, seen or not. So is what shows through gaps between pixels, and what comes out when ground moves.
 std::vector<ViewSample> view_samples(const TrueSurface& surface, const Sight& sight, const Camera& camera,
                                      int threads);
 
