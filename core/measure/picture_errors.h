@@ -22,6 +22,7 @@ class TruePicture {
     TruePicture(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads);
 
     [[nodiscard]] const Skyline& skyline() const { return skyline_; }
+    [[nodiscard]] const PostGrid& grid() const { return surface_.field().grid; }
 
   private:
     friend struct PictureErrors picture_errors(const TruePicture&, std::span<const DrawnPoint>,
@@ -49,7 +50,8 @@ PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoin
                              std::span<const DrawnDepths> samples, int threads);
 
 // What drawing may round off on a picture, besides what tau allows: 0.05 px; and near ground half a step of
-// the heights, 0.24 mm, which is more than that within some metres.
-double drawing_slack_px(const Camera& camera, double nearest_m);
+// the heights, 0.24 mm, and what a flat triangle leaves out of the Earth's curve: 0.4 mm for SRTM tiles at 46
+// degrees, up to 900 m for posts a degree apart.
+double drawing_slack_px(const Camera& camera, double nearest_m, const PostGrid& grid);
 
 }  // namespace oro

@@ -157,5 +157,21 @@ TEST(GroundMeter, NothingIsFartherOffThanThePictureIsWide) {
     EXPECT_LT(meter.apart_px(ahead_m, ecef_from_view * glm::dvec3(1.0, 0.0, -100.0)), 1.0);
 }
 
+// Half of 2^-11 m, and R hypot((t t + t t cos cos) / 8, sin (t t / 4 + t t cos / 8)) of t = 1 / 1200 degree
+// from 46 to 47 degrees: 0.000247 m up and 0.000326 sideways, 0.00041 m. 1,303.7 px for a tangent at 2 m.
+// Posts a degree apart: 485.7 m at the equator, 875.6 with a pole's sine.
+TEST(DrawingSlack, HasWhatFlatTrianglesLeaveOut) {
+    Camera camera;
+    camera.width_px = 1920, camera.height_px = 1080;
+    const HeightField tile =
+        test::made_field(47.0, 8.0, 1200.0, 1201, 2, [](double, double) { return 0.0F; });
+    const double px = 1303.675;
+    EXPECT_NEAR(drawing_slack_px(camera, 2.0, tile.grid), 0.05 + (0.000244 + 0.000415) * px / 2.0, 0.005);
+    const HeightField globe =
+        test::made_field(90.0, -180.0, 1.0, 181, 2, [](double, double) { return 0.0F; });
+    EXPECT_NEAR(drawing_slack_px(camera, 1.0e6, globe.grid), 0.05 + 875.65 * px / 1.0e6, 0.001);
+    EXPECT_EQ(drawing_slack_px(camera, 0.0, globe.grid), 0.05);
+}
+
 }  // namespace
 }  // namespace oro
