@@ -1,6 +1,7 @@
 #version 460
 // Triangles that cross the near plane or leave the grid: cut to what is in front and on the grid, then handed on as large ones.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
@@ -9,13 +10,14 @@
 
 layout(local_size_x = 64) in;
 
+// Few triangles come here, and a driver takes twice as long to compile the copies of a loop as the loop: none is unrolled.
 const int corners_max = 9;  // three, and one more for each of five planes, and one to spare
 
 // Source: I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Communications of the ACM 17(1), 1974.
 int clipped(inout vec4 corners[corners_max], int count, int plane) {
     vec4 kept[corners_max];
     int kept_count = 0;
-    for (int i = 0; i < count; ++i) {
+    [[dont_unroll]] for (int i = 0; i < count; ++i) {
         vec4 here = corners[i], next = corners[(i + 1) % count];
         float at_here = side_of(plane, here), at_next = side_of(plane, next);
         if (at_here >= 0.0 && kept_count < corners_max) kept[kept_count++] = here;
@@ -48,8 +50,8 @@ void main() {
         corners[i] = project(place_in_view(page, post, post_height(block, post)));
     }
     int count = 3;
-    for (int plane = 0; plane < clip_planes && count >= 3; ++plane) count = clipped(corners, count, plane);
-    for (int i = 1; i + 1 < count; ++i) {
+    [[dont_unroll]] for (int plane = 0; plane < clip_planes && count >= 3; ++plane) count = clipped(corners, count, plane);
+    [[dont_unroll]] for (int i = 1; i + 1 < count; ++i) {
         ScreenTriangle t;
         if (!screen_triangle(corners[0], corners[i], corners[i + 1], id, t)) continue;
         ivec4 box = pixel_box(t);
