@@ -48,6 +48,12 @@ void take_on(const Circumstances& circumstances) {
     if (!circumstances.folder.empty() && chdir(circumstances.folder.c_str()) != 0) _exit(cannot_start);
 }
 
+// Where the program keeps what it has measured: of this build of it, as its program file tells.
+std::string cache_folder() {
+    const auto built = fs::last_write_time(OROGRAPH_PROGRAM).time_since_epoch().count();
+    return (fs::path(TEST_CACHE) / std::to_string(built)).string();
+}
+
 }  // namespace
 
 std::vector<std::string> Outcome::err_lines() const {
@@ -59,7 +65,7 @@ std::vector<std::string> Outcome::err_lines() const {
 
 Outcome run_program(const std::vector<std::string>& words, const Circumstances& circumstances) {
     const fs::path said = scratch_folder();
-    static const fs::path cache = scratch_folder();
+    static const std::string cache = cache_folder();
     const pid_t child = fork();
     if (child == 0) {
         redirect("/dev/null", STDIN_FILENO, O_RDONLY);

@@ -25,8 +25,9 @@ struct Outcome {
     [[nodiscard]] std::vector<std::string> err_lines() const;
 };
 
-// Runs a program (looked up in PATH when it has no slash) with standard input closed, and a cache folder
-// that all runs of this test program share and nobody else.
+// Runs a program (looked up in PATH when it has no slash) with standard input closed, and a cache folder in
+// the build tree that all these tests share and nobody else. So the ways of drawing are measured once, and
+// not by each of them.
 Outcome run_program(const std::vector<std::string>& words, const Circumstances& circumstances = {});
 // Runs the program under test.
 Outcome run_orograph(std::vector<std::string> words, const Circumstances& circumstances = {});

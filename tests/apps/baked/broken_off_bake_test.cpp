@@ -29,10 +29,10 @@ using oro::test::write_bytes;
 class BrokenOffBake : public Bake {
   protected:
     void SetUp() override {
-        // Four tiles, of real data where there are such: the bundled region is baked before a kill can meet
-        // it.
+        // The corner where four tiles meet, of real data where there are such: the bundled region is baked
+        // before a kill can meet it.
         const auto alps = oro::test::real_data("alps");
-        input_ = alps ? Words{*alps, "--tile", "N46E006:N47E007"} : made_tiles();
+        input_ = alps ? Words{*alps, "--bbox", "6.5,46.5,7.5,47.5"} : made_tiles();
         for (int i = 0; i < 3; ++i) {
             const auto start = std::chrono::steady_clock::now();
             const Outcome outcome = run({}, {"-q", "--overwrite"});
@@ -49,7 +49,7 @@ class BrokenOffBake : public Bake {
         fs::create_directories(tiles_);
         for (const char* name : {"N10E020.hgt", "N10E021.hgt", "N11E020.hgt", "N11E021.hgt"})
             write_bytes(tiles_ / name, oro::test::hills());
-        return {tiles_.string()};
+        return {tiles_.string(), "--bbox", "20.5,10.5,21.5,11.5"};
     }
     Outcome run(const Circumstances& circumstances, const Words& more = {"-q"}) const {
         return run_orograph(joined(joined({"bake", "--out", out_}, input_), more), circumstances);
