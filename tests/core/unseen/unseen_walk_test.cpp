@@ -32,15 +32,20 @@ First walked(const Land& land, const Camera& camera, const Sight& sight, glm::dv
         if (root < 0.0 || along > 0.0) return First::neither;
         t_m = -along - std::sqrt(root);
     }
-    for (const double start_m = t_m; t_m < reach_m; t_m += 4.0 + 0.003 * std::min(t_m - start_m, 100000.0)) {
+    const double start_m = t_m;
+    while (t_m < reach_m) {
         const Geodetic at = geodetic_from_ecef({sight.eye.m + sight.refraction.true_m(t_m * direction)});
+        double step_m = 4.0 + 0.003 * std::min(t_m - start_m, 100000.0);
         if (at.h_m > ceiling_h_m) {
             if (t_m - start_m > 5.0e5 && at.h_m > camera.eye.h_m + ceiling_h_m) break;
-            continue;
+            // Bent as it may be, it is not below the ceiling before it has gone half of the way down to it.
+            step_m = std::max(step_m, 0.5 * (at.h_m - ceiling_h_m));
+        } else {
+            if (!land.known->holds(at.lat_deg, at.lon_deg)) return First::unknown;
+            const auto ground_h_m = land.surface->h_m(at.lat_deg, at.lon_deg);
+            if (ground_h_m && at.h_m <= *ground_h_m) return First::ground;
         }
-        if (!land.known->holds(at.lat_deg, at.lon_deg)) return First::unknown;
-        const auto ground_h_m = land.surface->h_m(at.lat_deg, at.lon_deg);
-        if (ground_h_m && at.h_m <= *ground_h_m) return First::ground;
+        t_m += step_m;
     }
     return First::neither;
 }
