@@ -128,9 +128,9 @@ std::optional<SightHit> Oracle::Search::first_hit() {
     std::array<Waiting, 160> waiting;  // at most 3 more for each level
     std::size_t count = 0;
     const auto add = [&](const Block& block) {
-        glm::dvec3 low, high;
-        if (!scenery_.box(block, low, high)) return;
-        const Span span = span_in_box(in_frame_, inverse_, low, high);
+        const Oracle::Scenery::Box& box = scenery_.remembered_box(block);
+        if (!box.holds_ground) return;
+        const Span span = span_in_box(in_frame_, inverse_, box.low, box.high);
         if (span.begin_m <= span.end_m && span.begin_m < nearest_m_) waiting[count++] = {block, span};
     };
     add({surface_.levels() - 1, 0, 0});

@@ -1,6 +1,8 @@
 #include "core/truth/oracle_scenery.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -12,9 +14,15 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+std::uint64_t next_number() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
 }  // namespace
 
-Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from) : surface(of), sight(from) {
+Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from)
+    : surface(of), sight(from), number_(next_number()) {
     const PostGrid& grid = surface.field().grid;
     const double lat_deg = 0.5 * (grid.north_deg() + grid.south_deg());
     const double lon_deg = 0.5 * (grid.west_deg() + grid.east_deg());
@@ -104,6 +112,21 @@ bool Oracle::Scenery::box(const TrueSurface::Block& block, glm::dvec3& low, glm:
     low -= pad_m;
     high += pad_m;
     return true;
+}
+
+const Oracle::Scenery::Box& Oracle::Scenery::remembered_box(const TrueSurface::Block& block) const {
+    constexpr std::size_t kept = 1024;  // 32 x 32 blocks of a level
+    static thread_local std::array<Box, kept> boxes;
+    Box& one = boxes[static_cast<std::size_t>((block.row % 32) * 32 + block.column % 32) ^
+                     static_cast<std::size_t>(block.level * 77 % 1024)];
+    const TrueSurface::Block& its = one.block;
+    if (one.scenery != number_ || its.level != block.level || its.row != block.row ||
+        its.column != block.column) {
+        one.scenery = number_;
+        one.block = block;
+        one.holds_ground = box(block, one.low, one.high);
+    }
+    return one;
 }
 
 }  // namespace oro

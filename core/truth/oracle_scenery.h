@@ -1,6 +1,7 @@
 // What the oracle's sight lines go through. Within core.
 #pragma once
 
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -37,6 +38,19 @@ class Oracle::Scenery {
     [[nodiscard]] bool is_cut(int west, int east) const;
     // Corners of a box around all of a block that can be seen; false when there is nothing in it.
     [[nodiscard]] bool box(const TrueSurface::Block& block, glm::dvec3& low, glm::dvec3& high) const;
+
+    // Of box(), as a thread remembers it.
+    struct Box {
+        std::uint64_t scenery{0};  // 0: none
+        TrueSurface::Block block{};
+        bool holds_ground{};
+        glm::dvec3 low{}, high{};
+    };
+    // The same, remembered: neighbouring sight lines meet the same blocks. Good until this thread asks again.
+    [[nodiscard]] const Box& remembered_box(const TrueSurface::Block& block) const;
+
+  private:
+    std::uint64_t number_;  // of all sceneries that there ever were
 };
 
 }  // namespace oro
