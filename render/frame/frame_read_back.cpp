@@ -122,8 +122,8 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_edges(std::size_t pages) 
                       pages * gpu::edges_words);
 }
 
-std::vector<gpu::vec3> FrameRenderer::recorded() const {
-    std::vector<gpu::vec3> positions(recorded_.size / sizeof(gpu::vec3));
+std::vector<gpu::vec3> FrameRenderer::recorded(std::size_t most) const {
+    std::vector<gpu::vec3> positions(std::min<std::size_t>(most, recorded_.size / sizeof(gpu::vec3)));
     std::memcpy(positions.data(), recorded_.mapped, positions.size() * sizeof(gpu::vec3));
     return positions;
 }

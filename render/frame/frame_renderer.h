@@ -72,8 +72,8 @@ class FrameRenderer {
     Result<std::vector<std::uint32_t>> read_accepted(std::size_t pages);
     // With record_positions: of every page of the last frame, 129 x 129 positions relative to the eye, in its
     // meridian frame (with record_view in view coordinates), as the mesh shader placed them (those of void
-    // posts, and of posts that are not drawn, mean nothing).
-    [[nodiscard]] std::vector<gpu::vec3> recorded() const;
+    // posts, and of posts that are not drawn, mean nothing). The first `most` of them.
+    [[nodiscard]] std::vector<gpu::vec3> recorded(std::size_t most = SIZE_MAX) const;
 
     [[nodiscard]] const Image& picture() const { return picture_; }
     [[nodiscard]] VkExtent2D extent() const { return options_.extent; }

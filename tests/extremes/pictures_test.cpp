@@ -124,7 +124,7 @@ class Jitter : public Extremes {
                 stage.plan(camera, {0, 0, 16, 1080, {0.5, 0.5}}, 0.0, {Earth::ellipsoid, {}, precision});
             for (gpu::FramePage& page : plan.pages) page.cull = 0;
             EXPECT_TRUE(renderer->draw(std::move(plan), {}).ok());
-            add(camera, renderer->recorded(), before, noise);
+            add(camera, renderer->recorded(std::size_t{129} * posts), before, noise);
         }
         return noise;
     }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -66,7 +65,7 @@ inline void expect_steps_of_one(const Region& region, const std::vector<int>& le
 // there the full resolution must end, too. Posts are compared by number, so nothing can open.
 inline void expect_watertight(const Region& region, const std::vector<DrawnNode>& nodes) {
     using Edge = std::pair<RegionPost, RegionPost>;
-    std::map<Edge, int> edges;
+    std::vector<Edge> edges;
     const int last_column = region.heights.columns - 1;
     const auto closed = [&](RegionPost post) {
         if (region.pyramid.goes_round && post.column == last_column) post.column = 0;
@@ -75,12 +74,14 @@ inline void expect_watertight(const Region& region, const std::vector<DrawnNode>
     for (const DrawnNode& node : nodes) {
         for (const auto& triangle :
              drawn_triangles(region.heights, region.grid(node.level), node.row, node.column, node.edges)) {
-            for (std::size_t i = 0; i < 3; ++i) ++edges[{closed(triangle[i]), closed(triangle[(i + 1) % 3])}];
+            for (std::size_t i = 0; i < 3; ++i)
+                edges.emplace_back(closed(triangle[i]), closed(triangle[(i + 1) % 3]));
         }
     }
-    for (const auto& [edge, uses] : edges) {
-        ASSERT_EQ(uses, 1) << "one triangle on each side";
-        if (edges.contains({edge.second, edge.first})) continue;
+    std::sort(edges.begin(), edges.end());
+    ASSERT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end()) << "one triangle on each side";
+    for (const Edge& edge : edges) {
+        if (std::binary_search(edges.begin(), edges.end(), Edge{edge.second, edge.first})) continue;
         auto [a, b] = edge;
         if (std::abs(a.column - b.column) > last_column / 2) (a.column == 0 ? a : b).column = last_column;
         // An end of the surface. Triangles run counter-clockwise seen from above, so what is to the right of
