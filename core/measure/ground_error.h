@@ -22,16 +22,6 @@ struct Distance {
     double px{};
 };
 
-// What is wrong with one drawn point.
-struct GroundError {
-    // From where its ground point (the row and column of its triangle) truly is: sideways, up and along the
-    // line of sight.
-    Distance displacement;
-    // From the true surface: no farther than this (exact where the ground is even around it). m is the
-    // distance to the surface, not the difference of heights, which would exaggerate on walls.
-    Distance surface;
-};
-
 // Measures drawn points of a picture. All outlive it.
 class GroundMeter {
   public:
@@ -51,13 +41,18 @@ class GroundMeter {
     // diagonal: beyond, towards the picture's plane, pixels grow without end and say nothing.
     [[nodiscard]] double apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const;
 
-    // Of a pixel that shows `point`; nothing where its ground point lies over no data. Error: rounding of
+    // Of a pixel that shows `point`, from where its ground point (the row and column of its triangle) truly
+    // is: sideways, up and along the line of sight. Nothing where that lies over no data. Error: rounding of
     // doubles, and that of the drawn point: 6e-8 of its distance.
-    [[nodiscard]] std::optional<GroundError> at(const glm::dvec2& point_px, const DrawnPoint& point) const;
+    [[nodiscard]] std::optional<Distance> displacement(const glm::dvec2& point_px,
+                                                       const DrawnPoint& point) const;
+    // From the true surface: no farther than this, to 0.2 % where the ground is even around it, and no
+    // farther than the point's displacement. m is the distance to the surface, not the difference of heights,
+    // which would exaggerate on walls.
+    [[nodiscard]] Distance from_surface(const glm::dvec2& point_px, const DrawnPoint& point,
+                                        const Distance& displacement) const;
 
   private:
-    [[nodiscard]] Distance from_surface(const glm::dvec3& drawn_m, const Distance& at_most) const;
-
     const TrueSurface& surface_;
     const Sight& sight_;
     glm::dmat3 view_from_ecef_;
@@ -75,7 +70,9 @@ struct GroundErrors {
     std::uint64_t drawn{};        // pixels with ground
     std::uint64_t beyond_data{};  // of them those whose ground point has no true height
 };
+enum class GroundMeasures { both, displacement };  // without the surface its values are not_measured
 GroundErrors ground_errors(const TrueSurface& surface, const Sight& sight, const Camera& camera,
-                           std::span<const DrawnPoint> points, int threads);
+                           std::span<const DrawnPoint> points, int threads,
+                           GroundMeasures measures = GroundMeasures::both);
 
 }  // namespace oro

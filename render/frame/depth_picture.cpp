@@ -80,28 +80,27 @@ Result<FrameReport> DepthPainter::draw_sample(Scene& scene, const Camera& camera
     return report;
 }
 
-// From the triangles of the frame that was drawn last.
-Result<void> DepthPainter::read_points(const Camera& camera, const Tile& tile, DepthPicture& picture) {
+Result<std::vector<DrawnPoint>> read_points(FrameRenderer& renderer, const Camera& camera, const Tile& tile) {
     const glm::dvec2 tangent = camera.half_fov_tangent();
     const auto ray_through = [&](double x_px, double y_px) {
         return glm::dvec3((2.0 * x_px / camera.width_px - 1.0) * tangent.x,
                           (1.0 - 2.0 * y_px / camera.height_px) * tangent.y, -1.0);
     };
-    const int step = static_cast<int>(renderer_->triangle_rows());
+    std::vector<DrawnPoint> points;
+    points.reserve(static_cast<std::size_t>(tile.width_px) * static_cast<std::size_t>(tile.height_px));
+    const int step = static_cast<int>(renderer.triangle_rows());
     for (int first = 0; first < tile.height_px; first += step) {
         const int rows = std::min(step, tile.height_px - first);
-        ORO_TRY(
-            const std::vector<gpu::DrawnTriangle> triangles,
-            renderer_->read_triangles(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(rows)));
+        ORO_TRY(const std::vector<gpu::DrawnTriangle> triangles,
+                renderer.read_triangles(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(rows)));
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const int x = tile.x_px + static_cast<int>(i) % tile.width_px;
             const int y = tile.y_px + first + static_cast<int>(i) / tile.width_px;
-            picture.points[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
-                           static_cast<std::size_t>(x)] =
-                drawn_point(triangles[i], ray_through(x + tile.sample_px.x, y + tile.sample_px.y));
+            points.push_back(
+                drawn_point(triangles[i], ray_through(x + tile.sample_px.x, y + tile.sample_px.y)));
         }
     }
-    return {};
+    return points;
 }
 
 Result<void> DepthPainter::draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
@@ -109,7 +108,8 @@ Result<void> DepthPainter::draw_tile(Scene& scene, const Camera& camera, const g
                                      DepthPicture& picture) {
     ORO_TRY(const FrameReport report,
             draw_sample(scene, camera, style, options, tile, picture, picture.depths));
-    ORO_CHECK(read_points(camera, tile, picture));
+    ORO_TRY(const std::vector<DrawnPoint> points, read_points(*renderer_, camera, tile));
+    place_tile(points, tile, camera.width_px, 1, picture.points);
     add(picture.report, report);
     picture.page_bytes += report.pages * page_bytes(scene.store().coding());
     ++picture.tiles;

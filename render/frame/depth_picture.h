@@ -40,6 +40,10 @@ struct DepthPicture {
     [[nodiscard]] std::vector<DrawnDepths> skylines() const;
 };
 
+// What each pixel of a tile shows, row by row: of the frame that `renderer` drew last, made with
+// keep_triangles. Errors: those of the device.
+Result<std::vector<DrawnPoint>> read_points(FrameRenderer& renderer, const Camera& camera, const Tile& tile);
+
 // Draws such pictures, one after another; those of one size share what a renderer needs.
 class DepthPainter {
   public:
@@ -54,7 +58,6 @@ class DepthPainter {
     Result<void> prepare(VkExtent2D extent);
     Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                            const DepthPictureOptions& options, const Tile& tile, DepthPicture& picture);
-    Result<void> read_points(const Camera& camera, const Tile& tile, DepthPicture& picture);
     Result<FrameReport> draw_sample(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                     const DepthPictureOptions& options, const Tile& tile,
                                     DepthPicture& picture, std::vector<float>& depths);

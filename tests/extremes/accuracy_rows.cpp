@@ -4,7 +4,8 @@
 namespace oro::test {
 namespace {
 
-constexpr const char* px_error = "error of the ground";
+constexpr const char* px_error = "displacement";
+constexpr const char* surface_error = "distance from the surface";
 constexpr const char* wrong = "pixels off what is seen within 0.1 px";
 constexpr const char* oracle = "true surface";
 constexpr const char* rays = "oracle";
@@ -20,14 +21,23 @@ constexpr const char* large = "Large data";
 constexpr double px_bound = 0.05;
 
 constexpr AccuracyRow rows[] = {
-    {places, "flying across a pole", px_error, oracle, px_bound, "px", "pixels",
-     "both poles, 21 steps of 25 m, both ways of drawing; columns a quarter of a degree apart"},
+    // Along a flat triangle of rows a and columns b radians apart ground points move by R sin(lat) (a b / 4 +
+    // b b cos(lat) / 8) at most: 0.10 m with columns a quarter of a degree apart, 0.42 m with a degree.
+    {places, "flying across a pole", px_error, oracle, 0.49, "px", "pixels",
+     "both poles, 21 steps of 25 m, both ways of drawing; columns a quarter of a degree apart: along flat "
+     "triangles ground moves by up to 0.10 m, 0.44 px at 356 m"},
+    {places, "flying across a pole, from the surface", surface_error, oracle, px_bound, "px", "pixels",
+     "the same: the surface itself does not move"},
     {places, "flying across a pole, what is seen", wrong, rays, 0, "", "pixels", ""},
-    {places, "straight down on a pole", px_error, oracle, px_bound, "px", "pixels",
-     "the eye at 90.0 exactly"},
+    {places, "straight down on a pole", px_error, oracle, 0.19, "px", "pixels",
+     "the eye at 90.0 exactly, 800 m up: the same 0.10 m"},
+    {places, "straight down on a pole, from the surface", surface_error, oracle, px_bound, "px", "pixels",
+     ""},
     {places, "straight down on a pole, what is seen", wrong, rays, 0, "", "pixels", ""},
-    {places, "columns a degree apart at a pole", px_error, oracle, 0.3, "px", "pixels",
-     "cells that end in a pole: the truth is linear in longitude there, a triangle is flat"},
+    {places, "columns a degree apart at a pole", px_error, oracle, 0.62, "px", "pixels",
+     "cells that end in a pole: along their flat triangles ground moves by up to 0.42 m"},
+    {places, "columns a degree apart at a pole, from the surface", surface_error, oracle, px_bound, "px",
+     "pixels", ""},
     {places, "posts within 2 km of a pole", "distance of placed posts", "GeographicLib", 1.0, "mm", "posts",
      ""},
     {places, "the 1,441 posts at a pole", "distance from the first", "each other", 0, "m", "posts",
@@ -46,13 +56,13 @@ constexpr AccuracyRow rows[] = {
     {heights, "at -11,000 m", px_error, oracle, px_bound, "px", "pixels",
      "at the foot of 19,849 m of slope, 80 degrees wide"},
     {heights, "at -11,000 m, what is seen", wrong, rays, 0, "", "pixels", ""},
-    {heights, "at -11,000 m, in height", px_error, oracle, 0.05, "m", "pixels", ""},
+    {heights, "at -11,000 m, in metres", px_error, oracle, 0.05, "m", "pixels", ""},
     {heights, "at 8,849 m", px_error, oracle, px_bound, "px", "pixels", "on top of it"},
     {heights, "at 8,849 m, what is seen", wrong, rays, 0, "", "pixels", ""},
-    {heights, "at 8,849 m, in height", px_error, oracle, 0.05, "m", "pixels", ""},
+    {heights, "at 8,849 m, in metres", px_error, oracle, 0.05, "m", "pixels", ""},
     {heights, "0.05 m above a post, straight down", px_error, oracle, 3, "px", "pixels",
      "heights are drawn in steps of 0.49 mm: half a step at 0.05 m"},
-    {heights, "0.05 m above a post, in height", px_error, oracle, 0.25, "mm", "pixels",
+    {heights, "0.05 m above a post, in metres", px_error, oracle, 0.25, "mm", "pixels",
      "half a step of height"},
     {heights, "0.05 m above a post, what is seen", "pixels off what is seen within 8 px", rays, 0, "",
      "pixels", ""},
@@ -97,16 +107,30 @@ constexpr AccuracyRow rows[] = {
      "both ways of drawing"},
     {surfaces, "distance to a wall at 200 km", "error of the depth", rays, 0.1, "m", "pixels",
      "what depth resolves there"},
-    {surfaces, "posts 0.1 m apart", px_error, oracle, 0.0005, "m", "pixels", ""},
-    {surfaces, "posts 0.1 m apart, from 5 m", px_error, oracle, px_bound, "px", "pixels", ""},
-    {surfaces, "posts 1 second apart", px_error, oracle, 0.002, "m", "pixels", ""},
-    {surfaces, "posts 3 seconds apart", px_error, oracle, 0.005, "m", "pixels", ""},
-    {surfaces, "posts 30 seconds apart", px_error, oracle, 0.05, "m", "pixels",
+    // Besides, a picture's corners lie on a grid of 1/256 px: a ground point is sqrt(2) / 256 px off at most.
+    {surfaces, "posts 0.1 m apart", px_error, oracle, 0.0005, "m", "pixels", "from 5 m"},
+    {surfaces, "posts 0.1 m apart, on the picture", px_error, oracle, px_bound, "px", "pixels", ""},
+    {surfaces, "posts 1 second apart", px_error, oracle, 0.016, "m", "pixels",
+     "from 1.6 km, where the grid of corners, 1/256 px, is 1 cm"},
+    {surfaces, "posts 1 second apart, from the surface", surface_error, oracle, 0.002, "m", "pixels", ""},
+    {surfaces, "posts 3 seconds apart", px_error, oracle, 0.046, "m", "pixels",
+     "from 4.7 km, where it is 3 cm"},
+    {surfaces, "posts 3 seconds apart, from the surface", surface_error, oracle, 0.005, "m", "pixels", ""},
+    {surfaces, "posts 30 seconds apart", px_error, oracle, 0.25, "m", "pixels",
+     "from 24 km, where it is 14 cm"},
+    {surfaces, "posts 30 seconds apart, from the surface", surface_error, oracle, 0.05, "m", "pixels",
      "flat triangles under a curved surface"},
-    {surfaces, "posts 6 minutes apart", px_error, oracle, 5, "m", "pixels", "the same"},
-    {surfaces, "posts 6 minutes apart, from 71 km", px_error, oracle, 1, "px", "pixels", "the same"},
-    {surfaces, "posts 1 degree apart", px_error, oracle, 490, "m", "pixels", "the same"},
-    {surfaces, "posts 1 degree apart, from 356 km", px_error, oracle, 5, "px", "pixels", "the same"},
+    {surfaces, "posts 6 minutes apart", px_error, oracle, 5.6, "m", "pixels",
+     "from 71 km, where it is 0.4 m; flat triangles"},
+    {surfaces, "posts 6 minutes apart, from the surface", surface_error, oracle, 5, "m", "pixels",
+     "flat triangles"},
+    {surfaces, "posts 6 minutes apart, on the picture", px_error, oracle, 1, "px", "pixels",
+     "flat triangles"},
+    {surfaces, "posts 1 degree apart", px_error, oracle, 493, "m", "pixels",
+     "from 356 km, where it is 2 m; flat triangles"},
+    {surfaces, "posts 1 degree apart, from the surface", surface_error, oracle, 490, "m", "pixels",
+     "flat triangles"},
+    {surfaces, "posts 1 degree apart, on the picture", px_error, oracle, 5, "px", "pixels", "flat triangles"},
 
     {data, "one row of posts, one column, one post", "pixels with ground", "nothing", 0, "", "pixels",
      "no surface"},
@@ -118,7 +142,7 @@ constexpr AccuracyRow rows[] = {
     {data, "all posts equal, what is seen", wrong, rays, 0, "", "pixels", ""},
     {data, "heights of +-32,767 m", px_error, oracle, px_bound, "px", "pixels",
      "made directly; readers take them for void"},
-    {data, "heights of +-32,767 m, in height", px_error, oracle, 0.3, "m", "pixels", "on slopes of 12 in 1"},
+    {data, "heights of +-32,767 m, in metres", px_error, oracle, 0.3, "m", "pixels", "on slopes of 12 in 1"},
     {data, "heights of +-32,767 m, what is seen", wrong, rays, 0, "", "pixels", ""},
     {data, "16 bits with +-32,767 and 9,001 m, as read", "posts not void, or void in vain",
      "what was written", 0, "", "posts", "beyond -12,000 and 9,000 m is void; with and without --fill-voids"},

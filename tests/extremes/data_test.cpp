@@ -37,7 +37,7 @@ class ExtremeData : public Extremes {
         }
     }
 
-    // The middle of a field from `above_m`, steeply: the interior error is recorded in metres.
+    // The middle of a field from `above_m`, steeply: the displacement is recorded in metres.
     void expect_surface(HeightField field, double above_m, const char* row, const char* wrong_row,
                         const char* px_row = "") {
         const PostGrid& grid = field.grid;
@@ -49,8 +49,12 @@ class ExtremeData : public Extremes {
             const Camera camera = strip_camera({lat_deg, lon_deg, h_m}, {45.0, pitch_deg, 0.0});
             for (const RasterPath path : both_paths) {
                 const auto error = check_view(stage, camera, path, group, "", wrong_row, 17);
-                if (*row) measured(group, row, error.summary_m.largest, error.summary_m.count);
-                if (*px_row) measured(group, px_row, error.summary_px.largest, error.summary_px.count);
+                if (*row)
+                    measured(group, row, error.summary_displacement_m.largest,
+                             error.summary_displacement_m.count);
+                if (*px_row)
+                    measured(group, px_row, error.summary_displacement_px.largest,
+                             error.summary_displacement_px.count);
             }
         }
     }
@@ -89,7 +93,7 @@ TEST_F(ExtremeData, SixteenBitsOfHeight) {
     const auto [low, high] = std::minmax_element(field.H_m.begin(), field.H_m.end());
     *low = -32767.0F;
     *high = 32767.0F;
-    expect_surface(std::move(field), 20000.0, "heights of +-32,767 m, in height",
+    expect_surface(std::move(field), 20000.0, "heights of +-32,767 m, in metres",
                    "heights of +-32,767 m, what is seen", "heights of +-32,767 m");
 }
 

@@ -31,13 +31,15 @@ TEST_F(ExtremeHeights, TrenchAndSummit) {
          {Attitude{90.0, 20.0, 0.0}, Attitude{180.0, 0.0, 0.0}, Attitude{0.0, -80.0, 0.0}}) {
         const auto error = check_view(stage, strip_camera(bottom, attitude, 80.0), RasterPath::compute, group,
                                       "at -11,000 m", "at -11,000 m, what is seen", 29);
-        measured(group, "at -11,000 m, in height", error.summary_m.largest, error.summary_m.count);
+        measured(group, "at -11,000 m, in metres", error.summary_displacement_m.largest,
+                 error.summary_displacement_m.count);
     }
     for (const Attitude& attitude :
          {Attitude{90.0, -50.0, 0.0}, Attitude{180.0, -5.0, 0.0}, Attitude{0.0, -80.0, 0.0}}) {
         const auto error = check_view(stage, strip_camera(summit, attitude, 80.0), RasterPath::compute, group,
                                       "at 8,849 m", "at 8,849 m, what is seen", 29);
-        measured(group, "at 8,849 m, in height", error.summary_m.largest, error.summary_m.count);
+        measured(group, "at 8,849 m, in metres", error.summary_displacement_m.largest,
+                 error.summary_displacement_m.count);
     }
 }
 
@@ -49,8 +51,8 @@ TEST_F(ExtremeHeights, CloseAboveAPost) {
                            stage.field().h_at_post_m(post, post) + 0.05};
         const auto error = check_view(stage, strip_camera(eye, {0.0, -90.0, 0.0}), RasterPath::compute, group,
                                       "0.05 m above a post, straight down", "");
-        measured(group, "0.05 m above a post, in height", 1000.0 * error.summary_m.largest,
-                 error.summary_m.count);
+        measured(group, "0.05 m above a post, in metres", 1000.0 * error.summary_displacement_m.largest,
+                 error.summary_displacement_m.count);
         for (const double heading_deg : {0.0, 120.0, 240.0}) {
             const Stage::Drawn drawn =
                 stage.draw(strip_camera(eye, {heading_deg, -15.0, 0.0}), RasterPath::compute);
@@ -101,7 +103,9 @@ TEST_F(ExtremeHeights, FromSpace) {
             // The ray's own length is known to a float only.
             const auto agreement = stage.agreement(camera, drawn.depths, 7, 0.1, 1e-7 * look.h_m);
             measured(group, seen, static_cast<double>(agreement.wrong), agreement.pixels);
-            if (off_deg == 0.0) measured(group, metres, error.summary_m.largest, error.summary_m.count);
+            if (off_deg == 0.0)
+                measured(group, metres, error.summary_displacement_m.largest,
+                         error.summary_displacement_m.count);
         }
     }
 }

@@ -64,9 +64,10 @@ TEST_F(ExtremeSize, HundredMillionPosts) {
     for (const auto& [eye, attitude] : views) {
         const Camera camera = strip_camera(eye, attitude);
         const Stage::Drawn drawn = stage.draw(camera, RasterPath::compute, 1.0);
-        const auto error = stage.interior(camera, drawn.depths);
+        const auto error = stage.ground(camera, drawn.points);
         EXPECT_GT(error.drawn, 10000U);
-        measured(group, "100 million posts, --tau 1", error.summary_px.largest, error.summary_px.count);
+        measured(group, "100 million posts, --tau 1", error.summary_displacement_px.largest,
+                 error.summary_displacement_px.count);
         const Stage::Drawn whole_detail = stage.draw(camera, RasterPath::compute, 0.02);
         const auto agreement = stage.agreement(camera, whole_detail.depths, 29);
         measured(group, "100 million posts, what is seen", static_cast<double>(agreement.wrong),

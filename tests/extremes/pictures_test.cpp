@@ -61,9 +61,9 @@ TEST_F(ExtremePictures, Sizes) {
         const auto picture = painter.draw(stage.scene(), camera, {}, options);
         ASSERT_TRUE(picture.ok()) << picture.error().line();
         EXPECT_EQ(picture->tiles, size.tiles);
-        const InteriorError error = stage.interior(camera, picture->depths);
+        const GroundErrors error = stage.ground(camera, picture->points);
         EXPECT_GT(error.drawn, 0U);
-        measured(group, size.row, error.summary_px.largest, error.summary_px.count);
+        measured(group, size.row, error.summary_displacement_px.largest, error.summary_displacement_px.count);
         const auto agreement =
             stage.agreement(camera, picture->depths, size.width_px * size.height_px > 1000 ? 13 : 1);
         measured(group, std::string(size.row) + ", what is seen", static_cast<double>(agreement.wrong),

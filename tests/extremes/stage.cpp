@@ -88,6 +88,7 @@ FrameRenderer& Stage::renderer(RasterPath path, const Camera& camera) {
     FrameRendererOptions options;
     options.extent = extent;
     options.keep_depths = true;
+    options.keep_triangles = true;
     options.path = path;
     auto made = FrameRenderer::create(gpu_, options);
     EXPECT_TRUE(made.ok()) << made.error().line();
@@ -106,7 +107,8 @@ Stage::Drawn Stage::draw(const Camera& camera, RasterPath path, double tau_px, c
     FrameRenderer& draws = renderer(path, camera);
     const gpu::FrameStyle style = plain_style();
     scan(style);
-    FramePlan frame = plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, tau_px, model);
+    const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+    FramePlan frame = plan(camera, tile, tau_px, model);
     const auto report = draws.draw(std::move(frame), style);
     EXPECT_TRUE(report.ok()) << report.error().line();
     EXPECT_EQ(report->counts.triangles_not_clipped, 0U);
@@ -114,16 +116,30 @@ Stage::Drawn Stage::draw(const Camera& camera, RasterPath path, double tau_px, c
     const auto height = static_cast<std::uint32_t>(camera.height_px);
     auto depths = draws.read_depths(width, height);
     auto ids = draws.read_ids(width, height);
-    EXPECT_TRUE(depths.ok() && ids.ok());
-    Drawn drawn{std::move(depths).value(), std::move(ids).value(), *report};
+    auto points = read_points(draws, camera, tile);
+    EXPECT_TRUE(depths.ok() && ids.ok() && points.ok());
+    Drawn drawn{std::move(depths).value(), std::move(points).value(), std::move(ids).value(), *report};
     const auto odd = std::count_if(drawn.depths.begin(), drawn.depths.end(),
                                    [](float depth) { return !std::isfinite(depth) || depth < 0.0F; });
     EXPECT_EQ(odd, 0) << "depths that are none";
     return drawn;
 }
 
-InteriorError Stage::interior(const Camera& camera, const std::vector<float>& depths) const {
-    return interior_error(surface_, sight_from(camera.eye), camera, {depths, {0.5, 0.5}}, thread_count());
+GroundErrors Stage::ground(const Camera& camera, std::span<const DrawnPoint> points,
+                           GroundMeasures measures) const {
+    return ground_errors(surface_, sight_from(camera.eye), camera, points, thread_count(), measures);
+}
+
+Stage::Measured Stage::measure(const Camera& camera, RasterPath path) {
+    DepthPictureOptions options;
+    options.tau_px = 0.0;
+    auto picture =
+        painters_.try_emplace(path, gpu_, path).first->second.draw(*scene_, camera, plain_style(), options);
+    EXPECT_TRUE(picture.ok()) << picture.error().line();
+    const Sight sight = sight_from(camera.eye);
+    const TruePicture truth(surface_, sight, camera, thread_count());
+    PictureErrors errors = picture_errors(truth, picture->points, picture->skylines(), thread_count());
+    return {std::move(picture).value(), std::move(errors)};
 }
 
 Stage::Agreement Stage::agreement(const Camera& camera, const std::vector<float>& depths, int every,
@@ -166,17 +182,20 @@ void Extremes::SetUp() {
     if (gpu_) drawn_on(gpu_->report().name + ", " + gpu_->report().driver);
 }
 
-InteriorError Extremes::check_view(Stage& stage, const Camera& camera, RasterPath path, const char* group,
-                                   const char* px_row, const char* wrong_row, int every) {
+GroundErrors Extremes::check_view(Stage& stage, const Camera& camera, RasterPath path, const char* group,
+                                  const char* px_row, const char* wrong_row, int every,
+                                  GroundMeasures measures) {
     const Stage::Drawn drawn = stage.draw(camera, path);
-    InteriorError error = stage.interior(camera, drawn.depths);
-    EXPECT_GT(error.drawn, 0U) << "nothing to be seen";
-    if (*px_row) measured(group, px_row, error.summary_px.largest, error.summary_px.count);
+    GroundErrors errors = stage.ground(camera, drawn.points, measures);
+    EXPECT_GT(errors.drawn, 0U) << "nothing to be seen";
+    EXPECT_EQ(errors.beyond_data, 0U) << "ground that is drawn and is not there";
+    const ErrorSummary& px = errors.summary_displacement_px;
+    if (*px_row) measured(group, px_row, px.largest, px.count);
     if (*wrong_row) {
         const auto agreement = stage.agreement(camera, drawn.depths, every);
         measured(group, wrong_row, static_cast<double>(agreement.wrong), agreement.pixels);
     }
-    return error;
+    return errors;
 }
 
 }  // namespace oro::test

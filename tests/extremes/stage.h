@@ -7,8 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/truth/picture_error.h"
+#include "core/measure/ground_error.h"
+#include "core/measure/picture_errors.h"
 #include "core/truth/true_surface.h"
+#include "render/frame/depth_picture.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
@@ -30,6 +32,7 @@ class Stage {
 
     struct Drawn {
         std::vector<float> depths;
+        std::vector<DrawnPoint> points;
         std::vector<std::uint32_t> ids;
         FrameReport report;
     };
@@ -39,8 +42,15 @@ class Stage {
     // The scene's plan of such a frame, scanned.
     FramePlan plan(const Camera& camera, const Tile& tile, double tau_px, const WorldModel& model = {});
 
-    // Interior error of a drawn picture.
-    [[nodiscard]] InteriorError interior(const Camera& camera, const std::vector<float>& depths) const;
+    // How far the ground of a drawn picture is from where it truly is.
+    [[nodiscard]] GroundErrors ground(const Camera& camera, std::span<const DrawnPoint> points,
+                                      GroundMeasures measures = GroundMeasures::displacement) const;
+    // Draws a view at full detail and takes all four measures of it.
+    struct Measured {
+        DepthPicture picture;
+        PictureErrors errors;
+    };
+    [[nodiscard]] Measured measure(const Camera& camera, RasterPath path);
 
     struct Agreement {
         std::uint64_t pixels{};  // compared
@@ -67,16 +77,18 @@ class Stage {
     TrueSurface surface_;
     std::optional<Scene> scene_;
     std::map<RasterPath, FrameRenderer> renderers_;
+    std::map<RasterPath, DepthPainter> painters_;
 };
 
 // A GPU, named in the tables.
 class Extremes : public GpuTest {
   protected:
     void SetUp() override;
-    // Draws a view by one path, and records its worst interior error in pixels and the pixels in which the
-    // oracle sees something else; either name may be empty. Gives the interior error.
-    static InteriorError check_view(Stage& stage, const Camera& camera, RasterPath path, const char* group,
-                                    const char* px_row, const char* wrong_row, int every = 7);
+    // Draws a view by one path, and records its worst displacement in pixels and the pixels in which the
+    // oracle sees something else; either name may be empty. Gives the errors of the ground.
+    static GroundErrors check_view(Stage& stage, const Camera& camera, RasterPath path, const char* group,
+                                   const char* px_row, const char* wrong_row, int every = 7,
+                                   GroundMeasures measures = GroundMeasures::displacement);
 };
 
 inline constexpr RasterPath both_paths[] = {RasterPath::mesh, RasterPath::compute};

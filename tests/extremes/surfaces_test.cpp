@@ -1,6 +1,7 @@
 // Surfaces that are hard to tell apart, hard to see, or hardly sampled.
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "core/truth/oracle.h"
 #include "tests/core/truth/world_field.h"
@@ -86,11 +87,12 @@ TEST_F(ExtremeSurfaces, Spacing) {
         const char* row;
         double per_deg;
         int side;
+        bool on_picture;
     };
     for (const Grid& grid :
-         {Grid{"posts 0.1 m apart", 1.1e6, 129}, Grid{"posts 1 second apart", 3600.0, 129},
-          Grid{"posts 3 seconds apart", 1200.0, 129}, Grid{"posts 30 seconds apart", 120.0, 65},
-          Grid{"posts 6 minutes apart", 10.0, 17}, Grid{"posts 1 degree apart", 1.0, 9}}) {
+         {Grid{"posts 0.1 m apart", 1.1e6, 129, true}, Grid{"posts 1 second apart", 3600.0, 129, false},
+          Grid{"posts 3 seconds apart", 1200.0, 129, false}, Grid{"posts 30 seconds apart", 120.0, 65, false},
+          Grid{"posts 6 minutes apart", 10.0, 17, true}, Grid{"posts 1 degree apart", 1.0, 9, true}}) {
         const auto half = static_cast<std::int64_t>(grid.side / 2);
         // On the equator, where cells are widest. Slopes of 1 in 10 at most.
         const double spacing_m = 111320.0 / grid.per_deg;
@@ -103,16 +105,15 @@ TEST_F(ExtremeSurfaces, Spacing) {
         const double middle_deg = static_cast<double>(grid.side / 2 + half) / grid.per_deg;
         const Geodetic eye{0.1 / grid.per_deg, middle_deg, 0.4 * width_m + 0.1 * spacing_m};
         Camera camera = strip_camera(eye, {30.0, -90.0, 0.0}, 80.0);
-        const auto error = check_view(stage, camera, RasterPath::compute, group, "", "");
-        measured(group, grid.row, error.summary_m.largest, error.summary_m.count);
-        if (grid.per_deg == 1.0)
-            measured(group, "posts 1 degree apart, from 356 km", error.summary_px.largest,
-                     error.summary_px.count);
-        if (grid.per_deg == 10.0)
-            measured(group, "posts 6 minutes apart, from 71 km", error.summary_px.largest,
-                     error.summary_px.count);
-        if (grid.per_deg == 1.1e6)
-            measured(group, "posts 0.1 m apart, from 5 m", error.summary_px.largest, error.summary_px.count);
+        const auto error =
+            check_view(stage, camera, RasterPath::compute, group, "", "", 7, GroundMeasures::both);
+        const std::string row = grid.row;
+        const auto& metres = error.summary_displacement_m;
+        measured(group, row, metres.largest, metres.count);
+        if (grid.on_picture)
+            measured(group, row + ", on the picture", error.summary_displacement_px.largest, metres.count);
+        if (grid.per_deg < 1e6)
+            measured(group, row + ", from the surface", error.summary_surface_m.largest, metres.count);
     }
 }
 
