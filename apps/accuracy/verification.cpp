@@ -56,7 +56,7 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
 void measure(Verification& done, const TruePicture& truth, const Camera& camera) {
     done.true_skyline = truth.skyline();
     done.errors = picture_errors(truth, done.picture.points, done.picture.skylines(), thread_count());
-    done.slack_px = drawing_slack_px(camera, done.errors.nearest_m, truth.grid());
+    done.slack_px = drawing_slack_px(camera, truth.grid(), done.errors.nearest_m);
 }
 
 std::string verification_text(const Verification& verification, double tau_px, const UnseenGround& unseen) {

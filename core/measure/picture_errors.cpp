@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/flat_triangle.h"
 
 namespace oro {
 
@@ -35,29 +36,16 @@ PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoin
     return errors;
 }
 
-namespace {
-
-// How far a triangle between posts, which is drawn flat, may be from the surface, which is as curved as the
-// ellipsoid: up and sideways (docs/ARCHITECTURE.md, Truth). Of all latitudes of the grid the most.
-double flat_cell_m(const PostGrid& grid) {
-    const double tall = radians_from_deg(grid.lat.spacing_deg()).rad;
-    const double wide = radians_from_deg(grid.lon.spacing_deg()).rad;
-    const double north_deg = grid.north_deg(), south_deg = grid.south_deg();
-    const double farthest_deg = std::min(90.0, std::max(std::abs(north_deg), std::abs(south_deg)));
-    const double nearest_deg =
-        south_deg <= 0.0 && north_deg >= 0.0 ? 0.0 : std::min(std::abs(north_deg), std::abs(south_deg));
-    const double sine = sine_cosine_deg(farthest_deg).sine, cosine = sine_cosine_deg(nearest_deg).cosine;
-    return wgs84_a_m * std::hypot((tall * tall + wide * wide * cosine * cosine) / 8.0,
-                                  sine * (tall * wide / 4.0 + wide * wide * cosine / 8.0));
-}
-
-}  // namespace
-
-double drawing_slack_px(const Camera& camera, double nearest_m, const PostGrid& grid) {
+double drawing_slack_px(const Camera& camera, const PostGrid& grid, double nearest_m) {
     constexpr double usual_px = 0.05;
     if (nearest_m <= 0.0) return usual_px;
-    const double pixels_per_tangent = 0.5 * camera.height_px / camera.half_fov_tangent().y;
-    return usual_px + (0.5 * height_step_m + flat_cell_m(grid)) / nearest_m * pixels_per_tangent;
+    constexpr double highest_m = 9000.0;
+    const FlatTriangle flat = widest_flat_triangle(grid, highest_m, 1.0);
+    const double off_m = 0.5 * height_step_m + std::hypot(flat.up_m, flat.sideways_m);
+    // Towards the picture's corners a metre is more pixels.
+    const glm::dvec2 tangent = camera.half_fov_tangent();
+    const double pixels_per_tangent = 0.5 * camera.height_px / tangent.y;
+    return usual_px + off_m / nearest_m * pixels_per_tangent * std::hypot(1.0, tangent.x, tangent.y);
 }
 
 }  // namespace oro

@@ -49,9 +49,9 @@ struct PictureErrors {
 PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoint> points,
                              std::span<const DrawnDepths> samples, int threads);
 
-// What drawing may round off on a picture, besides what tau allows: 0.05 px; and near ground half a step of
-// the heights, 0.24 mm, and what a flat triangle leaves out of the Earth's curve: 0.4 mm for SRTM tiles at 46
-// degrees, up to 900 m for posts a degree apart.
-double drawing_slack_px(const Camera& camera, double nearest_m, const PostGrid& grid);
+// What drawing may round off on a picture, besides what tau allows: 0.05 px; and near ground what is more
+// than that: half a step of the heights, 0.24 mm, and what a cell's flat triangles are off, 0.4 mm with posts
+// of 3 seconds (0.3 mm in height, 0.2 mm along the ground).
+double drawing_slack_px(const Camera& camera, const PostGrid& grid, double nearest_m);
 
 }  // namespace oro

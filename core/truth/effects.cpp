@@ -13,6 +13,7 @@
 #include "core/frame/placement_promise.h"
 #include "core/lod/sampled_detail.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/flat_triangle.h"
 
 namespace oro {
 namespace {
@@ -181,18 +182,8 @@ EffectSize EffectPrediction::anywhere(const Bound& bound_m, const Bound& typical
     return size;
 }
 
-// Between its corners X(lat, lon) is off the straight line by at most an eighth of its second derivatives: of
-// the ellipsoid's bulge, and of meridians that come together.
-EffectPrediction::FlatTriangle EffectPrediction::flat_triangle(const Sample& sample, double posts) const {
-    const PostGrid& grid = surface_.field().grid;
-    const double tall = posts * radians_from_deg(grid.lat.spacing_deg()).rad;
-    const double wide = posts * radians_from_deg(grid.lon.spacing_deg()).rad;
-    const SineCosine lat = sine_cosine_deg(sample.point.lat_deg);
-    const double cosine = std::min(1.0, lat.cosine + tall), sine = std::abs(lat.sine);
-    const double radius_m = wgs84_a_m + std::max(0.0, sample.point.h_m);
-    const double up = (tall * tall + wide * wide * cosine * cosine) / 8.0;
-    const double sideways = sine * (tall * wide / 4.0 + wide * wide * cosine / 8.0);
-    return {radius_m * up, radius_m * sideways};
+FlatTriangle EffectPrediction::flat_triangle(const Sample& sample, double posts) const {
+    return oro::flat_triangle(surface_.field().grid, sample.point.lat_deg, sample.point.h_m, posts);
 }
 
 double EffectPrediction::left_out_N_m(double lat_deg, double lon_deg) const {

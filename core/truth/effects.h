@@ -11,6 +11,7 @@
 
 #include "core/earth/camera.h"
 #include "core/frame/region_pages.h"
+#include "core/terrain/flat_triangle.h"
 #include "core/truth/effect_table.h"
 #include "core/truth/oracle.h"
 #include "core/truth/picture_error.h"
@@ -79,12 +80,6 @@ class EffectPrediction {
     [[nodiscard]] double vertical_px(const Sample& sample, double height_m) const;
     [[nodiscard]] double any_way_px(const Sample& sample, double metres) const;
     [[nodiscard]] double apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const;
-    // How far a point of a flat triangle is, at most, from the ground point of its row and column: the
-    // triangle's legs are so many posts long.
-    struct FlatTriangle {
-        double up_m;
-        double sideways_m;
-    };
     [[nodiscard]] FlatTriangle flat_triangle(const Sample& sample, double posts) const;
     struct PostShare {
         int row;

@@ -86,7 +86,7 @@ class ErrorsOfPictures : public test::GpuTest {
                 measured[i].add(*picture, errors);
                 // Whatever is measured, by any of the four.
                 if (errors.largest_px() <=
-                    taus_px[i] + drawing_slack_px(camera, errors.nearest_m, surface.field().grid))
+                    taus_px[i] + drawing_slack_px(camera, field.grid, errors.nearest_m))
                     continue;
                 ++measured[i].violations;
                 say_violation(name, view, camera, taus_px[i], errors);

@@ -152,7 +152,7 @@ class RandomViews : public test::GpuTest {
         drawn.settled = picture.settled;
         drawn.errors = picture_errors(truth, picture.points, picture.skylines(), thread_count());
         drawn.measured = Measures(drawn.errors);
-        drawn.slack_px = drawing_slack_px(camera, drawn.errors.nearest_m, truth.grid());
+        drawn.slack_px = drawing_slack_px(camera, truth.grid(), drawn.errors.nearest_m);
         return drawn;
     }
 

@@ -166,11 +166,11 @@ TEST(DrawingSlack, HasWhatFlatTrianglesLeaveOut) {
     const HeightField tile =
         test::made_field(47.0, 8.0, 1200.0, 1201, 2, [](double, double) { return 0.0F; });
     const double px = 1303.675;
-    EXPECT_NEAR(drawing_slack_px(camera, 2.0, tile.grid), 0.05 + (0.000244 + 0.000415) * px / 2.0, 0.005);
+    EXPECT_NEAR(drawing_slack_px(camera, tile.grid, 2.0), 0.05 + (0.000244 + 0.000415) * px / 2.0, 0.005);
     const HeightField globe =
         test::made_field(90.0, -180.0, 1.0, 181, 2, [](double, double) { return 0.0F; });
-    EXPECT_NEAR(drawing_slack_px(camera, 1.0e6, globe.grid), 0.05 + 875.65 * px / 1.0e6, 0.001);
-    EXPECT_EQ(drawing_slack_px(camera, 0.0, globe.grid), 0.05);
+    EXPECT_NEAR(drawing_slack_px(camera, globe.grid, 1.0e6), 0.05 + 875.65 * px / 1.0e6, 0.001);
+    EXPECT_EQ(drawing_slack_px(camera, globe.grid, 0.0), 0.05);
 }
 
 }  // namespace
