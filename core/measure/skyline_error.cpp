@@ -95,9 +95,10 @@ struct Apart {
 };
 constexpr double by_chance_px = 0.05;
 
-// The circles on which places are tried: each so much larger than the one before.
+// The circles on which places are tried: each twice as large as the one before up to where it is likely, then
+// so much larger.
 struct Circles {
-    double from_px;
+    double likely_px;
     double growth;
     int directions;
 };
@@ -120,7 +121,11 @@ double moved_px(const Oracle& oracle, const Camera& camera, const Apart& apart, 
             if (is_ground(y_px)) return false;
         return std::isinf(apart.drawn.sky_px) || !is_ground(apart.drawn.sky_px);
     };
-    for (double by_px = circles.from_px; by_px < off_px; by_px *= circles.growth) {
+    // Nearly always it is near what columns tell; but a slanting spire is passed by a hair's breadth.
+    const auto next_px = [&](double by_px) {
+        return by_px < circles.likely_px ? std::min(2.0 * by_px, circles.likely_px) : circles.growth * by_px;
+    };
+    for (double by_px = finest_px; by_px < off_px; by_px = next_px(by_px)) {
         for (int direction = 0; direction < circles.directions; ++direction) {
             const double turn = 2.0 * std::acos(-1.0) * direction / circles.directions;
             if (has_all(by_px * glm::dvec2(std::cos(turn), std::sin(turn)))) return by_px;
