@@ -6,6 +6,8 @@ namespace {
 
 constexpr const char* px_error = "displacement";
 constexpr const char* surface_error = "distance from the surface";
+constexpr const char* seen_error = "what is seen";
+constexpr const char* skyline_error = "skyline";
 constexpr const char* wrong = "pixels off what is seen within 0.1 px";
 constexpr const char* oracle = "true surface";
 constexpr const char* rays = "oracle";
@@ -14,11 +16,14 @@ constexpr const char* places = "Places";
 constexpr const char* heights = "Heights and distances";
 constexpr const char* pictures = "Pictures and steps";
 constexpr const char* surfaces = "Surfaces and spacing";
+constexpr const char* steep = "Slopes, walls and spikes";
 constexpr const char* data = "No data, odd data";
 constexpr const char* large = "Large data";
 
 // Beside level of detail, of which there is none here: placement, and depths that are floats.
 constexpr double px_bound = 0.05;
+// What is seen and skylines are found to so much.
+constexpr double found_px = 1.0 / 64.0;
 
 constexpr AccuracyRow rows[] = {
     // Along a flat triangle of rows a and columns b radians apart ground points move by R sin(lat) (a b / 4 +
@@ -131,6 +136,63 @@ constexpr AccuracyRow rows[] = {
     {surfaces, "posts 1 degree apart, from the surface", surface_error, oracle, 490, "m", "pixels",
      "flat triangles"},
     {surfaces, "posts 1 degree apart, on the picture", px_error, oracle, 5, "px", "pixels", "flat triangles"},
+
+    // Half a step of the heights, 0.24 mm, at ground half as far away as the eye is high.
+    {steep, "0.5 m above slopes of 30 degrees, displacement", px_error, oracle, 1.32, "px", "pixels",
+     "half a step of height, 0.24 mm, besides 0.05 px"},
+    {steep, "0.5 m above slopes of 30 degrees, surface", surface_error, oracle, 1.32, "px", "pixels", ""},
+    {steep, "0.5 m above slopes of 30 degrees, seen", seen_error, rays, 1.3356, "px", "pixels", ""},
+    {steep, "0.5 m above slopes of 30 degrees, skyline", skyline_error, rays, 1.3356, "px", "columns", ""},
+    {steep, "1 m above slopes of 30 degrees, displacement", px_error, oracle, 0.687, "px", "pixels", ""},
+    {steep, "1 m above slopes of 30 degrees, surface", surface_error, oracle, 0.687, "px", "pixels", ""},
+    {steep, "1 m above slopes of 30 degrees, seen", seen_error, rays, 0.7026, "px", "pixels", ""},
+    {steep, "1 m above slopes of 30 degrees, skyline", skyline_error, rays, 0.7026, "px", "columns", ""},
+    {steep, "2 m above slopes of 30 degrees, displacement", px_error, oracle, 0.368, "px", "pixels", ""},
+    {steep, "2 m above slopes of 30 degrees, surface", surface_error, oracle, 0.368, "px", "pixels", ""},
+    {steep, "2 m above slopes of 30 degrees, seen", seen_error, rays, 0.3836, "px", "pixels", ""},
+    {steep, "2 m above slopes of 30 degrees, skyline", skyline_error, rays, 0.3836, "px", "columns", ""},
+    {steep, "5 m above slopes of 30 degrees, displacement", px_error, oracle, 0.177, "px", "pixels", ""},
+    {steep, "5 m above slopes of 30 degrees, surface", surface_error, oracle, 0.177, "px", "pixels", ""},
+    {steep, "5 m above slopes of 30 degrees, seen", seen_error, rays, 0.1926, "px", "pixels", ""},
+    {steep, "5 m above slopes of 30 degrees, skyline", skyline_error, rays, 0.1926, "px", "columns", ""},
+    {steep, "10 m above slopes of 30 degrees, displacement", px_error, oracle, 0.114, "px", "pixels", ""},
+    {steep, "10 m above slopes of 30 degrees, surface", surface_error, oracle, 0.114, "px", "pixels", ""},
+    {steep, "10 m above slopes of 30 degrees, seen", seen_error, rays, 0.1296, "px", "pixels", ""},
+    {steep, "10 m above slopes of 30 degrees, skyline", skyline_error, rays, 0.1296, "px", "columns", ""},
+    {steep, "100 m above slopes of 30 degrees, displacement", px_error, oracle, 0.056, "px", "pixels", ""},
+    {steep, "100 m above slopes of 30 degrees, surface", surface_error, oracle, 0.056, "px", "pixels", ""},
+    {steep, "100 m above slopes of 30 degrees, seen", seen_error, rays, 0.0716, "px", "pixels", ""},
+    {steep, "100 m above slopes of 30 degrees, skyline", skyline_error, rays, 0.0716, "px", "columns", ""},
+    {steep, "1,000 m above slopes of 30 degrees, displacement", px_error, oracle, 0.0506, "px", "pixels", ""},
+    {steep, "1,000 m above slopes of 30 degrees, surface", surface_error, oracle, 0.0506, "px", "pixels", ""},
+    {steep, "1,000 m above slopes of 30 degrees, seen", seen_error, rays, 0.0662, "px", "pixels", ""},
+    {steep, "1,000 m above slopes of 30 degrees, skyline", skyline_error, rays, 0.0662, "px", "columns", ""},
+    {steep, "a wall of 9 km in one cell, from the side, displacement", px_error, oracle, px_bound, "px",
+     "pixels", "seen from 0.6 and 3 km"},
+    {steep, "a wall of 9 km in one cell, from the side, surface", surface_error, oracle, px_bound, "px",
+     "pixels", ""},
+    {steep, "a wall of 9 km in one cell, from the side, seen", seen_error, rays, px_bound + found_px, "px",
+     "pixels", ""},
+    {steep, "a wall of 9 km in one cell, from the side, skyline", skyline_error, rays, px_bound + found_px,
+     "px", "columns", ""},
+    {steep, "a wall of 9 km in one cell, from above, displacement", px_error, oracle, px_bound, "px",
+     "pixels", "from 2 and 3 km over its top"},
+    {steep, "a wall of 9 km in one cell, from above, surface", surface_error, oracle, px_bound, "px",
+     "pixels", ""},
+    {steep, "a wall of 9 km in one cell, from above, seen", seen_error, rays, px_bound + found_px, "px",
+     "pixels", ""},
+    {steep, "a wall of 9 km in one cell, from above, skyline", skyline_error, rays, px_bound + found_px, "px",
+     "columns", ""},
+    {steep, "spikes of 100 and 500 m on a plain, skyline", skyline_error, rays, px_bound + found_px, "px",
+     "columns", "one post, 2 to 15 km away"},
+    {steep, "the skyline where no pixel of the mask differs", skyline_error, rays, px_bound + found_px, "px",
+     "columns", "640 x 360 px over rough terrain"},
+    {steep, "--earth sphere straight down from 60 km", px_error, "GeographicLib", 1.5, "px", "pixels",
+     "a plain at 46 to 47 N in 1600 x 1000 px and 60 degrees: what moves sideways is seen", true},
+    {steep, "--earth sphere straight down from 60 km, median", px_error, "GeographicLib", 0.75, "px",
+     "pixels", "", true},
+    {steep, "--earth sphere straight down from 60 km, as measured", "error of the displacement",
+     "GeographicLib", 0.001, "px", "pixels", ""},
 
     {data, "one row of posts, one column, one post", "pixels with ground", "nothing", 0, "", "pixels",
      "no surface"},
