@@ -153,6 +153,7 @@ std::vector<std::string> rows_of_page(const std::string& markdown) {
     std::istringstream lines(markdown);
     std::string group;
     for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("<!-- tables: end")) break;
         if (line.starts_with("### ")) group = line.substr(4);
         if (!line.starts_with("| ") || line.starts_with("| case |")) continue;
         const std::size_t end = line.find(" | ", 2);
