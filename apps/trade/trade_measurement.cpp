@@ -14,7 +14,7 @@ namespace {
 Result<void> add_data_effects(const EffectPrediction& prediction, const std::string& view,
                               TradeReport& report) {
     // What every second post would hide: predicted from every second post, and as it is.
-    const EffectSize guess = prediction.interpolation(2), known = prediction.interpolation(1);
+    const EffectSize guess = prediction.interpolation_estimate(2), known = prediction.interpolation(1);
     report.effects.push_back({view,
                               {EffectKind::interpolation, {}, {}},
                               guess.worst_m,

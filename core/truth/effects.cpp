@@ -228,6 +228,13 @@ EffectSize EffectPrediction::interpolation(int apart) const {
     return size;
 }
 
+EffectSize EffectPrediction::interpolation_estimate(int apart) const {
+    EffectSize size = interpolation(apart);
+    size.worst_m *= between_samples;
+    size.worst_px *= between_samples;
+    return size;
+}
+
 Result<EffectSize> EffectPrediction::detail(double tau_px) const {
     Camera drawn = camera_;
     drawn.eye.h_m -= left_out_N_m(drawn.eye.lat_deg, drawn.eye.lon_deg);
@@ -349,7 +356,7 @@ Result<std::optional<EffectSize>> EffectPrediction::new_size(EffectKind kind, do
         case EffectKind::flat_cells:
             return known_bound(kind);
         case EffectKind::interpolation:
-            return Size(interpolation(1));
+            return Size(interpolation_estimate(1));
         case EffectKind::source:
             return stated_by_source();
     }

@@ -60,6 +60,8 @@ class EffectPrediction {
     // What lies between posts that are `apart` of the region's apart: 1 for the data as they are. 2 predicts
     // what every second post would hide, which is known.
     [[nodiscard]] EffectSize interpolation(int apart) const;
+    // The same as a guess of what lies between them, with a margin: nobody has looked there.
+    [[nodiscard]] EffectSize interpolation_estimate(int apart) const;
 
     // Bound of the whole error of a picture that is drawn so: the sum of the effects that are in it, but for
     // interpolation and source, which no drawing can help. Errors: as size().

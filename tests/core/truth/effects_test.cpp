@@ -247,7 +247,8 @@ TEST(Effects, InterpolationBetweenPosts) {
         EXPECT_NEAR(size.worst_m, 0.25 * apart * apart, 1e-6) << apart;
         EXPECT_NEAR(size.typical_m, 0.125 * apart * apart, 1e-6) << apart;
     }
-    EXPECT_NEAR(scene.size(EffectKind::interpolation).worst_m, 0.25, 1e-6);
+    EXPECT_NEAR(scene.prediction.interpolation_estimate(1).worst_m, between_samples * 0.25, 1e-6);
+    EXPECT_NEAR(scene.size(EffectKind::interpolation).worst_m, between_samples * 0.25, 1e-6);
     // Farther apart than the region is wide nothing is known.
     EXPECT_EQ(scene.prediction.interpolation(1000).worst_m, 0.0);
 }
