@@ -72,7 +72,12 @@ class TruthPicture {
         const double most = 0.5 * std::abs(seen - drawn);
         constexpr double growth = 1.1, arc_px = 0.125;
         constexpr int least_directions = 32;
-        for (double radius_px = seen_resolution_px; radius_px < at_most_px; radius_px *= growth) {
+        // From far below the resolution on: a gap may be narrower than that, and a pixel's centre in it.
+        constexpr double finest_px = seen_resolution_px / 32.0, fine_growth = 1.25;
+        const auto next_px = [](double radius_px) {
+            return radius_px < seen_resolution_px ? fine_growth * radius_px : growth * radius_px;
+        };
+        for (double radius_px = finest_px; radius_px < at_most_px; radius_px = next_px(radius_px)) {
             const double round_px = 2.0 * std::acos(-1.0) * radius_px;
             const int directions = std::max(least_directions, static_cast<int>(round_px / arc_px));
             for (int i = 0; i < directions; ++i) {
