@@ -28,12 +28,6 @@ Refraction::Refraction(const Geodetic& eye, const Air& air)
                        std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg))),
       up_(ecef_from_enu(eye.lat_deg, eye.lon_deg)[2]) {}
 
-Refraction Refraction::with_curvature(const Geodetic& eye, double curvature_per_m) {
-    Refraction refraction(eye, Air{});
-    refraction.curvature_per_m_ = curvature_per_m;
-    return refraction;
-}
-
 double Refraction::lift_m(const glm::dvec3& offset_m) const {
     if (curvature_per_m_ == 0.0) return 0.0;
     const glm::dvec3 across = offset_m - glm::dot(offset_m, up_) * up_;

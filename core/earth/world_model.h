@@ -26,8 +26,8 @@ enum class AirLaw {
     standard,  // as the air's density: by e each 8,434 m, so that an eye in space has none
 };
 
-// The air, as it bends light: near level sight lines have k times the curvature 1 / R of the Earth, and ground
-// at a distance d lies (1 - k) d^2 / (2 R) below the eye's horizontal plane. k is the coefficient of
+// The air, as it bends light: near level sight lines have k times the curvature 1 / R of the Earth, and
+// ground at a distance d lies (1 - k) d^2 / (2 R) below the eye's horizontal plane. k is the coefficient of
 // refraction. Everything that asks how light goes asks this (docs/ARCHITECTURE.md, Light).
 struct Air {
     double k{0.0};  // -1 .. 0.9; 0: light goes straight. AirLaw::standard: at sea level
@@ -60,8 +60,6 @@ class Refraction {
     // R is the Gaussian radius of curvature at the eye, k the air's at the eye's height: the air around the
     // eye bends most of what is seen.
     Refraction(const Geodetic& eye, const Air& air);
-    // Sight lines of that curvature, 1/m, whatever bends them: with the Earth's own it looks flat.
-    static Refraction with_curvature(const Geodetic& eye, double curvature_per_m);
 
     [[nodiscard]] bool straight() const { return curvature_per_m_ == 0.0; }
     // 1 / radius of the sight lines, 1/m: k / R.

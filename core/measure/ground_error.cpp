@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/post_spacing.h"
 
 namespace oro {
 namespace {
@@ -94,12 +95,9 @@ Distance GroundMeter::from_surface(const glm::dvec2& point_px, const DrawnPoint&
         const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope->east, -slope->north, 1.0));
         const glm::dvec3 along = up - glm::dot(up, normal) * normal;
         if (glm::length(along) < even * glm::length(up)) break;
-        const double row_m = meridian_radius_m(foot.lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
-        const double column_m =
-            std::max(1.0e-3, prime_vertical_radius_m(foot.lat_deg) * sine_cosine_deg(foot.lat_deg).cosine *
-                                 radians_from_deg(grid.lon.spacing_deg()).rad);
-        row -= along.y / row_m;
-        column += along.x / column_m;
+        const PostSpacing apart = post_spacing(grid, foot.lat_deg);
+        row -= along.y / apart.row_m;
+        column += along.x / apart.column_m;
     }
     return nearest;
 }

@@ -15,32 +15,28 @@ struct FlatTriangle {
     double sideways_m;
 };
 
-// Of a triangle whose legs are so many posts long. Between its corners X(lat, lon) is off the straight line
-// by at most an eighth of its second derivatives: of the ellipsoid's bulge, and of meridians that come
-// together.
-inline FlatTriangle flat_triangle(const PostGrid& grid, double lat_deg, double h_m, double posts) {
+// Of a triangle whose legs are so many posts long, by the sine and cosine of its latitude. Between its
+// corners X(lat, lon) is off the straight line by at most an eighth of its second derivatives: of the
+// ellipsoid's bulge, and of meridians that come together.
+inline FlatTriangle flat_triangle(const PostGrid& grid, const SineCosine& lat, double h_m, double posts) {
     const double tall = posts * radians_from_deg(grid.lat.spacing_deg()).rad;
     const double wide = posts * radians_from_deg(grid.lon.spacing_deg()).rad;
-    const SineCosine lat = sine_cosine_deg(lat_deg);
     const double cosine = std::min(1.0, lat.cosine + tall), sine = std::abs(lat.sine);
     const double radius_m = wgs84_a_m + std::max(0.0, h_m);
     const double up = (tall * tall + wide * wide * cosine * cosine) / 8.0;
     const double sideways = sine * (tall * wide / 4.0 + wide * wide * cosine / 8.0);
     return {radius_m * up, radius_m * sideways};
 }
-
-// Wherever on the grid: no triangle of it is farther off.
+inline FlatTriangle flat_triangle(const PostGrid& grid, double lat_deg, double h_m, double posts) {
+    return flat_triangle(grid, sine_cosine_deg(lat_deg), h_m, posts);
+}
+// Wherever on the grid: no triangle of it is farther off, as none has a larger sine or a larger cosine.
 inline FlatTriangle widest_flat_triangle(const PostGrid& grid, double h_m, double posts) {
     const double north_deg = std::abs(grid.north_deg()), south_deg = std::abs(grid.south_deg());
     const bool equator = grid.north_deg() > 0.0 && grid.south_deg() < 0.0;
     const double near_deg = equator ? 0.0 : std::min(north_deg, south_deg);
-    const double tall = posts * radians_from_deg(grid.lat.spacing_deg()).rad;
-    const double wide = posts * radians_from_deg(grid.lon.spacing_deg()).rad;
-    const double cosine = std::min(1.0, sine_cosine_deg(near_deg).cosine + tall);
-    const double sine = std::abs(sine_cosine_deg(std::min(90.0, std::max(north_deg, south_deg))).sine);
-    const double radius_m = wgs84_a_m + std::max(0.0, h_m);
-    return {flat_triangle(grid, near_deg, h_m, posts).up_m,
-            radius_m * sine * (tall * wide / 4.0 + wide * wide * cosine / 8.0)};
+    const double far_deg = std::min(90.0, std::max(north_deg, south_deg));
+    return flat_triangle(grid, {sine_cosine_deg(far_deg).sine, sine_cosine_deg(near_deg).cosine}, h_m, posts);
 }
 
 }  // namespace oro

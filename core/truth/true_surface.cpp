@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/post_spacing.h"
 #include "core/terrain/triangle_heights.h"
 
 namespace oro {
@@ -120,11 +121,8 @@ std::optional<TrueSurface::Slope> TrueSurface::slope_at(double row, double colum
     const double down_m = south_west ? *corner - *north_west : *south_east - *corner;
     const double right_m = south_west ? *south_east - *corner : *corner - *north_west;
     const double lat_deg = std::clamp(grid.lat.at_deg(0) - row * grid.lat.spacing_deg(), -90.0, 90.0);
-    const double row_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
-    const double column_m =
-        std::max(1.0e-3, prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine *
-                             radians_from_deg(grid.lon.spacing_deg()).rad);
-    return Slope{-down_m / row_m, right_m / column_m};
+    const PostSpacing apart = post_spacing(grid, lat_deg);
+    return Slope{-down_m / apart.row_m, right_m / apart.column_m};
 }
 
 // From the posts' H and the range of N alone: quick, and wide enough.
