@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/bench/bench_path.h"
+#include "apps/bench/bench_style.h"
 #include "apps/bench/bench_terrain.h"
 #include "apps/report/json_object.h"
 #include "apps/report/option_words.h"
@@ -36,19 +37,6 @@ struct BenchOptions {
     bool json{false};
 };
 
-gpu::FrameStyle plain_style() {
-    gpu::FrameStyle style{};
-    style.tint_count = 2;
-    style.tints[0] = {0.0F, gpu::vec3(0.2F, 0.3F, 0.1F)};
-    style.tints[1] = {1500.0F, gpu::vec3(0.8F)};
-    style.sun_enu = gpu::vec3(-0.5F, 0.5F, 0.7071F);
-    style.ambient = 0.2F;
-    style.relief = 1.0F;
-    style.haze_distance_m = 1e5F;
-    style.sky_scale_height_m = 8000.0F;
-    return style;
-}
-
 // Medians over the frames that count.
 struct BenchTimes {
     FrameReport last;
@@ -66,7 +54,7 @@ struct BenchTimes {
 Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Camera& camera,
                                const BenchOptions& options) {
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    const gpu::FrameStyle style = plain_style();
+    const gpu::FrameStyle style = bench_style();
     std::vector<double> choose, raster, shade, whole, planned, frame;
     BenchTimes times;
     const auto beginning = Clock::now();

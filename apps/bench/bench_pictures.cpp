@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/bench/bench_path.h"
+#include "apps/bench/bench_style.h"
 #include "apps/report/option_words.h"
 #include "core/baked/file_pages.h"
 #include "render/device/raster_request.h"
@@ -94,15 +95,7 @@ Result<void> run(const PicturesOptions& options) {
     ORO_TRY(const std::vector<BenchEye> eyes,
             read_bench_path(options.path, pages->facts().undulation, options.width_px, options.height_px));
     ORO_TRY(Scene scene, Scene::create(*gpu, std::move(pages)));
-    gpu::FrameStyle style{};
-    style.tint_count = 2;
-    style.tints[0] = {0.0F, gpu::vec3(0.2F, 0.3F, 0.1F)};
-    style.tints[1] = {1500.0F, gpu::vec3(0.8F)};
-    style.sun_enu = gpu::vec3(-0.5F, 0.5F, 0.7071F);
-    style.ambient = 0.2F;
-    style.relief = 1.0F;
-    style.haze_distance_m = 1e5F;
-    style.sky_scale_height_m = 8000.0F;
+    const gpu::FrameStyle style = bench_style();
     DepthPainter painter(*gpu, path);
     DepthPictureOptions picture_options;
     picture_options.tau_px = options.tau_px;
