@@ -6,28 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
 #include "tests/support/test_data.h"
 
 namespace {
 using nlohmann::json;
-using oro::test::Outcome;
-using oro::test::run_orograph;
+using oro::test::object_said_by;
 using Words = std::vector<std::string>;
-
-json object_of(const Words& words) {
-    const Outcome outcome = run_orograph(words);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    json object = json::parse(outcome.out, nullptr, false);
-    EXPECT_TRUE(object.is_object()) << outcome.out << outcome.err;
-    return object.is_object() ? object : json::object();
-}
 
 json verified(Words words) {
     words.insert(words.begin(), "shot");
     words.insert(words.end(), {"--size", "160x100", "--verify", "--json", "-q", "--out",
                                (oro::test::scratch_folder() / "p.png").string()});
-    return object_of(words).at("error");
+    return object_said_by(words).at("error");
 }
 
 // At one pixel ground is drawn that truly shows through a gap of less than 1/64 px: seen was 0.199 px, where
@@ -62,7 +53,7 @@ TEST(FoundViews, AStripBetweenPixels) {
     const json error = verified(view);
     Words plan{"plan", "--json", "--size", "160x100"};
     plan.insert(plan.end(), view.begin(), view.end());
-    const double bound_px = object_of(plan).at("total").at("worst_px").get<double>();
+    const double bound_px = object_said_by(plan).at("total").at("worst_px").get<double>();
     EXPECT_LE(error.at("largest_px").get<double>(), bound_px);
     EXPECT_LE(bound_px, 1.05) << "tau, and what drawing rounds off";
 }

@@ -6,22 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
 #include "tests/support/test_data.h"
 
 namespace {
 using nlohmann::json;
-using oro::test::Outcome;
-using oro::test::run_orograph;
+using oro::test::object_said_by;
 using Words = std::vector<std::string>;
-
-json object_of(const Words& words) {
-    const Outcome outcome = run_orograph(words);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    json object = json::parse(outcome.out, nullptr, false);
-    EXPECT_TRUE(object.is_object()) << outcome.out << outcome.err;
-    return object.is_object() ? object : json::object();
-}
 
 json effect_in(const json& plan, const std::string& kind) {
     for (const json& effect : plan.at("effects"))
@@ -44,8 +35,9 @@ TEST(Sideways, ASphereStraightDownIsSeenByAllThatMeasure) {
     const std::string picture = (oro::test::scratch_folder() / "p.png").string();
     // A field of view in which the region, 0.3 degrees or so, fills the picture's height of 1,000 px.
     const Words view{"--at", "36.6,-84.2", "--altitude", "60000",   "--pitch", "-90",   "--fov",
-                     "20",   "--size",     "64x1000",   "--earth", "sphere",  "--tau", "0"};
-    const json shot = object_of(joined({"shot", data, "--out", picture, "--verify", "--json", "-q"}, view));
+                     "20",   "--size",     "64x1000",    "--earth", "sphere",  "--tau", "0"};
+    const json shot =
+        object_said_by(joined({"shot", data, "--out", picture, "--verify", "--json", "-q"}, view));
     const json& error = shot.at("error");
     const double displacement_px = error.at("displacement_px").at("max").get<double>();
     std::printf("displacement %.3f px, %.1f m; surface %.3f px; seen %.3f px\n", displacement_px,
@@ -54,16 +46,16 @@ TEST(Sideways, ASphereStraightDownIsSeenByAllThatMeasure) {
     EXPECT_GT(displacement_px, 0.5);
     EXPECT_LT(displacement_px, 2.0);
     EXPECT_EQ(error.at("largest_px").get<double>(), displacement_px);
-    const json plan = object_of(joined({"plan", data, "--json"}, view));
+    const json plan = object_said_by(joined({"plan", data, "--json"}, view));
     const double bound_px = effect_in(plan, "sphere").at("size").at("worst_px").get<double>();
     EXPECT_GE(bound_px, displacement_px);
     EXPECT_LE(bound_px, 3.0 * displacement_px) << "and says little";
     EXPECT_EQ(effect_in(plan, "sphere").at("bound"), "estimated");
     EXPECT_GE(plan.at("total").at("worst_px").get<double>(), displacement_px);
     // A tolerance of half of that: no bundle holds it on a sphere, and all say so.
-    const json chosen = object_of(joined({"shot", data, "--out", picture, "--overwrite", "--json", "-q",
-                                          "--tolerance", std::to_string(0.5 * displacement_px) + "px"},
-                                         Words(view.begin(), view.end() - 2)));
+    const json chosen = object_said_by(joined({"shot", data, "--out", picture, "--overwrite", "--json", "-q",
+                                               "--tolerance", std::to_string(0.5 * displacement_px) + "px"},
+                                              Words(view.begin(), view.end() - 2)));
     EXPECT_EQ(chosen.at("accuracy").at("holds"), false) << chosen.at("accuracy").dump();
 }
 

@@ -8,6 +8,7 @@
 
 #include "tests/apps/picture_pixels.h"
 #include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
 #include "tests/support/test_data.h"
 
 namespace {
@@ -16,6 +17,7 @@ using nlohmann::json;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
 using oro::test::names_in;
+using oro::test::one_object;
 using oro::test::Outcome;
 using oro::test::Pixels;
 using oro::test::pixels_of;
@@ -24,12 +26,6 @@ using Words = std::vector<std::string>;
 
 std::string bundled() {
     return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
-
-json one_object(const std::string& text) {
-    const json object = json::parse(text, nullptr, false);
-    EXPECT_TRUE(object.is_object()) << text;
-    return object.is_object() ? object : json::object();
 }
 
 class Verify : public testing::Test {

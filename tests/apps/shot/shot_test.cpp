@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
 #include "tests/support/test_data.h"
 
 namespace {
@@ -14,19 +15,13 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using oro::test::bytes_of;
 using oro::test::names_in;
+using oro::test::one_object;
 using oro::test::Outcome;
 using oro::test::run_orograph;
 using Words = std::vector<std::string>;
 
 std::string bundled() {
     return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
-
-// One valid JSON object and nothing else.
-json one_object(const std::string& text) {
-    const json object = json::parse(text, nullptr, false);
-    EXPECT_TRUE(object.is_object()) << text;
-    return object.is_object() ? object : json::object();
 }
 
 json exif_of(const fs::path& picture) {
