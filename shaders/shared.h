@@ -117,6 +117,7 @@ struct FramePage {
 // triangles are of.
 ORO_CONST float shading_spacing_px = 1.5f;
 ORO_CONST uint no_page = 0xffffffffu;
+ORO_CONST uint no_column = 0xffffffffu;
 ORO_CONST uint pages_max = 131071u;  // of a frame: what triangle ids can number
 ORO_CONST uint accepted_words = 8u;  // a page: a bit for each node
 ORO_CONST uint edges_words = 32u;    // a page: four bits for each node
@@ -204,11 +205,11 @@ ORO_CONST uint placing_relative = 0u;
 ORO_CONST uint placing_rounded_posts = 1u;
 ORO_CONST uint placing_naive = 2u;
 
-// What a pixel shows: the posts of its triangle by their numbers in the region, and where they were placed. For
-// measuring: no picture needs it.
+// What a pixel shows: the posts of its triangle by their numbers in the region, and where they were placed.
+// For measuring: no picture needs it.
 struct DrawnTriangle {
-    vec3 at[3];       // view coordinates, as they are drawn
-    uint rows[3];     // no_triangle: the background
+    vec3 at[3];    // view coordinates, as they are drawn
+    uint rows[3];  // no_triangle: the background
     uint columns[3];
 };
 
@@ -242,6 +243,7 @@ struct FrameConstants {
     float exaggeration;  // drawn h = H * exaggeration + N
     uint last_row;       // of the region's posts
     uint last_column;
+    uint cut_column;  // the last post before the meridian where the flat Earth is cut; no_column: none
     uint page_count;
     uint sample_index;  // samples of a pixel are drawn one after the other
     uint sample_count;

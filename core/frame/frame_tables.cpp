@@ -84,10 +84,34 @@ void FrameTables::add_row(std::int64_t row) {
     rows_.push_back(earth_ == Earth::flat ? flat_row(lat_deg) : round_row(lat_deg));
 }
 
-void FrameTables::add_column(std::int64_t column) {
+namespace {
+
+// Of a column from the eye's meridian, within half a turn.
+double east_of_eye_deg(const PostGrid& grid, const Geodetic& eye, std::int64_t column) {
     // Round the Earth the last column is the first.
-    const bool twin = column == grid_.columns() - 1 && grid_.goes_round();
-    const double turn_deg = std::remainder(grid_.lon.at_deg(twin ? 0 : column) - eye_.lon_deg, 360.0);
+    const bool twin = column == grid.columns() - 1 && grid.goes_round();
+    return std::remainder(grid.lon.at_deg(twin ? 0 : column) - eye.lon_deg, 360.0);
+}
+
+}  // namespace
+
+gpu::uint cut_column(const PostGrid& grid, const Geodetic& eye, Earth earth) {
+    if (earth != Earth::flat) return gpu::no_column;
+    const double turn = 360.0 * grid.lon.posts_per_deg;
+    const double opposite = grid.lon.index_at(eye.lon_deg + 180.0);
+    const auto nearest = static_cast<std::int64_t>(std::floor(opposite - turn * std::floor(opposite / turn)));
+    // Rounded angles may put it a column away; and round the Earth the last column is one turn from the
+    // first.
+    for (const std::int64_t around : {nearest, nearest - static_cast<std::int64_t>(std::round(turn))})
+        for (std::int64_t column = around - 1; column <= around + 1; ++column)
+            if (column >= 0 && column + 1 < grid.columns() &&
+                east_of_eye_deg(grid, eye, column + 1) < east_of_eye_deg(grid, eye, column))
+                return static_cast<gpu::uint>(column);
+    return gpu::no_column;
+}
+
+void FrameTables::add_column(std::int64_t column) {
+    const double turn_deg = east_of_eye_deg(grid_, eye_, column);
     if (earth_ == Earth::flat) {
         columns_.push_back({0.0F, static_cast<float>(radians_from_deg(turn_deg).rad)});
         return;
@@ -126,8 +150,7 @@ double seen_earth_radius_m(const WorldModel& model, const Geodetic& eye) {
 
 // What place.glsl needs to place posts by other than the frame's tables alone.
 void set_model(const WorldModel& model, const Camera& camera, gpu::FrameConstants& constants) {
-    constants.refraction_per_m =
-        static_cast<float>(Refraction(camera.eye, model.air).curvature_per_m());
+    constants.refraction_per_m = static_cast<float>(Refraction(camera.eye, model.air).curvature_per_m());
     constants.placing = static_cast<gpu::uint>(model.precision);
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
     const glm::dvec3 eye = model_eye_ecef(model.earth, camera.eye).m;
@@ -175,6 +198,7 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.exaggeration = static_cast<float>(region.shape.exaggeration);
     constants.last_row = static_cast<gpu::uint>(region.grid.rows() - 1);
     constants.last_column = static_cast<gpu::uint>(region.grid.columns() - 1);
+    constants.cut_column = cut_column(region.grid, camera.eye, model.earth);
     constants.sample_count = 1;
     constants.undulation = undulation_table(region.grid, region.undulation);
     return constants;

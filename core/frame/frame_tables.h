@@ -50,6 +50,11 @@ class FrameTables {
 // than 524,000 m.
 double reference_height_m(const Geodetic& eye);
 
+// The flat Earth is cut along the meridian opposite to the eye: the number of the last column of posts before
+// it that has the next one beyond, at the other end of the plane; gpu::no_column when the region has none,
+// and on a round Earth. No triangle may lie across.
+gpu::uint cut_column(const PostGrid& grid, const Geodetic& eye, Earth earth);
+
 // All of a frame's constants that do not depend on buffers and style. coding: of the heights on the GPU.
 gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& camera, const Tile& tile,
                                     double tau_px, const WorldModel& model = {},

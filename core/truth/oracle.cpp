@@ -214,7 +214,9 @@ void Oracle::Search::walk(const Block& block, const RayPoint& from, const RayPoi
                           std::abs(middle.column - 0.5 * (from.column + to.column)) < 0.005;
     constexpr double short_enough_m = 20000.0;  // what a parabola follows to 1 cm
     constexpr int deepest = 40;                 // over a pole, where columns jump
-    if ((straight && to.t_m - from.t_m < short_enough_m) || depth == deepest) {
+    // Over the plane all heights along a line are a parabola.
+    const bool parabola = scenery_.sight.earth == Earth::flat || to.t_m - from.t_m < short_enough_m;
+    if ((straight && parabola) || depth == deepest) {
         search_piece(block, {from, middle, to});
         return;
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "core/terrain/drawn_heights.h"
 
@@ -24,8 +25,10 @@ std::uint64_t next_number() {
 Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from)
     : surface(of), sight(from), number_(next_number()) {
     const PostGrid& grid = surface.field().grid;
-    const double lat_deg = 0.5 * (grid.north_deg() + grid.south_deg());
-    const double lon_deg = 0.5 * (grid.west_deg() + grid.east_deg());
+    // Boxes are tight where the ground lies along the frame's axes.
+    const bool flat = sight.earth == Earth::flat;
+    const double lat_deg = flat ? sight.place.lat_deg : 0.5 * (grid.north_deg() + grid.south_deg());
+    const double lon_deg = flat ? sight.place.lon_deg : 0.5 * (grid.west_deg() + grid.east_deg());
     frame_from_ecef = glm::transpose(ecef_from_enu(lat_deg, lon_deg));
     constexpr int step = TrueSurface::block_cells;
     for (int row = 0; row - step < grid.rows() - 1; row += step) {
@@ -46,23 +49,38 @@ Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from)
                 prime_vertical_radius_m(sight.place.lat_deg) * sine_cosine_deg(sight.place.lat_deg).cosine *
                 radians_from_deg(std::remainder(at_deg - sight.place.lon_deg, 360.0)).rad);
     }
-    if (sight.earth == Earth::flat)
-        frame_from_flat = frame_from_ecef * ecef_from_enu(sight.place.lat_deg, sight.place.lon_deg);
 }
 
-bool Oracle::Scenery::is_cut(int west, int east) const {
-    return sight.earth == Earth::flat &&
-           columns_east_m[static_cast<std::size_t>(east)] <= columns_east_m[static_cast<std::size_t>(west)];
+// The frame is the plane's own; sight lines that bend lift it by the square of the distance across it.
+void Oracle::Scenery::flat_box(const Patch& patch, const TrueSurface::Layer& layer, glm::dvec3& low,
+                               glm::dvec3& high) const {
+    double west_m = columns_east_m[static_cast<std::size_t>(patch.west)];
+    double east_m = columns_east_m[static_cast<std::size_t>(patch.east)];
+    const double half_turn_m = std::numbers::pi * prime_vertical_radius_m(sight.place.lat_deg) *
+                               sine_cosine_deg(sight.place.lat_deg).cosine;
+    // Not as wide as its columns: on both sides of the meridian where the plane is cut, and so at both its
+    // ends.
+    const PostGrid& grid = surface.field().grid;
+    const auto at_deg = [&](int column) {
+        return grid.lon.at_deg(std::min(column * TrueSurface::block_cells, grid.columns() - 1));
+    };
+    const double width_deg = at_deg(patch.east) - at_deg(patch.west);
+    if (east_m - west_m < (width_deg / 180.0 - 1.0) * half_turn_m) {
+        east_m = half_turn_m;
+        west_m = -east_m;
+    }
+    const double south_m = rows_north_m[static_cast<std::size_t>(patch.south)];
+    const double north_m = rows_north_m[static_cast<std::size_t>(patch.north)];
+    const double near_m = std::hypot(std::max({west_m, -east_m, 0.0}), std::max({south_m, -north_m, 0.0}));
+    const double far_m = std::hypot(std::max(-west_m, east_m), std::max(-south_m, north_m));
+    const double half_c = 0.5 * sight.refraction.curvature_per_m();
+    const auto [least_m, most_m] = std::minmax({half_c * near_m * near_m, half_c * far_m * far_m});
+    constexpr double rounded_m = 1.0e-3;
+    low = glm::dvec3(west_m, south_m, layer.lowest_h_m - sight.place.h_m + least_m) - rounded_m;
+    high = glm::dvec3(east_m, north_m, layer.highest_h_m - sight.place.h_m + most_m) + rounded_m;
 }
 
 glm::dvec3 Oracle::Scenery::seen(int row, int column, double h_m) const {
-    if (sight.earth == Earth::flat) {
-        const glm::dvec3 enu_m(columns_east_m[static_cast<std::size_t>(column)],
-                               rows_north_m[static_cast<std::size_t>(row)], h_m - sight.place.h_m);
-        const double lift_m =
-            0.5 * sight.refraction.curvature_per_m() * (enu_m.x * enu_m.x + enu_m.y * enu_m.y);
-        return frame_from_flat * glm::dvec3(enu_m.x, enu_m.y, enu_m.z + lift_m);
-    }
     const RowTerms& terms = rows[static_cast<std::size_t>(row)];
     const SineCosine& lon = columns[static_cast<std::size_t>(column)];
     const double e2 = sight.earth == Earth::sphere ? 0.0 : wgs84_e2;
@@ -78,12 +96,12 @@ bool Oracle::Scenery::box(const TrueSurface::Block& block, glm::dvec3& low, glm:
     const int north = block.row << block.level, west = block.column << block.level;
     const int south = std::min(((block.row + 1) << block.level), static_cast<int>(rows.size()) - 1);
     const int east = std::min(((block.column + 1) << block.level), static_cast<int>(columns.size()) - 1);
-    low = glm::dvec3(infinite);
-    high = glm::dvec3(-infinite);
-    if (is_cut(west, east)) {
-        std::swap(low, high);
+    if (sight.earth == Earth::flat) {
+        flat_box({north, south, west, east}, layer, low, high);
         return true;
     }
+    low = glm::dvec3(infinite);
+    high = glm::dvec3(-infinite);
     for (const int row : {north, south}) {
         for (const int column : {west, east}) {
             for (const double h_m : {layer.lowest_h_m, layer.highest_h_m}) {

@@ -26,16 +26,20 @@ class Oracle::Scenery {
     const TrueSurface& surface;
     const Sight sight;
     glm::dmat3 frame_from_ecef;
-    glm::dmat3 frame_from_flat{1.0};  // from metres east, north and up of the flat Earth
-    std::vector<RowTerms> rows;       // of the grid, each block_cells-th and the last
+    std::vector<RowTerms> rows;  // of the grid, each block_cells-th and the last
     std::vector<SineCosine> columns;
     // Of the flat Earth instead: metres north and east of the eye.
     std::vector<double> rows_north_m, columns_east_m;
 
-    // Where a point of the grid is seen from the eye, in the frame.
+    // Where a point of the grid is seen from the eye, in the frame; on a round Earth.
     [[nodiscard]] glm::dvec3 seen(int row, int column, double h_m) const;
-    // Columns of a block on both sides of the meridian opposite to the eye, where the flat Earth is cut.
-    [[nodiscard]] bool is_cut(int west, int east) const;
+    // A block's corners among `rows` and `columns`.
+    struct Patch {
+        int north, south, west, east;
+    };
+    // Corners of a box around a block on the flat Earth.
+    void flat_box(const Patch& patch, const TrueSurface::Layer& layer, glm::dvec3& low,
+                  glm::dvec3& high) const;
     // Corners of a box around all of a block that can be seen; false when there is nothing in it.
     [[nodiscard]] bool box(const TrueSurface::Block& block, glm::dvec3& low, glm::dvec3& high) const;
 

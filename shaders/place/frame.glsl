@@ -54,6 +54,15 @@ void triangle_posts(uint triangle, out uvec2 a, out uvec2 b, out uvec2 c) {
     }
 }
 
+// Posts of a page as row << 8 | column: are they on both sides of the meridian where the flat Earth is cut? Between them it would
+// be drawn from one end to the other.
+bool is_cut(uint frame_page, uint a, uint b, uint c) {
+    if (FRAME.cut_column == no_column) return false;
+    FramePage page = frame_pages().at[frame_page];
+    uvec3 columns = min(page.first_column + ((uvec3(a, b, c) & 255u) << page.level), uvec3(FRAME.last_column));
+    return min(columns.x, min(columns.y, columns.z)) <= FRAME.cut_column && FRAME.cut_column < max(columns.x, max(columns.y, columns.z));
+}
+
 // Posts as row << 8 | column: do they span a triangle? Stitching lets posts fall together or into one line.
 bool has_area(uint a, uint b, uint c) {
     ivec2 to_b = ivec2(int(b >> 8) - int(a >> 8), int(b & 255u) - int(a & 255u));

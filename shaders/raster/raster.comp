@@ -20,15 +20,15 @@ shared uint drawn_count;
 
 uint post_number(uvec2 post) { return post.x * meshlet_posts + post.y; }
 
-// False for a triangle that is not drawn: with a void corner, or that stitching has left without an area.
-bool corners(uint triangle, out vec4 a, out vec4 b, out vec4 c) {
+// False for a triangle that is not drawn: with a void corner, that stitching has left without an area, or cut.
+bool corners(uint frame_page, uint triangle, out vec4 a, out vec4 b, out vec4 c) {
     uvec2 pa, pb, pc;
     triangle_posts(triangle, pa, pb, pc);
     a = posts[post_number(pa)];
     b = posts[post_number(pb)];
     c = posts[post_number(pc)];
-    return a.w != 0.0 && b.w != 0.0 && c.w != 0.0 &&
-           has_area(places[post_number(pa)], places[post_number(pb)], places[post_number(pc)]);
+    uint at_a = places[post_number(pa)], at_b = places[post_number(pb)], at_c = places[post_number(pc)];
+    return a.w != 0.0 && b.w != 0.0 && c.w != 0.0 && has_area(at_a, at_b, at_c) && !is_cut(frame_page, at_a, at_b, at_c);
 }
 
 void list_clip(uint id) {
@@ -46,7 +46,7 @@ void list_clip(uint id) {
 // What one invocation does with its triangle.
 void draw_triangle(uint frame_page, uint meshlet, uint triangle) {
     vec4 a, b, c;
-    if (!corners(triangle, a, b, c)) return;
+    if (!corners(frame_page, triangle, a, b, c)) return;
     atomicAdd(drawn_count, 1u);
     if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
     uint id = triangle_id(frame_page, meshlet, triangle);

@@ -270,6 +270,44 @@ TEST(FrameConstants, UndulationIsFoundFromARegionsPosts) {
     EXPECT_EQ(frame_constants(NoPages(without, 1.0), Camera{}, Tile{}, 1.0).undulation.rows, 0U);
 }
 
+// Held against all columns: from west to east they go eastwards but for one step.
+TEST(FrameConstants, TellWhereTheFlatEarthIsCut) {
+    constexpr unsigned seed = 435;
+    std::printf("seed %u\n", seed);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> turn_deg(-720.0, 720.0);
+    const auto flat = [](double, double) { return 0.0; };
+    const HeightField round_the_earth = test::world_field(4.0, 8, -720, 9, 1441, flat);
+    const HeightField half_of_it = test::world_field(4.0, 8, 100, 9, 721, flat);
+    int without = 0;
+    for (int i = 0; i < 400; ++i) {
+        const HeightField& field = i % 2 == 0 ? round_the_earth : half_of_it;
+        // Each fourth eye is on a column's own meridian, or opposite to one.
+        const double lon_deg = i % 8 < 2 ? 0.25 * std::round(4.0 * turn_deg(random)) : turn_deg(random);
+        const Geodetic eye{1.0, lon_deg, 100.0};
+        std::set<unsigned> cuts;
+        const auto offset_m = [&](std::int64_t column) {
+            return model_offset_m(Earth::flat, {0.0, lon_deg, 0.0},
+                                  {0.0, field.grid.lon.at_deg(column), 0.0});
+        };
+        const glm::dvec3 east = ecef_from_enu(0.0, lon_deg)[0];
+        for (int column = 0; column + 1 < field.grid.columns(); ++column) {
+            const bool twin = column + 2 == field.grid.columns() && field.grid.goes_round();
+            if (glm::dot(east, offset_m(twin ? 0 : column + 1) - offset_m(column)) < 0.0)
+                cuts.insert(static_cast<unsigned>(column));
+        }
+        const unsigned cut = cut_column(field.grid, eye, Earth::flat);
+        ASSERT_LE(cuts.size(), 1U);
+        ASSERT_EQ(cut, cuts.empty() ? gpu::no_column : *cuts.begin()) << lon_deg;
+        without += cuts.empty() ? 1 : 0;
+        EXPECT_EQ(cut_column(field.grid, eye, Earth::sphere), gpu::no_column);
+    }
+    EXPECT_GT(without, 50);
+    EXPECT_LT(without, 150);
+    // 38.758 E is opposite to 141.242 W: the 875th post from 180 W is at 38.75 E.
+    EXPECT_EQ(cut_column(round_the_earth.grid, {25.7, -141.242, 53.0}, Earth::flat), 875U);
+}
+
 TEST(FrameConstants, AreThoseOfTheEyeAndTheRegion) {
     const HeightField field =
         test::world_field(1200.0, 47 * 1200, 8 * 1200, 310, 290, [](double, double) { return 500.0; });
