@@ -32,6 +32,13 @@ gpu::UndulationTable undulation_table(const PostGrid& grid, const UndulationFiel
     return table;
 }
 
+// Of a column from the eye's meridian, within half a turn.
+double east_of_eye_deg(const PostGrid& grid, const Geodetic& eye, std::int64_t column) {
+    // Round the Earth the last column is the first.
+    const bool twin = column == grid.columns() - 1 && grid.goes_round();
+    return std::remainder(grid.lon.at_deg(twin ? 0 : column) - eye.lon_deg, 360.0);
+}
+
 }  // namespace
 
 double reference_height_m(const Geodetic& eye) {
@@ -82,32 +89,6 @@ gpu::RowTerms FrameTables::flat_row(double lat_deg) const {
 void FrameTables::add_row(std::int64_t row) {
     const double lat_deg = row_lat_deg(grid_, row);
     rows_.push_back(earth_ == Earth::flat ? flat_row(lat_deg) : round_row(lat_deg));
-}
-
-namespace {
-
-// Of a column from the eye's meridian, within half a turn.
-double east_of_eye_deg(const PostGrid& grid, const Geodetic& eye, std::int64_t column) {
-    // Round the Earth the last column is the first.
-    const bool twin = column == grid.columns() - 1 && grid.goes_round();
-    return std::remainder(grid.lon.at_deg(twin ? 0 : column) - eye.lon_deg, 360.0);
-}
-
-}  // namespace
-
-gpu::uint cut_column(const PostGrid& grid, const Geodetic& eye, Earth earth) {
-    if (earth != Earth::flat) return gpu::no_column;
-    const double turn = 360.0 * grid.lon.posts_per_deg;
-    const double opposite = grid.lon.index_at(eye.lon_deg + 180.0);
-    const auto nearest = static_cast<std::int64_t>(std::floor(opposite - turn * std::floor(opposite / turn)));
-    // Rounded angles may put it a column away; and round the Earth the last column is one turn from the
-    // first.
-    for (const std::int64_t around : {nearest, nearest - static_cast<std::int64_t>(std::round(turn))})
-        for (std::int64_t column = around - 1; column <= around + 1; ++column)
-            if (column >= 0 && column + 1 < grid.columns() &&
-                east_of_eye_deg(grid, eye, column + 1) < east_of_eye_deg(grid, eye, column))
-                return static_cast<gpu::uint>(column);
-    return gpu::no_column;
 }
 
 void FrameTables::add_column(std::int64_t column) {
@@ -163,6 +144,21 @@ void set_model(const WorldModel& model, const Camera& camera, gpu::FrameConstant
 }
 
 }  // namespace
+
+gpu::uint cut_column(const PostGrid& grid, const Geodetic& eye, Earth earth) {
+    if (earth != Earth::flat) return gpu::no_column;
+    const double turn = 360.0 * grid.lon.posts_per_deg;
+    const double opposite = grid.lon.index_at(eye.lon_deg + 180.0);
+    const auto nearest = static_cast<std::int64_t>(std::floor(opposite - turn * std::floor(opposite / turn)));
+    // Rounded angles may put it a column away; and round the Earth the last column is one turn from the
+    // first.
+    for (const std::int64_t around : {nearest, nearest - static_cast<std::int64_t>(std::round(turn))})
+        for (std::int64_t column = around - 1; column <= around + 1; ++column)
+            if (column >= 0 && column + 1 < grid.columns() &&
+                east_of_eye_deg(grid, eye, column + 1) < east_of_eye_deg(grid, eye, column))
+                return static_cast<gpu::uint>(column);
+    return gpu::no_column;
+}
 
 gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& camera, const Tile& tile,
                                     double tau_px, const WorldModel& model,
