@@ -98,7 +98,8 @@ struct FramePage {
     vec4 planes[5];          // the frustum in the page frame, n.p + d >= 0 inside; left right bottom top near
     vec3 horizon_direction;  // scaled direction of the eye minus that of the page
     uvec2 block;             // device address of its PageBlock
-    uint cull;               // bits: 1 the frustum, 2 the horizon may hide some meshlets of it
+    uint cull;               // bits: 1 the frustum, 2 the horizon may hide some meshlets of it; 4 none of its
+                             // nodes may stand for finer ones
     uint level;
     uint first_row;  // number in the region of the page's first post
     uint first_column;
@@ -123,6 +124,7 @@ ORO_CONST uint accepted_words = 8u;  // a page: a bit for each node
 ORO_CONST uint edges_words = 32u;    // a page: four bits for each node
 ORO_CONST uint cull_by_frustum = 1u;
 ORO_CONST uint cull_by_horizon = 2u;
+ORO_CONST uint stands_never = 4u;
 
 ORO_CONST uint groups_per_row = 32768u;  // of an indirect dispatch; below every device's limit
 

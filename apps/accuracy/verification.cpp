@@ -49,14 +49,14 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
                      "the GPU may hold " + std::to_string(scene.store().capacity()) +
                          " pages of terrain; this view needs more (a larger --tau needs fewer)"};
     const TruePicture true_picture(truth.surface(), truth.sight(), view.camera, thread_count());
-    measure(done, true_picture, view.camera);
+    measure(done, true_picture);
     return done;
 }
 
-void measure(Verification& done, const TruePicture& truth, const Camera& camera) {
+void measure(Verification& done, const TruePicture& truth) {
     done.true_skyline = truth.skyline();
     done.errors = picture_errors(truth, done.picture.points, done.picture.skylines(), thread_count());
-    done.slack_px = drawing_slack_px(camera, truth.grid(), done.errors.nearest_m);
+    done.slack_px = done.errors.slack_px;
 }
 
 std::string verification_text(const Verification& verification, double tau_px, const UnseenGround& unseen) {

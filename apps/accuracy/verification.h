@@ -26,7 +26,7 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
                                  RasterPath path, const gpu::FrameStyle& style);
 
 // The measuring alone, of a picture that is drawn. `truth`: of the same camera.
-void measure(Verification& done, const TruePicture& truth, const Camera& camera);
+void measure(Verification& done, const TruePicture& truth);
 
 // For people: a table of some lines, each with its line end, and what the data cannot tell.
 std::string verification_text(const Verification& verification, double tau_px, const UnseenGround& unseen);

@@ -107,7 +107,7 @@ Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const
         ORO_TRY(const DepthPicture again, painter_.draw(*scene, from, style_, drawing));
         times_s.push_back(again.report.gpu_s());
     }
-    oro::measure(drawn, truth, camera);
+    oro::measure(drawn, truth);
     TradeShot shot;
     shot.setting = one.key;
     shot.gpu_ms = 1000.0 * median_of(std::move(times_s));

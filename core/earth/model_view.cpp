@@ -73,6 +73,10 @@ double ModelView::stretch(const PageSummary& page, const glm::dvec3& in_page_m, 
     return 1.0 + std::abs(c) * (across_m(straight_m(page, in_page_m)) + radius_m);
 }
 
+bool ModelView::may_stand(const PageRecord& page) const {
+    return model_.earth != Earth::flat || page.summary.index.level == 0 || page.reach_m <= largest_moved_m;
+}
+
 ViewSphere ModelView::seen_page(const PostGrid& grid, const PageRecord& page) const {
     if (model_.earth == Earth::ellipsoid) return seen(page.summary, page.summary.centre_m, page.reach_m);
     const glm::dvec3 centre_m = straight_m(page.summary, page.summary.centre_m);

@@ -34,6 +34,9 @@ class ModelView {
 
     // Pages keep their shape on every Earth, so nodes may be culled within them.
     [[nodiscard]] bool culls_nodes() const { return model_.earth == Earth::ellipsoid; }
+    // Whether nodes of a page may stand for finer ones. On the flat Earth no node of a page that is so wide
+    // that the plane tears it out of shape: where it lies is not known well enough.
+    [[nodiscard]] bool may_stand(const PageRecord& page) const;
     // How far a post may be drawn from where the model would put it, metres: its rounding.
     [[nodiscard]] double rounding_m() const { return rounding_m_; }
     // Metres of lift for each square metre of distance across the eye's vertical, times 2; 0: light goes

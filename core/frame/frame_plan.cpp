@@ -136,7 +136,7 @@ Result<void> PageChoice::descend(WantedPage& page) {
                               summary.index.level - 1};
         if (child.row >= below.rows || child.column >= below.columns) continue;
         const PageQuarter& quarter = page.record.quarters[static_cast<std::size_t>(i)];
-        const bool enough = good_enough(summary, quarter);
+        const bool enough = model_.may_stand(page.record) && good_enough(summary, quarter);
         if (enough) page.stand_in |= 1U << static_cast<unsigned>(i);
         if (!enough || !fine_enough_to_shade(summary, quarter)) ORO_CHECK(want(child));
     }
@@ -274,6 +274,7 @@ gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
     frame.cull = (inside_all ? 0U : gpu::cull_by_frustum) |
                  (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
     if (!model_.culls_nodes()) frame.cull = 0;
+    if (!model_.may_stand(page.record)) frame.cull |= gpu::stands_never;
     frame.block = {static_cast<gpu::uint>(page.address), static_cast<gpu::uint>(page.address >> 32U)};
     frame.level = static_cast<gpu::uint>(summary.index.level);
     frame.stand_in = page.stand_in;

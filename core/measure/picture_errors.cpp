@@ -29,23 +29,29 @@ PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoin
     errors.seen = seen_errors(truth.oracle_, {truth.surface_, truth.sight_, truth.camera_}, truth.hits_,
                               truth.camera_, points, threads);
     errors.skyline = skyline_error(truth.skyline_, truth.camera_, samples, &truth.oracle_);
+    const PostGrid& grid = truth.surface_.field().grid;
+    errors.slack_px = drawing_slack_px(truth.camera_, grid, 0.0, 0.0);
     for (const DrawnPoint& point : points) {
-        if (!point.background() && (errors.nearest_m == 0.0 || point.z_m < errors.nearest_m))
-            errors.nearest_m = point.z_m;
+        if (point.background()) continue;
+        if (errors.nearest_m == 0.0 || point.z_m < errors.nearest_m) errors.nearest_m = point.z_m;
+        const auto slope = truth.surface_.slope_at(point.row, point.column);
+        const double steepness = slope ? slope->steepness() : 0.0;
+        errors.slack_px =
+            std::max(errors.slack_px, drawing_slack_px(truth.camera_, grid, point.z_m, steepness));
     }
     return errors;
 }
 
-double drawing_slack_px(const Camera& camera, const PostGrid& grid, double nearest_m) {
+double drawing_slack_px(const Camera& camera, const PostGrid& grid, double z_m, double steepness) {
     constexpr double usual_px = 0.05;
-    if (nearest_m <= 0.0) return usual_px;
+    if (z_m <= 0.0) return usual_px;
     constexpr double highest_m = 9000.0;
-    const FlatTriangle flat = widest_flat_triangle(grid, highest_m, 1.0);
+    const FlatTriangle flat = widest_flat_triangle(grid, highest_m, steepness, 1.0);
     const double off_m = 0.5 * height_step_m + std::hypot(flat.up_m, flat.sideways_m);
     // Towards the picture's corners a metre is more pixels.
     const glm::dvec2 tangent = camera.half_fov_tangent();
     const double pixels_per_tangent = 0.5 * camera.height_px / tangent.y;
-    return usual_px + off_m / nearest_m * pixels_per_tangent * std::hypot(1.0, tangent.x, tangent.y);
+    return usual_px + off_m / z_m * pixels_per_tangent * std::hypot(1.0, tangent.x, tangent.y);
 }
 
 }  // namespace oro

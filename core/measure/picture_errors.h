@@ -42,6 +42,7 @@ struct PictureErrors {
     SeenErrors seen;      // what is truly seen there
     SkylineError skyline;
     double nearest_m{};  // along the view axis, of what is drawn; 0: nothing is
+    double slack_px{};   // drawing_slack_px() of the ground that has most
     // Of all four, edges less what they are found to (seen_resolution_px).
     [[nodiscard]] double largest_px() const;
 };
@@ -51,7 +52,8 @@ PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoin
 
 // What drawing may round off on a picture, besides what tau allows: 0.05 px; and near ground what is more
 // than that: half a step of the heights, 0.24 mm, and what a cell's flat triangles are off, 0.4 mm with posts
-// of 3 seconds (0.3 mm in height, 0.2 mm along the ground).
-double drawing_slack_px(const Camera& camera, const PostGrid& grid, double nearest_m);
+// of 3 seconds (0.3 mm in height, 0.2 mm along level ground), on walls more. z_m: of the ground along the
+// view axis; 0: there is none. steepness: of the ground, metres a metre.
+double drawing_slack_px(const Camera& camera, const PostGrid& grid, double z_m, double steepness = 0.0);
 
 }  // namespace oro

@@ -234,6 +234,7 @@ SeenErrors seen_errors(const Oracle& oracle, const GroundMeter& meter,
             const DrawnPoint& point = points[pixel];
             const Nearness seen = picture.at(x, y);
             if (seen == 0.0 && point.background()) continue;
+            if (truth[pixel] && truth[pixel]->from_below) continue;
             const Away away = away_from(picture, meter, x, y, point);
             errors.px[pixel] = static_cast<float>(away.px);
             if (away.searched) searched_in_row[row].push_back(pixel);

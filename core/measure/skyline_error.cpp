@@ -15,13 +15,20 @@ namespace {
 constexpr double skyline_step_px = 1.0 / 64.0;
 
 // Where the highest ground of a column begins: 0 when it is at the top, nothing where there is none.
-std::optional<double> column_skyline_px(const Oracle& oracle, const Camera& camera, int column,
-                                        double reach_m) {
+struct ColumnSkyline {
+    double y_px;
+    bool from_below;
+};
+std::optional<ColumnSkyline> column_skyline(const Oracle& oracle, const Camera& camera, int column,
+                                            double reach_m) {
+    bool from_below = false;  // the last ground that was met
     const auto is_ground = [&](double y_px) {
         const glm::dvec3 ray = camera.ecef_direction_at({column + 0.5, y_px});
-        return oracle.first_hit(ray, reach_m).has_value();
+        const auto hit = oracle.first_hit(ray, reach_m);
+        if (hit) from_below = hit->from_below;
+        return hit.has_value();
     };
-    if (is_ground(0.0)) return 0.0;
+    if (is_ground(0.0)) return ColumnSkyline{0.0, from_below};
     constexpr double step_px = 1.0 / skyline_samples;
     double sky_px = 0.0, ground_px = 0.5 * step_px;
     while (!is_ground(ground_px)) {
@@ -33,7 +40,7 @@ std::optional<double> column_skyline_px(const Oracle& oracle, const Camera& came
         const double middle_px = 0.5 * (sky_px + ground_px);
         (is_ground(middle_px) ? ground_px : sky_px) = middle_px;
     }
-    return 0.5 * (sky_px + ground_px);
+    return ColumnSkyline{0.5 * (sky_px + ground_px), from_below};
 }
 
 // Between which heights a column's drawn skyline lies; from minus infinity where the first sample has ground.
@@ -165,11 +172,14 @@ void look_closely(const Oracle& oracle, const Camera& camera, std::vector<Apart>
 Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads) {
     Skyline skyline;
     skyline.y_px.assign(static_cast<std::size_t>(camera.width_px), not_measured);
+    skyline.from_below.assign(skyline.y_px.size(), 0);
     const double reach_m = sight_reach_m(geodetic_from_ecef(sight.eye).h_m);
     const Oracle oracle(surface, sight);
     in_parallel(camera.width_px, threads, [&](int column) {
-        if (const auto y_px = column_skyline_px(oracle, camera, column, reach_m))
-            skyline.y_px[static_cast<std::size_t>(column)] = static_cast<float>(*y_px);
+        const auto found = column_skyline(oracle, camera, column, reach_m);
+        if (!found) return;
+        skyline.y_px[static_cast<std::size_t>(column)] = static_cast<float>(found->y_px);
+        skyline.from_below[static_cast<std::size_t>(column)] = found->from_below ? 1 : 0;
     });
     return skyline;
 }
@@ -185,6 +195,7 @@ SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span
     error.px.assign(truth.y_px.size(), not_measured);
     std::vector<Apart> apart;
     for (std::size_t column = 0; column < truth.y_px.size(); ++column) {
+        if (!truth.from_below.empty() && truth.from_below[column] != 0) continue;
         const float true_px = truth.y_px[column];
         const auto drawn = drawn_skyline(camera, from_top, static_cast<int>(column));
         if (drawn.has_value() != (true_px != not_measured)) {

@@ -19,6 +19,9 @@ inline constexpr int skyline_samples = 4;
 // top.
 struct Skyline {
     std::vector<float> y_px;  // not_measured: no ground. 0: ground at the picture's very top
+    // Columns whose highest ground is met from below, through a hole in the data: beneath the ground nothing
+    // is modelled, and they are not measured. Empty: none.
+    std::vector<std::uint8_t> from_below{};
 };
 // Along the middles of the columns; by bisection to 1/64 px between the first ray with ground, of those that
 // drawn skylines are looked for with (`skyline_samples` a pixel) and the picture's edges, and the ray above
@@ -29,6 +32,7 @@ Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camer
 // known to lie between two samples of a column; what is not known is not counted as an error.
 struct SkylineError {
     std::vector<float> px;  // of each column; not_measured where it has no skyline in either, or in one only,
+                            // or the true one is ground from below,
                             // or ground reaches the picture's top in both
     ErrorSummary summary_px;
     std::uint64_t in_one_only{};  // columns with ground in one of the two only

@@ -15,28 +15,33 @@ struct FlatTriangle {
     double sideways_m;
 };
 
-// Of a triangle whose legs are so many posts long, by the sine and cosine of its latitude. Between its
-// corners X(lat, lon) is off the straight line by at most an eighth of its second derivatives: of the
-// ellipsoid's bulge, and of meridians that come together.
-inline FlatTriangle flat_triangle(const PostGrid& grid, const SineCosine& lat, double h_m, double posts) {
+// Of a triangle whose legs are so many posts long, by the sine and cosine of its latitude; steepness: how
+// much it rises, metres a metre. Between its corners X(lat, lon, h) is off the straight line by at most an
+// eighth of its second derivatives: of the ellipsoid's bulge, of meridians that come together, and of
+// verticals that are not parallel: the foot and the head of a wall.
+inline FlatTriangle flat_triangle(const PostGrid& grid, const SineCosine& lat, double h_m, double steepness,
+                                  double posts) {
     const double tall = posts * radians_from_deg(grid.lat.spacing_deg()).rad;
     const double wide = posts * radians_from_deg(grid.lon.spacing_deg()).rad;
     const double cosine = std::min(1.0, lat.cosine + tall), sine = std::abs(lat.sine);
     const double radius_m = wgs84_a_m + std::max(0.0, h_m);
     const double up = (tall * tall + wide * wide * cosine * cosine) / 8.0;
-    const double sideways = sine * (tall * wide / 4.0 + wide * wide * cosine / 8.0);
+    const double leaning = steepness * (tall * tall + wide * wide * cosine * cosine) / 4.0;
+    const double sideways = sine * (tall * wide / 4.0 + wide * wide * cosine / 8.0) + leaning;
     return {radius_m * up, radius_m * sideways};
 }
-inline FlatTriangle flat_triangle(const PostGrid& grid, double lat_deg, double h_m, double posts) {
-    return flat_triangle(grid, sine_cosine_deg(lat_deg), h_m, posts);
+inline FlatTriangle flat_triangle(const PostGrid& grid, double lat_deg, double h_m, double steepness,
+                                  double posts) {
+    return flat_triangle(grid, sine_cosine_deg(lat_deg), h_m, steepness, posts);
 }
-// Wherever on the grid: no triangle of it is farther off, as none has a larger sine or a larger cosine.
-inline FlatTriangle widest_flat_triangle(const PostGrid& grid, double h_m, double posts) {
+// Wherever on the grid: none that steep is farther off, as none has a larger sine or a larger cosine.
+inline FlatTriangle widest_flat_triangle(const PostGrid& grid, double h_m, double steepness, double posts) {
     const double north_deg = std::abs(grid.north_deg()), south_deg = std::abs(grid.south_deg());
     const bool equator = grid.north_deg() > 0.0 && grid.south_deg() < 0.0;
     const double near_deg = equator ? 0.0 : std::min(north_deg, south_deg);
     const double far_deg = std::min(90.0, std::max(north_deg, south_deg));
-    return flat_triangle(grid, {sine_cosine_deg(far_deg).sine, sine_cosine_deg(near_deg).cosine}, h_m, posts);
+    return flat_triangle(grid, {sine_cosine_deg(far_deg).sine, sine_cosine_deg(near_deg).cosine}, h_m,
+                         steepness, posts);
 }
 
 }  // namespace oro

@@ -183,7 +183,8 @@ EffectSize EffectPrediction::anywhere(const Bound& bound_m, const Bound& typical
 }
 
 FlatTriangle EffectPrediction::flat_triangle(const Sample& sample, double posts) const {
-    return oro::flat_triangle(surface_.field().grid, sample.point.lat_deg, sample.point.h_m, posts);
+    return oro::flat_triangle(surface_.field().grid, sample.point.lat_deg, sample.point.h_m, sample.slope,
+                              posts);
 }
 
 double EffectPrediction::left_out_N_m(double lat_deg, double lon_deg) const {

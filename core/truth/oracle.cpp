@@ -330,7 +330,7 @@ bool Oracle::Search::take_root(const Triangle& triangle, const Piece& piece, dou
     if (t_m < 0.0 || t_m >= nearest_m_ || std::abs(above_m) > residual_m || !triangle.holds(here, rim_slack))
         return false;
     nearest_m_ = t_m;
-    hit_ = SightHit{here.point, t_m, triangle.row, triangle.column, triangle.south_west, above_m};
+    hit_ = SightHit{here.point, t_m, triangle.row, triangle.column, triangle.south_west, rise > 0.0, above_m};
     return true;
 }
 

@@ -33,6 +33,7 @@ struct SightHit {
     int row{};            // north-west post of its cell
     int column{};
     bool south_west{};    // of the cell's two triangles
+    bool from_below{};    // it is met from beneath: through a hole, or over the data's rim
     double residual_m{};  // of the root: height of the point above its triangle
 };
 

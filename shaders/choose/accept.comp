@@ -16,6 +16,7 @@ bool acceptable(FramePage page, uvec2 node) {
     MeshletBounds bounds = PageBlocks(page.block).at[0].meshlets[node.x * meshlets_per_side + node.y];
     uint quarter = node.x / (meshlets_per_side / 2u) * 2u + node.y / (meshlets_per_side / 2u);
     if ((page.stand_in >> quarter & 1u) != 0u) return bounds.radius >= 0.0;
+    if ((page.cull & stands_never) != 0u) return false;
     precise vec3 centre_view = page.view_from_page * bounds.centre + page.origin_view;
     if (FRAME.refraction_per_m != 0.0) bend_node(bounds, centre_view);
     return node_acceptable(page.level, bounds, centre_view, FRAME.pixels_per_tangent, FRAME.corner_tangent, FRAME.tau_px);

@@ -30,8 +30,8 @@ bool is_full() {
 class ExtremeMeasures : public Extremes {
   protected:
     // The promise of a picture at full detail; what is found to 1/64 px may be off by that.
-    static void expect_within_slack(const Stage& stage, const Camera& camera, const PictureErrors& errors) {
-        const double slack_px = drawing_slack_px(camera, stage.field().grid, errors.nearest_m);
+    static void expect_within_slack(const Camera& camera, const PictureErrors& errors) {
+        const double slack_px = errors.slack_px;
         EXPECT_LE(errors.largest_px(), slack_px)
             << "displacement " << errors.ground.summary_displacement_px.largest << ", surface "
             << errors.ground.summary_surface_px.largest << ", seen " << errors.seen.summary_px.largest
@@ -93,7 +93,7 @@ TEST_F(ExtremeMeasures, AboveSlopes) {
         for (int view = 0; view < views; ++view) {
             const Camera camera = random_camera(random, stage, above.m);
             const PictureErrors errors = stage.measure(camera, RasterPath::compute).errors;
-            expect_within_slack(stage, camera, errors);
+            expect_within_slack(camera, errors);
             record(above.row, errors);
         }
     }
@@ -123,10 +123,8 @@ TEST_F(ExtremeMeasures, AboveRealSlopes) {
         Stage stage(*gpu_, std::move(region->field));
         const auto look = [&](const Camera& camera) {
             const PictureErrors errors = stage.measure(camera, RasterPath::compute).errors;
-            expect_within_slack(stage, camera, errors);
-            worst_share =
-                std::max(worst_share, errors.largest_px() /
-                                          drawing_slack_px(camera, stage.field().grid, errors.nearest_m));
+            expect_within_slack(camera, errors);
+            worst_share = std::max(worst_share, errors.largest_px() / errors.slack_px);
         };
         for (const double heading_deg : {0.0, 120.0, 240.0}) {
             Geodetic eye = ground.eye;
@@ -164,7 +162,7 @@ TEST_F(ExtremeMeasures, WallOfNineKilometres) {
             Camera camera = strip_camera(eye, {90.0 + aside_deg, look.pitch_deg, 0.0});
             camera.width_px = 8;
             const PictureErrors errors = stage.measure(camera, RasterPath::compute).errors;
-            expect_within_slack(stage, camera, errors);
+            expect_within_slack(camera, errors);
             record(look.row, errors);
         }
     }
@@ -193,7 +191,7 @@ TEST_F(ExtremeMeasures, Spikes) {
             camera.attitude.heading_deg += 0.1 * unit(random);
             camera.attitude.roll_deg = 60.0 * unit(random) - 30.0;
             const PictureErrors errors = stage.measure(camera, RasterPath::compute).errors;
-            expect_within_slack(stage, camera, errors);
+            expect_within_slack(camera, errors);
             measured(group, "spikes of 100 and 500 m on a plain, skyline", errors.skyline.summary_px.largest,
                      errors.skyline.summary_px.count);
         }
@@ -219,7 +217,7 @@ TEST_F(ExtremeMeasures, SkylineOfTheSameMask) {
         int differ = 0;
         for (std::size_t i = 0; i < hits.size(); ++i)
             differ += hits[i].has_value() != !all.picture.points[i].background() ? 1 : 0;
-        expect_within_slack(stage, camera, all.errors);
+        expect_within_slack(camera, all.errors);
         if (differ == 0)
             measured(group, "the skyline where no pixel of the mask differs",
                      all.errors.skyline.summary_px.largest, all.errors.skyline.summary_px.count);

@@ -139,8 +139,7 @@ class RandomViews : public test::GpuTest {
         double slack_px{};
         bool settled{};
     };
-    Result<Drawn> draw(Opened& opened, const View& view, RasterPath path, const TruePicture& truth,
-                       const Camera& camera) {
+    Result<Drawn> draw(Opened& opened, const View& view, RasterPath path, const TruePicture& truth) {
         ORO_TRY(Scene* const scene, opened.scene(*gpu_, view.heights));
         DepthPictureOptions options;
         options.tau_px = view.tau_px;
@@ -152,7 +151,7 @@ class RandomViews : public test::GpuTest {
         drawn.settled = picture.settled;
         drawn.errors = picture_errors(truth, picture.points, picture.skylines(), thread_count());
         drawn.measured = Measures(drawn.errors);
-        drawn.slack_px = drawing_slack_px(camera, truth.grid(), drawn.errors.nearest_m);
+        drawn.slack_px = drawn.errors.slack_px;
         return drawn;
     }
 
@@ -210,7 +209,7 @@ class RandomViews : public test::GpuTest {
         const DrawingModel drawing = drawing_model(view, world);
         const auto total = prediction.total(drawing);
         ASSERT_TRUE(total.ok()) << total.error().line();
-        const auto drawn = draw(opened, view, one.path, truth, camera);
+        const auto drawn = draw(opened, view, one.path, truth);
         ASSERT_TRUE(drawn.ok()) << drawn.error().line();
         if (!drawn->settled) {
             ++tally.too_large;
@@ -237,8 +236,7 @@ class RandomViews : public test::GpuTest {
     }
 
     // (b) A bundle that is said to hold a tolerance holds it.
-    void hold_tolerance(Opened& opened, const RandomView& one, const TruePicture& truth, const Camera& camera,
-                        Tally& tally) {
+    void hold_tolerance(Opened& opened, const RandomView& one, const TruePicture& truth, Tally& tally) {
         auto view = view_of(opened, one.toleranced);
         ASSERT_TRUE(view.ok()) << view.error().line();
         const auto pages = opened.pages(*gpu_);
@@ -254,7 +252,7 @@ class RandomViews : public test::GpuTest {
             return;
         }
         apply_bundle(choice->bundle, *view);
-        const auto drawn = draw(opened, *view, one.path, truth, camera);
+        const auto drawn = draw(opened, *view, one.path, truth);
         ASSERT_TRUE(drawn.ok()) << drawn.error().line();
         if (!drawn->settled) {
             ++tally.too_large;
@@ -287,7 +285,7 @@ class RandomViews : public test::GpuTest {
         const TruePicture truth(opened.surface(), sight, camera, thread_count());
         ++tally.views;
         hold_prediction(opened, one, *view, *world, truth, camera, tally);
-        hold_tolerance(opened, one, truth, camera, tally);
+        hold_tolerance(opened, one, truth, tally);
     }
 
     void TearDown() override {

@@ -159,8 +159,8 @@ TEST(GroundMeter, NothingIsFartherOffThanThePictureIsWide) {
 
 // Half of 2^-11 m, and R hypot((t t + t t cos cos) / 8, sin (t t / 4 + t t cos / 8)) of t = 1 / 1200 degree
 // from 46 to 47 degrees: 0.000247 m up and 0.000326 sideways, 0.00041 m. 1,303.7 px for a tangent at 2 m, and
-// in the picture's corners 1.3091 of that (1, 0.41421 and 0.73638, root of the squares). Posts a degree apart:
-// 485.7 m at the equator, 875.6 with a pole's sine; 0.14 % more at 9,000 m.
+// in the picture's corners 1.3091 of that (1, 0.41421 and 0.73638, root of the squares). Posts a degree
+// apart: 485.7 m at the equator, 875.6 with a pole's sine; 0.14 % more at 9,000 m.
 TEST(DrawingSlack, HasWhatFlatTrianglesLeaveOut) {
     Camera camera;
     camera.width_px = 1920, camera.height_px = 1080;
@@ -172,6 +172,8 @@ TEST(DrawingSlack, HasWhatFlatTrianglesLeaveOut) {
         test::made_field(90.0, -180.0, 1.0, 181, 2, [](double, double) { return 0.0F; });
     EXPECT_NEAR(drawing_slack_px(camera, globe.grid, 1.0e6), 0.05 + 1.0014 * 875.65 * px / 1.0e6, 0.003);
     EXPECT_EQ(drawing_slack_px(camera, globe.grid, 0.0), 0.05);
+    // Ground that rises 20 m a metre: more by R 20 (t t + t t cos cos) / 4, 0.00997 m (cos of 46 degrees).
+    EXPECT_NEAR(drawing_slack_px(camera, tile.grid, 2.0, 20.0) - 0.05, 0.0106 * px / 2.0, 0.0002 * px / 2.0);
 }
 
 }  // namespace
