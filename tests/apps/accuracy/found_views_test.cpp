@@ -14,9 +14,9 @@ using nlohmann::json;
 using oro::test::object_said_by;
 using Words = std::vector<std::string>;
 
-json verified(Words words) {
+json verified(Words words, const std::string& size = "160x100") {
     words.insert(words.begin(), "shot");
-    words.insert(words.end(), {"--size", "160x100", "--verify", "--json", "-q", "--out",
+    words.insert(words.end(), {"--size", size, "--verify", "--json", "-q", "--out",
                                (oro::test::scratch_folder() / "p.png").string()});
     return object_said_by(words).at("error");
 }
@@ -137,7 +137,8 @@ TEST(FoundViews, AtTheFootOfAWall) {
     if (!folder) GTEST_SKIP() << "needs drape";
     const json error = verified({*folder / "S2B_T32TLS_20220618_R60m_B01.jp2", "--exaggeration", "2", "--at",
                                  "45.9590879,6.6841606", "--above", "2.27", "--heading", "225", "--pitch",
-                                 "-21", "--fov", "83.5", "--refraction", "0.13", "--tau", "0"});
+                                 "-21", "--fov", "83.5", "--refraction", "0.13", "--tau", "0"},
+                                "80x128");
     EXPECT_GT(error.at("displacement_px").at("max").get<double>(), 0.5);
     EXPECT_LE(error.at("largest_px").get<double>(), error.at("slack_px").get<double>());
 }
