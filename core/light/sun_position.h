@@ -1,0 +1,80 @@
+// Where the sun stands: from a time and a place to an azimuth and an elevation, and when it rises and sets
+// over a plain horizon.
+//
+// Times are seconds since 1970-01-01T00:00:00Z without leap seconds, as clocks count them; taken as UT1,
+// from which UTC keeps within 0.9 s (0.004 degree of the sky's turn). Before 1972 they are universal time.
+#pragma once
+
+#include <vector>
+
+#include "core/earth/ellipsoid.h"
+
+namespace oro {
+
+// TT - UT1 in seconds. From 1900 to 2020 within 1 s of what was observed; later a forecast, which may be
+// wrong by a minute in 2100: 3 seconds of arc of the sun. Source: F. Espenak & J. Meeus, Five Millennium
+// Canon of Solar Eclipses, NASA/TP-2006-214141, 2006, section 2.2. Outside 1900 to 2150 its parabola only.
+double delta_t_s(double time_utc_s);
+
+// Seen from the Earth's centre, apparent (nutation and aberration counted), in the equator and equinox of
+// date.
+struct GeocentricSun {
+    double longitude_deg{};  // along the ecliptic, [0, 360)
+    double right_ascension_deg{};
+    double declination_deg{};
+    double distance_au{};
+};
+// Right within 0.001 degree from 1900 to 2100. time_tt_s counts like the times above, on the scale TT.
+// Source: J. Meeus, Astronomical Algorithms, 2nd ed. 1998, chapter 25 (higher accuracy): the Earth's place by
+// the larger terms of VSOP87 (appendix III; the same as in I. Reda & A. Andreas, Solar Position Algorithm for
+// Solar Radiation Applications, NREL/TP-560-34302, revised 2008, table A4.2), nutation and obliquity by
+// chapter 22.
+GeocentricSun geocentric_sun(double time_tt_s);
+
+// The air that bends the light, at the place.
+struct Air {
+    double pressure_hpa{1010.0};
+    double temperature_c{10.0};
+};
+
+// What to add to an elevation without air, in degrees. Source: T. Saemundsson, Atmospheric Refraction, Sky
+// and Telescope 72, 1986, p. 70 (Meeus 1998, eq. 16.4), scaled by pressure and temperature as there. Within
+// 0.1 minute of arc of Bennett's formula (1982) from the horizon up, both for average air: true air differs
+// by several minutes of arc at the horizon. Below -1 degree nothing is published: from there it falls in a
+// straight line to 0 at -3 degrees, so that the sun sinks without a jump.
+double refraction_deg(double airless_elevation_deg, const Air& air);
+
+struct SunPosition {
+    double azimuth_deg{};            // clockwise from true north, [0, 360)
+    double airless_elevation_deg{};  // above the plane across the ellipsoid's normal
+    double elevation_deg{};          // with refraction
+    double radius_deg{};             // of the disc, without refraction; 0.262 to 0.271
+};
+// As seen from the place itself, parallax counted: 8.8 seconds of arc at the horizon. Right within 0.005
+// degree from 1900 to 2100 when the time is UT1, elevations without air. Deflections of the vertical, polar
+// motion and diurnal aberration (together below 0.001 degree but for the first) are left out. At a pole north
+// is where the place's longitude puts it. Source: as geocentric_sun; sidereal time by Meeus 1998, eq. 12.4;
+// radius 959.63 seconds of arc at 1 au (ibid., chapter 55).
+SunPosition sun_position(double time_utc_s, const Geodetic& place, const Air& air = {});
+
+// The elevation of the sun's middle, without air, when its upper limb shows at a plain horizon: 34 minutes of
+// arc of refraction and 16 of radius, as almanacs agree on. Source: Meeus 1998, chapter 15.
+inline constexpr double plain_horizon_deg = -50.0 / 60.0;
+
+enum class SunDay { rises_or_sets, up_all_day, down_all_day };
+struct SunCrossing {
+    double time_utc_s{};
+    bool rising{};
+};
+struct SunDayEvents {
+    SunDay day{};
+    std::vector<SunCrossing> crossings;  // in order of time; empty for the latter two kinds of day
+    double highest_utc_s{};              // when it stands highest
+    double highest_deg{};                // and how high, without air
+};
+// What the sun does in the 24 hours from a time on: the crossings of an airless elevation, each within 0.01 s
+// of where sun_position() has it. Most days have a rise and a set; near a polar circle there may be one only,
+// or three.
+SunDayEvents sun_day(double from_utc_s, const Geodetic& place, double horizon_deg = plain_horizon_deg);
+
+}  // namespace oro
