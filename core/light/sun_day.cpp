@@ -100,4 +100,32 @@ SunDayEvents sun_day(double from_utc_s, const Geodetic& place, double horizon_de
     return events;
 }
 
+double up_s(const SunDayEvents& events, double from_utc_s) {
+    constexpr double day_s = 86400.0;
+    if (events.day == SunDay::up_all_day) return day_s;
+    double sum_s = 0.0, since_s = from_utc_s;
+    for (const SunCrossing& crossing : events.crossings) {
+        if (!crossing.rising) sum_s += crossing.time_utc_s - since_s;
+        since_s = crossing.time_utc_s;
+    }
+    if (!events.crossings.empty() && events.crossings.back().rising) sum_s += from_utc_s + day_s - since_s;
+    return sum_s;
+}
+
+double solar_noon_utc_s(double from_utc_s, const Geodetic& place) {
+    constexpr double half_way_s = 6.0 * 3600.0, nearest_pole_deg = 89.999;
+    const double highest_s = sun_day(from_utc_s, place).highest_utc_s;
+    if (std::abs(place.lat_deg) > nearest_pole_deg) return highest_s;
+    // In the east before noon, in the west after, wherever it stands.
+    const auto in_east = [&place](double time_s) {
+        return sine_cosine_deg(sun_position(time_s, place).azimuth_deg).sine > 0.0;
+    };
+    double low_s = highest_s - half_way_s, high_s = highest_s + half_way_s;
+    while (high_s - low_s > 0.01) {
+        const double middle_s = 0.5 * (low_s + high_s);
+        (in_east(middle_s) ? low_s : high_s) = middle_s;
+    }
+    return 0.5 * (low_s + high_s);
+}
+
 }  // namespace oro

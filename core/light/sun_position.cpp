@@ -196,24 +196,12 @@ double delta_t_s(double time_utc_s) {
     return year >= 2050.0 && year < 2150.0 ? parabola - 0.5628 * (2150.0 - year) : parabola;
 }
 
-double refraction_deg(double airless_elevation_deg, const Air& air) {
-    constexpr double published_from_deg = -1.0, none_from_deg = -3.0;
-    if (airless_elevation_deg <= none_from_deg) return 0.0;
-    if (airless_elevation_deg < published_from_deg)
-        return refraction_deg(published_from_deg, air) * (airless_elevation_deg - none_from_deg) /
-               (published_from_deg - none_from_deg);
-    const double bent_deg = airless_elevation_deg + 10.3 / (airless_elevation_deg + 5.11);
-    // At the zenith the formula is off by 0.1 second of arc below zero, which would lift nothing.
-    const double minutes = std::max(0.0, 1.02 / std::tan(radians_from_deg(bent_deg).rad));
-    return minutes / 60.0 * (air.pressure_hpa / 1010.0) * (283.0 / (273.0 + air.temperature_c));
-}
-
-SunPosition sun_position(double time_utc_s, const Geodetic& place, const Air& air) {
+SunPosition sun_position(double time_utc_s, const Geodetic& place, const Weather& weather) {
     const glm::dvec3 enu_m = sun_enu_m(time_utc_s, place);
     SunPosition sun;
     sun.azimuth_deg = turned_deg(deg_from_radians(Radians{std::atan2(enu_m.x, enu_m.y)}));
     sun.airless_elevation_deg = elevation_of_deg(enu_m);
-    sun.elevation_deg = sun.airless_elevation_deg + refraction_deg(sun.airless_elevation_deg, air);
+    sun.elevation_deg = sun.airless_elevation_deg + refraction_deg(sun.airless_elevation_deg, weather);
     sun.radius_deg = 959.63 * arcsec_deg * au_m / glm::length(enu_m);
     return sun;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
+#include "core/light/refraction.h"
 
 namespace oro {
 
@@ -31,19 +32,6 @@ struct GeocentricSun {
 // chapter 22.
 GeocentricSun geocentric_sun(double time_tt_s);
 
-// The air that bends the light, at the place.
-struct Air {
-    double pressure_hpa{1010.0};
-    double temperature_c{10.0};
-};
-
-// What to add to an elevation without air, in degrees. Source: T. Saemundsson, Atmospheric Refraction, Sky
-// and Telescope 72, 1986, p. 70 (Meeus 1998, eq. 16.4), scaled by pressure and temperature as there. Within
-// 0.1 minute of arc of Bennett's formula (1982) from the horizon up, both for average air: true air differs
-// by several minutes of arc at the horizon. Below -1 degree nothing is published: from there it falls in a
-// straight line to 0 at -3 degrees, so that the sun sinks without a jump.
-double refraction_deg(double airless_elevation_deg, const Air& air);
-
 struct SunPosition {
     double azimuth_deg{};            // clockwise from true north, [0, 360)
     double airless_elevation_deg{};  // above the plane across the ellipsoid's normal
@@ -55,7 +43,7 @@ struct SunPosition {
 // motion and diurnal aberration (together below 0.001 degree but for the first) are left out. At a pole north
 // is where the place's longitude puts it. Source: as geocentric_sun; sidereal time by Meeus 1998, eq. 12.4;
 // radius 959.63 seconds of arc at 1 au (ibid., chapter 55).
-SunPosition sun_position(double time_utc_s, const Geodetic& place, const Air& air = {});
+SunPosition sun_position(double time_utc_s, const Geodetic& place, const Weather& weather = {});
 
 // The elevation of the sun's middle, without air, when its upper limb shows at a plain horizon: 34 minutes of
 // arc of refraction and 16 of radius, as almanacs agree on. Source: Meeus 1998, chapter 15.
@@ -76,5 +64,13 @@ struct SunDayEvents {
 // of where sun_position() has it. Most days have a rise and a set; near a polar circle there may be one only,
 // or three.
 SunDayEvents sun_day(double from_utc_s, const Geodetic& place, double horizon_deg = plain_horizon_deg);
+
+// How long it is up in those 24 hours, in seconds.
+double up_s(const SunDayEvents& events, double from_utc_s);
+
+// Solar noon: when it crosses the meridian on the side where it stands highest, next to the highest_utc_s of
+// the 24 hours from a time on (it may lie seconds before or after them), within 0.01 s. At a pole, where
+// there is no meridian, that itself.
+double solar_noon_utc_s(double from_utc_s, const Geodetic& place);
 
 }  // namespace oro

@@ -66,7 +66,10 @@ TEST(UtcTime, WhatIsNoTimeIsRefusedAsUsage) {
         const Result<std::int64_t> time = utc_time_from(text);
         ASSERT_FALSE(time.ok()) << text;
         EXPECT_EQ(time.error().kind, ErrorKind::usage) << text;
-        EXPECT_NE(time.error().what.find("'" + std::string(text) + "'"), std::string::npos) << text;
+        EXPECT_EQ(time.error().where, "") << text;
+        EXPECT_TRUE(time.error().what.starts_with("must be a time like 2026-06-21T05:30+02:00") ||
+                    time.error().what.starts_with("is ") || time.error().what.starts_with("has "))
+            << text << ": " << time.error().what;
     }
 }
 
