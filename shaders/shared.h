@@ -184,6 +184,7 @@ struct FrameStyle {
     TintStop tints[24];
     uint tint_count;
     vec3 sun_enu;   // unit vector towards the sun in the local frame of every place (a map's light)
+    float sun_hidden;  // share of its light that does not come: 0 by day, 1 when it has set
     float ambient;  // share of the light that has no direction
     float relief;   // slopes are shaded as if they were this much steeper (1: as they are)
     vec3 haze_colour;

@@ -56,9 +56,15 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
     looks.option("--style", options.style, "NAME",
                  "Colours of the ground and the sky: a style that comes with the program (default: default), "
                  "or a .json file of your own.");
-    looks.option("--sun", options.sun, "AZIMUTH,ELEVATION",
-                 "Where light comes from, in degrees: clockwise from north, and above the horizon; 315,45 is "
-                 "from the north-west. Default: the style's.");
+    CLI::Option& sun = looks.option(
+        "--sun", options.sun, "AZIMUTH,ELEVATION",
+        "Where light comes from, in degrees: clockwise from north, and above the horizon; 315,45 is from the "
+        "north-west. Below 0 there is no direct light. Default: the style's. Not with --sun-time.");
+    looks
+        .option("--sun-time", options.sun_time, "TIME",
+                "Light as the sun gives it at the eye at this time, e.g. 2026-06-21T05:30+02:00; view is the "
+                "picture's own time. Not with --sun.")
+        .excludes(&sun);
     looks.whole_number("--samples", options.samples, static_cast<int>(view_limits::samples.low),
                        static_cast<int>(view_limits::samples.high), "N",
                        "How many samples make a pixel, " + span(view_limits::samples) +
@@ -150,8 +156,8 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
 void add_time(CLI::App& command, const std::string& heading, ViewOptions& options) {
     OptionGroup(command, heading)
         .option("--time", options.time, "TIME",
-                "The time that is written down, in UTC, e.g. 2026-11-21T09:00:00Z (default: now). It does "
-                "not move the sun: --sun does.");
+                "The time that is written down, e.g. 2026-11-21T09:00:00Z (default: now). It does not move "
+                "the sun: --sun-time does.");
 }
 
 void add_no_paths(CLI::App& command, const std::string& heading, bool& no_paths) {

@@ -33,6 +33,7 @@ struct ViewOptions {
     std::optional<std::string> look_at;
     std::optional<std::string> size;
     std::optional<std::string> sun;
+    std::optional<std::string> sun_time;
     std::optional<double> exaggeration;
     std::optional<int> samples;
     std::optional<std::string> style;

@@ -102,7 +102,9 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["size_px"] = json_list(tags.width_px, tags.height_px);
     json["samples"] = shot.view.samples;
     json["exaggeration"] = shot.view.exaggeration;
-    json["sun"] = json_object("azimuth_deg", style.sun.azimuth_deg, "elevation_deg", style.sun.elevation_deg);
+    json["sun"] = json_object("azimuth_deg", style.sun.azimuth_deg, "elevation_deg", style.sun.elevation_deg,
+                              "direct_light", direct_light(style.sun), "time", nullptr);
+    if (style.sun.time) json["sun"]["time"] = style.sun.time->text;
     json["time"] = time_text(shot.view.time_utc_s);
     json["destination"] = destination_json(shot.middle);
     json["attribution"] = tags.attribution;

@@ -66,10 +66,7 @@ Style read_style(const nlohmann::json& json, const std::optional<SunDirection>& 
                      json_number(own_sun, "elevation_deg", view_limits::sun_elevation_deg.low,
                                  view_limits::sun_elevation_deg.high)};
     if (wanted_sun) sun = *wanted_sun;
-    const double azimuth = radians_from_deg(sun.azimuth_deg).rad,
-                 elevation = radians_from_deg(sun.elevation_deg).rad;
-    style.sun_enu = gpu::vec3(std::sin(azimuth) * std::cos(elevation),
-                              std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
+    light_by(sun, style);
     style.ambient = number(json, "ambient", 0.0, 1.0);
     style.relief = positive(json, "relief");
     style.haze_colour = colour_of(json_field(json, "haze"), "colour");
@@ -98,6 +95,14 @@ std::string style_names() {
 
 bool is_style_path(const std::string& style) {
     return style.ends_with(".json") || style.find('/') != std::string::npos;
+}
+
+void light_by(const SunDirection& sun, gpu::FrameStyle& style) {
+    const double azimuth = radians_from_deg(sun.azimuth_deg).rad,
+                 elevation = radians_from_deg(sun.elevation_deg).rad;
+    style.sun_enu = gpu::vec3(std::sin(azimuth) * std::cos(elevation),
+                              std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
+    style.sun_hidden = static_cast<float>(1.0 - direct_light(sun));
 }
 
 Result<Style> load_style(const std::string& name, const std::optional<SunDirection>& sun) {

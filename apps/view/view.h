@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/commands/options.h"
+#include "apps/light/sun.h"
 #include "apps/view/fingerprints.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
@@ -15,11 +16,6 @@
 #include "geo/region/region.h"
 
 namespace oro {
-
-struct SunDirection {
-    double azimuth_deg;    // clockwise from true north
-    double elevation_deg;  // above the horizon, [-90, 90]; below 0 the ground has ambient light alone
-};
 
 // What a view's file told, before options changed the view.
 struct ToldView {
@@ -54,7 +50,8 @@ struct View {
 // What to read, from the options. Usage errors: no path, a malformed box or tile.
 Result<RegionRequest> region_request(const RegionOptions& options);
 
-// Everything of a view that needs no terrain, checked: sizes, ranges, times. The camera has no eye yet.
+// Everything of a view that needs no terrain, checked: sizes, ranges, times. The camera has no eye yet, and a
+// sun by time no direction: aim_sun() gives it one.
 Result<View> view_without_eye(const ViewOptions& options, RegionRequest region);
 
 // Puts the eye of a view where the options say: at a place over the ground or above sea level, or so that the

@@ -13,6 +13,7 @@
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
 #include "apps/view/view_paths.h"
+#include "core/light/utc_time.h"
 #include "geo/files/letter_case.h"
 #include "geo/pictures/picture.h"
 #include "geo/sources/raster_source.h"
@@ -108,6 +109,24 @@ void read_camera(const nlohmann::json& json, Camera& camera) {
     camera.height_px = static_cast<int>(whole(as_field("size_px", size[1]), "size_px", limits::side_px));
 }
 
+SunDirection read_sun(const nlohmann::json& json) {
+    SunDirection sun{number(json, "azimuth_deg", limits::sun_azimuth_deg),
+                     number(json, "elevation_deg", limits::sun_elevation_deg)};
+    // Where a direction was asked for there is none.
+    if (!json.contains("time")) return sun;
+    const std::string text = json_string(json, "time");
+    const Result<std::int64_t> utc_s = utc_time_from(text);
+    if (!utc_s.ok()) throw JsonFault{"the sun's 'time' is '" + text + "', which " + utc_s.error().what};
+    sun.time = SunTime{text, *utc_s};
+    return sun;
+}
+
+ordered_json sun_json(const SunDirection& sun) {
+    ordered_json json = json_object("azimuth_deg", sun.azimuth_deg, "elevation_deg", sun.elevation_deg);
+    if (sun.time) json["time"] = sun.time->text;
+    return json;
+}
+
 // What the parser of options would have refused must not come in by a file.
 View read_fields(const nlohmann::json& json) {
     View view;
@@ -121,9 +140,7 @@ View read_fields(const nlohmann::json& json) {
     read_camera(json, view.camera);
     view.samples = static_cast<int>(whole(json, "samples", limits::samples));
     view.exaggeration = number(json, "exaggeration", limits::exaggeration);
-    if (const auto& sun = json_field(json, "sun"); !sun.is_null())
-        view.sun = SunDirection{number(sun, "azimuth_deg", limits::sun_azimuth_deg),
-                                number(sun, "elevation_deg", limits::sun_elevation_deg)};
+    if (const auto& sun = json_field(json, "sun"); !sun.is_null()) view.sun = read_sun(sun);
     view.style = path_from(json, "style");
     // Views of before there was a choice have none.
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
@@ -179,9 +196,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["samples"] = view.samples;
     json["exaggeration"] = view.exaggeration;
     json["sun"] = nullptr;
-    if (view.sun)
-        json["sun"] =
-            json_object("azimuth_deg", view.sun->azimuth_deg, "elevation_deg", view.sun->elevation_deg);
+    if (view.sun) json["sun"] = sun_json(*view.sun);
     json["style"] = path_json(view.style);
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;

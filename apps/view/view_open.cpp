@@ -36,8 +36,10 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     if (!view_file.empty()) {
         ORO_TRY(view, read_view(view_file));
         view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px,
-                             !view_options.style && !view_options.sun, view.prints};
+                             !view_options.style && !view_options.sun && !view_options.sun_time, view.prints};
         ORO_CHECK(change_view(view, view_options));
+        // A sun that its file told stays where the file has it: the same view, the same bytes.
+        if (view_options.sun_time) aim_sun(view.sun, view.camera.eye);
         ORO_CHECK(change_region(view, region_options));
         if (view.region.paths.empty())
             return Error{ErrorKind::usage, "--view " + view_file,
@@ -55,6 +57,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     view.prints = prints_of(region);
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
+    if (placed.ok()) aim_sun(view.sun, view.camera.eye);
     // Ground that could not be read is no ground to stand on, but that is not why there is none.
     ORO_CHECK(region.field.health());
     return placed;

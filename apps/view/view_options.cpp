@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <utility>
 
 #include "apps/accuracy/accuracy.h"
@@ -36,21 +35,6 @@ Result<void> set_size(const std::string& text, Camera& camera) {
     return {};
 }
 
-Result<SunDirection> parse_sun(const std::string& text) {
-    SunDirection sun{};
-    const std::size_t comma = text.find(',');
-    const std::string_view all(text);
-    if (comma == std::string::npos || !read_whole(all.substr(0, comma), sun.azimuth_deg) ||
-        !read_whole(all.substr(comma + 1), sun.elevation_deg))
-        return refused("--sun", text, "must be AZIMUTH,ELEVATION in degrees, e.g. 315,45");
-    constexpr Limits azimuth = view_limits::sun_azimuth_deg, elevation = view_limits::sun_elevation_deg;
-    if (!azimuth.hold(sun.azimuth_deg))
-        return refused("--sun", text, "the azimuth " + between_words(azimuth.low, azimuth.high));
-    if (!elevation.hold(sun.elevation_deg))
-        return refused("--sun", text, "the elevation " + between_words(elevation.low, elevation.high));
-    return sun;
-}
-
 // Of a picture without --time.
 Result<std::int64_t> picture_time_s() {
     const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
@@ -59,19 +43,6 @@ Result<std::int64_t> picture_time_s() {
                   !view_limits::time_utc_s.hold(static_cast<double>(fixed))))
         return refused("SOURCE_DATE_EPOCH", epoch, "is no number of seconds within the years 0 to 9999");
     return time_now_s();
-}
-
-Result<std::int64_t> parse_time(const std::string& text) {
-    std::tm parts{};
-    const char* const end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-    if (!end || *end != '\0')
-        return refused("--time", text, "must be a time in UTC like 2026-11-21T09:00:00Z");
-    // timegm carries what is too much: the 30th of February would be the 2nd of March.
-    const auto time_utc_s = static_cast<std::int64_t>(timegm(&parts));
-    if (time_text(time_utc_s) != text)
-        return refused("--time", text,
-                       "is no time of the calendar, or not written like 2026-11-21T09:00:00Z");
-    return time_utc_s;
 }
 
 Result<double> within(const char* option, double value, const Limits& limits) {
@@ -108,13 +79,23 @@ Result<void> apply_models(View& view, const ViewOptions& options) {
     return {};
 }
 
+// After the picture's time, which the sun may go by.
+Result<void> apply_sun(View& view, const ViewOptions& options) {
+    if (options.sun) {
+        ORO_TRY(view.sun, parse_sun(*options.sun));
+    }
+    if (options.sun_time) {
+        const bool pictures = *options.sun_time == "view";
+        ORO_TRY(const SunTime time,
+                parse_time("--sun-time", pictures ? time_text(view.time_utc_s) : *options.sun_time));
+        view.sun = SunDirection{0.0, 0.0, time};
+    }
+    return {};
+}
+
 // The options that a view from a file can be changed by.
 Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.size) ORO_CHECK(set_size(*options.size, view.camera));
-    if (options.sun) {
-        ORO_TRY(const SunDirection sun, parse_sun(*options.sun));
-        view.sun = sun;
-    }
     if (options.exaggeration) {
         ORO_TRY(view.exaggeration,
                 within("--exaggeration", *options.exaggeration, view_limits::exaggeration));
@@ -131,9 +112,10 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     }
     forget_other_bundle(view);
     if (options.time) {
-        ORO_TRY(view.time_utc_s, parse_time(*options.time));
+        ORO_TRY(const SunTime time, parse_time("--time", *options.time));
+        view.time_utc_s = time.utc_s;
     }
-    return {};
+    return apply_sun(view, options);
 }
 
 }  // namespace

@@ -254,6 +254,11 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     if (!changed) return {};
     camera.width_px = static_cast<int>(extent.width);
     camera.height_px = static_cast<int>(extent.height);
+    if (viewer.view.sun && viewer.view.sun->time) {
+        // It stands elsewhere over every place.
+        aim_sun(viewer.view.sun, camera.eye);
+        light_by(*viewer.view.sun, viewer.style);
+    }
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
     ORO_TRY(FramePlan plan, viewer.scene->plan(camera, tile, viewer.view.tau_px, viewer.view.model));
     viewer.missing = plan.missing;

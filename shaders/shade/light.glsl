@@ -27,7 +27,7 @@ vec3 in_haze(vec3 colour, float to_h_m, float distance_m) {
 
 vec3 lit_ground(SurfacePoint point) {
     vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
-    float direct = max(dot(normal, FRAME.style.sun_enu), 0.0);
+    float direct = (1.0 - FRAME.style.sun_hidden) * max(dot(normal, FRAME.style.sun_enu), 0.0);
     // The sky's share falls with the slope: a wall sees half of it.
     float diffuse = 0.5 + 0.5 * normal.z;
     float light = FRAME.style.ambient * diffuse + (1.0 - FRAME.style.ambient) * direct;

@@ -116,7 +116,7 @@ TEST(Help, HidesWhatDoesNothing) {
         {"trade",
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
           "--tolerance", "--samples"}},
-        {"plan", {"--style", "--sun", "--samples", "--pipeline", "--time"}},
+        {"plan", {"--style", "--sun", "--sun-time", "--samples", "--pipeline", "--time"}},
         {"view", {"--tolerance", "--time"}},
         {"compare", {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids"}}};
     const std::string shot = help_of({"shot"});

@@ -144,6 +144,7 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameStyle, tints),
         ORO_MEMBER(FrameStyle, tint_count),
         ORO_MEMBER(FrameStyle, sun_enu),
+        ORO_MEMBER(FrameStyle, sun_hidden),
         ORO_MEMBER(FrameStyle, ambient),
         ORO_MEMBER(FrameStyle, relief),
         ORO_MEMBER(FrameStyle, haze_colour),
