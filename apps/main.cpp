@@ -81,6 +81,7 @@ int run_command(const CLI::App& app, oro::CommandLine& line, const std::vector<s
         for (const std::string& word : words) line.trade.command += (&word == words.data() ? "" : " ") + word;
         return exit_code(oro::run_trade(line.trade));
     }
+    if (app.got_subcommand("sun")) return exit_code(oro::run_sun(line.sun));
     if (app.got_subcommand("bake")) return exit_code(oro::run_bake(line.bake));
     if (app.got_subcommand("info")) return exit_code(oro::run_info(line.info));
     return exit_code(oro::run_doctor(line.doctor));

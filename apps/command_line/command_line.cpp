@@ -143,6 +143,24 @@ void add_trade(CLI::App& app, TradeOptions& options) {
               "docs/commands/trade.md"});
 }
 
+void add_sun(CLI::App& app, SunOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "sun", "Tell when the sun first and last shows at a place, over its terrain and a plain horizon");
+    OptionGroup day(command, "The day");
+    day.option("--date", options.date, "DATE", "The day, e.g. 2026-06-21 (default: today).");
+    day.option(
+        "--zone", options.zone, "ZONE",
+        "Distance from UTC of the day and of the times that are told, e.g. +02:00. Default: the day is "
+        "from midnight by the sun to midnight, the times are UTC.");
+    add_region_options(command, options.region);
+    command.get_option("PATH")->description(
+        "Files or folders of elevation data, as of shot. Without any: over a plain horizon alone.");
+    add_place_options(command, options.view);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"sun --at PLACE [PATH...] [OPTIONS]"}, "", "docs/commands/sun.md"});
+}
+
 void add_bake(CLI::App& app, BakingOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "bake", "Write elevation data into one file (.oro) that opens at once, however large it is");
@@ -186,6 +204,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_compare(app, line.compare);
     add_plan(app, line.plan);
     add_trade(app, line.trade);
+    add_sun(app, line.sun);
     add_bake(app, line.bake);
     add_info(app, line.info);
     add_doctor(app, line.doctor);

@@ -12,6 +12,7 @@ struct CommandLine {
     CompareOptions compare;
     PlanOptions plan;
     TradeOptions trade;
+    SunOptions sun;
     BakingOptions bake;
     InfoOptions info;
     DoctorOptions doctor;

@@ -14,6 +14,8 @@ Result<void> run_compare(const CompareOptions& options);
 Result<void> run_plan(const PlanOptions& options);
 // Draws views with all settings, measures time and error, and writes a report.
 Result<void> run_trade(const TradeOptions& options);
+// Tells when the sun first and last shows at a place.
+Result<void> run_sun(const SunOptions& options);
 // Opens a window to fly over a region.
 Result<void> run_view(const WindowOptions& options);
 // Writes a region with all its levels into a file, or goes on with one that was broken off.

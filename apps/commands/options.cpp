@@ -82,22 +82,26 @@ std::string bundle_words() {
     return joined(all, " and ");
 }
 
-// What of the world is modelled, and how exactly.
-void add_model_options(OptionGroup& detail, ViewOptions& options) {
-    detail.choice("--earth", options.earth, earth_words(),
-                  "Shape of the Earth: ellipsoid (WGS84, as GPS has it; default), sphere, or flat around the "
-                  "eye. The last two are there to show how far off they are.");
+// How light goes. `values` says what K means there.
+void add_air_options(OptionGroup& detail, ViewOptions& options, const std::string& values) {
     CLI::Option& refraction =
         detail.number("--refraction", options.refraction_k, "K",
                       "How much the air bends light (a surveyor's coefficient of refraction), the same at "
                       "all heights, " +
-                          span(view_limits::refraction_k) +
-                          ": 0 is not at all (default), 0.13 is usual by day. Not with --air.");
+                          span(view_limits::refraction_k) + ": " + values + ". Not with --air.");
     detail
         .choice("--air", options.air, air_words(),
                 "standard: air that bends light less the higher the eye is, by 0.13 at sea level, 0.091 at "
                 "3,000 m and nothing from space. Not with --refraction.")
         .excludes(&refraction);
+}
+
+// What of the world is modelled, and how exactly.
+void add_model_options(OptionGroup& detail, ViewOptions& options) {
+    detail.choice("--earth", options.earth, earth_words(),
+                  "Shape of the Earth: ellipsoid (WGS84, as GPS has it; default), sphere, or flat around the "
+                  "eye. The last two are there to show how far off they are.");
+    add_air_options(detail, options, "0 is not at all (default), 0.13 is usual by day");
     detail.choice("--precision", options.precision, precision_words(),
                   "relative (default): positions are counted from the eye, and exact near it. naive: they "
                   "are counted from the Earth's centre with 7 digits, to show how far off that is.");
@@ -151,6 +155,20 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
                   "How the GPU draws triangles: with mesh shaders or with compute shaders. auto (default) "
                   "takes the faster, measured once on this machine.");
     add_model_options(detail, options);
+}
+
+void add_place_options(CLI::App& command, ViewOptions& options) {
+    OptionGroup eye(command, "The eye");
+    eye.option("--at", options.at, "PLACE",
+               "The place: latitude,longitude as in 46.57,7.99, or in another way that shot takes.");
+    CLI::Option& above = eye.number("--above", options.above_m, "METRES",
+                                    "Height of the eye over the ground there (default 2). Needs elevation "
+                                    "data. Not with --altitude.");
+    eye.number("--altitude", options.altitude_m, "METRES",
+               "Height of the eye above sea level instead. Needs elevation data. Not with --above.")
+        .excludes(&above);
+    OptionGroup detail(command, "Detail and models");
+    add_air_options(detail, options, "0 is not at all, 0.13 is usual by day (default: --air standard)");
 }
 
 void add_time(CLI::App& command, const std::string& heading, ViewOptions& options) {

@@ -105,6 +105,15 @@ struct TradeOptions {
     bool quiet{false};
 };
 
+struct SunOptions {
+    RegionOptions region;  // none: over a plain horizon alone
+    ViewOptions view;      // the place, and the air
+    std::optional<std::string> date;
+    std::optional<std::string> zone;
+    bool json{false};
+    bool quiet{false};
+};
+
 struct WindowOptions {
     RegionOptions region;
     ViewOptions view;
@@ -136,6 +145,8 @@ struct DoctorOptions {
 // Options that several commands have, each under its heading in help.
 void add_region_options(CLI::App& command, RegionOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
+// A place to stand at and the air around it, without a direction to look in.
+void add_place_options(CLI::App& command, ViewOptions& options);
 // How high ground may be where there are no data, above sea level. It decides nothing that is drawn, and so
 // is no part of a view.
 void add_unseen_ceiling(CLI::App& command, const std::string& heading, std::optional<double>& ceiling_m);

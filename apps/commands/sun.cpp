@@ -1,0 +1,132 @@
+// orograph sun: first and last light at a place, over its own skyline and over a plain horizon.
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "apps/accuracy/truth.h"
+#include "apps/command_line/refusals.h"
+#include "apps/commands/commands.h"
+#include "apps/commands/sun_text.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
+#include "apps/view/view.h"
+#include "core/base/parallel.h"
+#include "core/light/sun_over_terrain.h"
+#include "core/light/utc_time.h"
+#include "core/terrain/ground.h"
+#include "geo/places/place.h"
+
+namespace oro {
+namespace {
+
+constexpr std::int64_t day_s = 86400;
+
+// "+02:00" into seconds east of UTC.
+Result<std::int64_t> parse_zone(const std::string& text) {
+    const std::string midnight = "2000-01-01T00:00";
+    const Result<std::int64_t> there = utc_time_from(midnight + text), utc = utc_time_from(midnight + "Z");
+    if (!there.ok() || !utc.ok())
+        return refused("--zone", text, "must be a distance from UTC like +02:00, -07:00 or Z");
+    return *utc - *there;
+}
+
+// The first second of the day there: by the zone, or from midnight by the mean sun.
+Result<std::int64_t> day_begin(const SunOptions& options, double lon_deg, std::int64_t east_s) {
+    const std::int64_t ahead_s = options.zone ? east_s : std::llround(lon_deg * day_s / 360.0);
+    if (!options.date) {
+        const std::int64_t there_s = time_now_s() + ahead_s;
+        return there_s - (there_s % day_s + day_s) % day_s - ahead_s;
+    }
+    const Result<std::int64_t> midnight = utc_time_from(*options.date + "T00:00Z");
+    if (!midnight.ok() || options.date->size() != 10)
+        return refused("--date", *options.date, "must be a day of the calendar like 2026-06-21");
+    return *midnight - ahead_s;
+}
+
+SunReport::Light light_of(const SunDayEvents& events, double from_utc_s, const Geodetic& place) {
+    SunReport::Light light{events.day, up_s(events, from_utc_s), {}};
+    for (const SunCrossing& crossing : events.crossings)
+        light.crossings.push_back({std::llround(crossing.time_utc_s), crossing.rising,
+                                   sun_position(crossing.time_utc_s, place).azimuth_deg});
+    return light;
+}
+
+// Over the terrain; the eye is where the options put it.
+Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
+    ViewOptions view_options = options.view;
+    if (!view_options.refraction_k && !view_options.air) view_options.air = "standard";
+    ProgressBar bar(options.quiet);
+    View view;
+    Region region;
+    ORO_CHECK(open_view(
+        "", view_options, options.region,
+        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
+    bar.show(1.0, "looking for the sun");
+    const Geodetic& eye = view.camera.eye;
+    const double N_m = region.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    const SunOverTerrain sun(truth->surface(), eye, view.model.air, N_m);
+    const auto from_utc_s = static_cast<double>(report.from_utc_s);
+    report.terrain = light_of(sun_day(from_utc_s, sun, thread_count()), from_utc_s, eye);
+    ORO_CHECK(region.field.health());
+    bar.clear();
+    for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
+    if (const std::string holes = note_of_voids(region); !holes.empty()) say(options.quiet, "note: " + holes);
+    report.place = eye;
+    report.H_m = eye.h_m - N_m;
+    if (const auto ground = ground_h_m(region.field, eye.lat_deg, eye.lon_deg))
+        report.above_ground_m = eye.h_m - *ground;
+    report.air = view.model.air;
+    return {};
+}
+
+// What has no effect where there is no terrain.
+Result<void> leave_terrain_out(const SunOptions& options) {
+    const ViewOptions& view = options.view;
+    const RegionOptions& region = options.region;
+    for (const auto& [option, is_given] : {std::pair{"--above", view.above_m.has_value()},
+                                           {"--altitude", view.altitude_m.has_value()},
+                                           {"--refraction", view.refraction_k.has_value()},
+                                           {"--air", view.air.has_value()},
+                                           {"--bbox", !region.bbox.empty()},
+                                           {"--tile", !region.tile.empty()},
+                                           {"--height-unit", !region.height_unit.empty()},
+                                           {"--strict-datum", region.strict_datum},
+                                           {"--fill-voids", region.fill_voids}}) {
+        if (is_given) return refused(option, "", "says nothing without elevation data: name them, too");
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> run_sun(const SunOptions& options) {
+    if (!options.view.at) return refused("--at", "", "is missing: name the place, e.g. --at 46.67,8.06");
+    const Result<Place> place = parse_place(*options.view.at);
+    if (!place.ok()) return refused("--at", *options.view.at, place.error().what);
+    SunReport report;
+    report.place = {place->lat_deg, place->lon_deg, 0.0};
+    if (options.zone) {
+        ORO_TRY(report.east_s, parse_zone(*options.zone));
+        report.zone = *options.zone;
+    }
+    ORO_TRY(report.from_utc_s, day_begin(options, place->lon_deg, report.east_s));
+    if (options.region.paths.empty()) {
+        ORO_CHECK(leave_terrain_out(options));
+    } else {
+        ORO_CHECK(look_over_terrain(options, report));
+    }
+    const auto from_utc_s = static_cast<double>(report.from_utc_s);
+    // Over a plain horizon as almanacs have it: whatever the place's height.
+    const Geodetic plain{place->lat_deg, place->lon_deg, 0.0};
+    report.plain = light_of(sun_day(from_utc_s, plain), from_utc_s, plain);
+    const double noon_utc_s = solar_noon_utc_s(from_utc_s, plain);
+    report.noon_utc_s = std::llround(noon_utc_s);
+    report.noon = sun_position(noon_utc_s, plain);
+    std::fputs(options.json ? (json_text(sun_json(report), true) + "\n").c_str() : sun_text(report).c_str(),
+               stdout);
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,42 @@
+// What orograph sun found, as people and as programs read it.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/earth/world_model.h"
+#include "core/light/sun_position.h"
+
+namespace oro {
+
+struct SunReport {
+    struct Crossing {
+        std::int64_t time_utc_s{};
+        bool rising{};
+        double azimuth_deg{};  // of the disc's middle
+    };
+    struct Light {
+        SunDay day{};
+        double sunlight_s{};  // of the 24 hours
+        std::vector<Crossing> crossings;
+    };
+    Geodetic place;                        // h is 0 where there is no terrain
+    std::optional<double> H_m;             // of the eye, and so are the next two: with terrain
+    std::optional<double> above_ground_m;  // nothing where there is no ground below
+    std::optional<Air> air;
+    std::int64_t from_utc_s{};  // the day: 24 hours from here on
+    std::int64_t east_s{};      // of UTC, for times that are told
+    std::string zone{"Z"};
+    Light plain;
+    std::optional<Light> terrain;
+    std::int64_t noon_utc_s{};
+    SunPosition noon;
+};
+
+std::string sun_text(const SunReport& report);
+nlohmann::ordered_json sun_json(const SunReport& report);
+
+}  // namespace oro
