@@ -167,7 +167,16 @@ void show_title(Viewer& viewer) {
     viewer.shown_title = title;
 }
 
+// A sun by time stands elsewhere over every place.
+void follow_sun(Viewer& viewer) {
+    std::optional<SunDirection>& sun = viewer.view.sun;
+    if (!sun || !sun->time) return;
+    aim_sun(sun, viewer.view.camera.eye);
+    light_by(*sun, viewer.style);
+}
+
 Result<void> take_picture(Viewer& viewer) {
+    follow_sun(viewer);
     if (viewer.finer) {
         // A picture is what its view says, and nothing coarser.
         viewer.message = "the picture waits for finer detail";
@@ -254,11 +263,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     if (!changed) return {};
     camera.width_px = static_cast<int>(extent.width);
     camera.height_px = static_cast<int>(extent.height);
-    if (viewer.view.sun && viewer.view.sun->time) {
-        // It stands elsewhere over every place.
-        aim_sun(viewer.view.sun, camera.eye);
-        light_by(*viewer.view.sun, viewer.style);
-    }
+    follow_sun(viewer);
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
     ORO_TRY(FramePlan plan, viewer.scene->plan(camera, tile, viewer.view.tau_px, viewer.view.model));
     viewer.missing = plan.missing;

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/light/sun_position.h"
 #include "tests/apps/program.h"
 #include "tests/support/test_data.h"
 
@@ -90,6 +91,16 @@ json object_of(const oro::test::Outcome& outcome) {
     return json::parse(outcome.out, nullptr, false);
 }
 
+// The sun by time is that of the place where the picture was taken, not of where the flight began.
+void expect_sun_of_there(const json& told) {
+    const json &sun = told.at("sun"), &eye = told.at("eye");
+    const oro::SunPosition there_then = oro::sun_position(
+        1782072000.0, {eye.at("lat_deg").get<double>(), eye.at("lon_deg").get<double>(), 0.0});
+    EXPECT_EQ(sun.at("time"), "2026-06-21T16:00-04:00");
+    EXPECT_NEAR(sun.at("azimuth_deg").get<double>(), there_then.azimuth_deg, 1e-6);
+    EXPECT_NEAR(sun.at("elevation_deg").get<double>(), there_then.elevation_deg, 0.001);
+}
+
 TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
     const fs::path folder = oro::test::scratch_folder();
     const std::string data = (oro::test::bundled_data() / "jacksboro.tif").string();
@@ -147,6 +158,7 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
         oro::test::run_orograph({"shot", "--view", picture, "--out", folder / "again.png", "--json", "-q"});
     EXPECT_EQ(again.exit_code, 0) << again.err;
     expect_picked(folder, object_of(again).at("destination"));
+    expect_sun_of_there(object_of(again));
     EXPECT_TRUE(oro::test::bytes_of(folder / "again.png") == oro::test::bytes_of(picture));
 }
 
