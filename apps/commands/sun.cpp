@@ -52,6 +52,26 @@ SunReport::Light light_of(const SunDayEvents& events, double from_utc_s, const G
     return light;
 }
 
+// How far the grid reaches from a place in a direction, in whole kilometres; along a sphere, which is within
+// 1 % of it.
+double data_reach_m(const PostGrid& grid, const Geodetic& place, double azimuth_deg) {
+    constexpr double step_m = 1000.0, farthest_m = 1.0e6;
+    const SineCosine lat = sine_cosine_deg(place.lat_deg), azimuth = sine_cosine_deg(azimuth_deg);
+    double reach_m = 0.0;
+    while (reach_m < farthest_m) {
+        const double angle = (reach_m + step_m) / mean_radius_m;
+        const double sine = lat.sine * std::cos(angle) + lat.cosine * std::sin(angle) * azimuth.cosine;
+        const double east = azimuth.sine * std::sin(angle) * lat.cosine;
+        const double lon_deg =
+            place.lon_deg + deg_from_radians(Radians{std::atan2(east, std::cos(angle) - lat.sine * sine)});
+        const double row = grid.lat.index_at(deg_from_radians(Radians{std::asin(sine)}));
+        const double column = grid.column_at(std::remainder(lon_deg, 360.0));
+        if (!(row >= 0.0 && row <= grid.rows() - 1 && column >= 0.0 && column <= grid.columns() - 1)) break;
+        reach_m += step_m;
+    }
+    return reach_m;
+}
+
 // Over the terrain; the eye is where the options put it.
 Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     ViewOptions view_options = options.view;
@@ -69,6 +89,8 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     const SunOverTerrain sun(truth->surface(), eye, view.model.air, N_m);
     const auto from_utc_s = static_cast<double>(report.from_utc_s);
     report.terrain = light_of(sun_day(from_utc_s, sun, thread_count()), from_utc_s, eye);
+    for (SunReport::Crossing& crossing : report.terrain->crossings)
+        crossing.data_reach_m = data_reach_m(region.field.grid, eye, crossing.azimuth_deg);
     ORO_CHECK(region.field.health());
     bar.clear();
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);

@@ -34,9 +34,12 @@ const SunReport::Crossing* last_light(const SunReport::Light& light) {
 
 std::string crossing_text(const SunReport& report, const SunReport::Crossing* crossing) {
     if (!crossing) return "none this day";
-    char azimuth[40];
-    std::snprintf(azimuth, sizeof azimuth, ", at %.1f degrees", crossing->azimuth_deg);
-    return time_there(report, crossing->time_utc_s) + azimuth;
+    char where[80];
+    std::snprintf(where, sizeof where, ", at %.1f degrees", crossing->azimuth_deg);
+    const std::string text = time_there(report, crossing->time_utc_s) + where;
+    if (!crossing->data_reach_m) return text;
+    std::snprintf(where, sizeof where, " (data reach %.0f km)", *crossing->data_reach_m / 1000.0);
+    return text + where;
 }
 
 std::string duration_text(double seconds) {
@@ -92,8 +95,11 @@ const char* key_of(SunDay day) {
 
 ordered_json crossing_json(const SunReport& report, const SunReport::Crossing* crossing) {
     if (!crossing) return nullptr;
-    return json_object("time", time_there(report, crossing->time_utc_s), "time_utc_s", crossing->time_utc_s,
-                       "rising", crossing->rising, "azimuth_deg", crossing->azimuth_deg);
+    ordered_json json =
+        json_object("time", time_there(report, crossing->time_utc_s), "time_utc_s", crossing->time_utc_s,
+                    "rising", crossing->rising, "azimuth_deg", crossing->azimuth_deg);
+    if (crossing->data_reach_m) json["data_reach_m"] = *crossing->data_reach_m;
+    return json;
 }
 
 ordered_json light_json_of(const SunReport& report, const SunReport::Light& light) {

@@ -17,6 +17,8 @@ struct SunReport {
         std::int64_t time_utc_s{};
         bool rising{};
         double azimuth_deg{};  // of the disc's middle
+        // Over terrain: how far the data reach that way. What lies beyond could hide the sun for longer.
+        std::optional<double> data_reach_m{};
     };
     struct Light {
         SunDay day{};

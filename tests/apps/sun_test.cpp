@@ -78,6 +78,12 @@ TEST(SunCommand, OverTerrain) {
     EXPECT_LT(span(low["terrain"]).second, span(low["plain"]).second);
     EXPECT_LT(span(high["terrain"]).first, span(high["plain"]).first);
     EXPECT_GT(span(high["terrain"]).second, span(high["plain"]).second);
+    // By hand: 0.1217 degree east to the data's edge at an azimuth of 103, 0.2133 west at 266.
+    const auto reach_m = [&](const char* which) {
+        return low["terrain"][which]["data_reach_m"].get<double>();
+    };
+    EXPECT_NEAR(reach_m("first_light"), 11200.0, 1000.0);
+    EXPECT_NEAR(reach_m("last_light"), 19100.0, 1000.0);
     EXPECT_NEAR(high["place"]["above_ground_m"].get<double>(), 3000.0, 0.01);
     EXPECT_EQ(run_orograph({"sun", bundled(), "--at", "36.5,-84.2", "--date", "2026-03-21", "--zone",
                             "-04:00", "--json"})
