@@ -131,7 +131,7 @@ ordered_json sun_json(const SunReport& report) {
     ordered_json json = ordered_json::object();
     ordered_json& place = json["place"] =
         json_object("lat_deg", report.place.lat_deg, "lon_deg", report.place.lon_deg);
-    place["h_m"] = place["H_m"] = place["above_ground_m"] = nullptr;
+    for (const char* name : {"h_m", "H_m", "above_ground_m"}) place[name] = nullptr;
     if (report.H_m) place["h_m"] = report.place.h_m;
     if (report.H_m) place["H_m"] = *report.H_m;
     if (report.above_ground_m) place["above_ground_m"] = *report.above_ground_m;
