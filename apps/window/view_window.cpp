@@ -325,7 +325,7 @@ Result<void> run_view(const WindowOptions& options) {
     if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
     view.camera = above_ground(view.camera, region.field, view.exaggeration);
     ORO_CHECK(region.field.health());
-    ORO_TRY(const Style style, load_style(view.style, view.sun));
+    ORO_TRY(const Style style, load_style(view, region.field));
     GpuOptions gpu_options = gpu_options_from_environment();
     gpu_options.instance_extensions = extensions;
     gpu_options.presents = true;

@@ -12,7 +12,7 @@
 namespace oro {
 namespace {
 
-constexpr VkDeviceSize pages_offset = 2048;  // FrameConstants come first
+constexpr VkDeviceSize pages_offset = 8192;  // FrameConstants come first
 static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
 
 // Where the parts of a frame's data lie, in bytes.
