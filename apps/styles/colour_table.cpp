@@ -23,7 +23,7 @@ struct NamedColour {
     std::string_view name;
     ColourCodes colour;
 };
-// Source: GDAL, gdaldem_lib.cpp, the names of color-relief; each is held against GDAL by a test.
+// As GDAL 3.6 has them; each is held against GDAL by a test.
 constexpr std::array<NamedColour, 16> named_colours{{{"white", {255, 255, 255}},
                                                      {"black", {0, 0, 0}},
                                                      {"red", {255, 0, 0}},
@@ -32,14 +32,14 @@ constexpr std::array<NamedColour, 16> named_colours{{{"white", {255, 255, 255}},
                                                      {"yellow", {255, 255, 0}},
                                                      {"magenta", {255, 0, 255}},
                                                      {"cyan", {0, 255, 255}},
-                                                     {"aqua", {0, 255, 255}},
-                                                     {"grey", {190, 190, 190}},
-                                                     {"gray", {190, 190, 190}},
-                                                     {"orange", {255, 165, 0}},
-                                                     {"brown", {165, 42, 42}},
-                                                     {"purple", {128, 0, 128}},
-                                                     {"violet", {238, 130, 238}},
-                                                     {"indigo", {75, 0, 130}}}};
+                                                     {"aqua", {0, 191, 191}},
+                                                     {"grey", {191, 191, 191}},
+                                                     {"gray", {191, 191, 191}},
+                                                     {"orange", {255, 127, 0}},
+                                                     {"brown", {191, 127, 63}},
+                                                     {"purple", {127, 0, 255}},
+                                                     {"violet", {127, 0, 255}},
+                                                     {"indigo", {0, 127, 255}}}};
 
 std::string lower(std::string text) {
     std::ranges::transform(text, text.begin(),

@@ -15,7 +15,7 @@ namespace oro {
 namespace {
 
 constexpr int across = 25, down = 16;  // sight lines
-constexpr double wanted_px = 14.0;     // in the middle of 5 and 40, as factors go
+constexpr double wanted_px = 11.0;     // 5 to 40 is wanted, and steep ground has half of the middle
 constexpr double highest_m = 9000.0;   // no ground above it
 constexpr double otherwise_m = 100.0;
 

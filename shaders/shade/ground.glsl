@@ -66,11 +66,13 @@ vec3 in_relief_light(vec3 codes, SurfacePoint point) {
     float contrast = mix(light.low_contrast, 1.0, up);
     vec3 warm = mix(codes, light.lit, light.lit_share * contrast * lit);
     vec3 shaded = warm * mix(vec3(1.0), light.shadow, contrast * turned_away);
-    return mix(shaded, light.veil, light.low_veil * (1.0 - up));
+    // Steep ground is darker whichever way it faces: relief is seen in the light, too.
+    float steep = 1.0 - normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z)).z;
+    return mix(shaded * (1.0 - 0.35 * contrast * steep), light.veil, light.low_veil * (1.0 - up));
 }
 
 // Lines where H is a multiple of the interval, as wide as the style says wherever the ground is seen from; thinned out where they would
-// stand less than 5 px apart. A centimetre is added to H: a lake at a round height is no line.
+// stand less than 3.5 px apart. A centimetre is added to H: a lake at a round height is no line.
 vec3 with_contours(vec3 colour, SurfacePoint point) {
     float interval = FRAME.style.contours.interval_m;
     if (interval <= 0.0 || point.H_per_px <= 0.0) return colour;
@@ -79,12 +81,13 @@ vec3 with_contours(vec3 colour, SurfacePoint point) {
     bool fifth = mod(nearest, 5.0) == 0.0;
     float half_width_px = FRAME.style.contours.width_px * (fifth ? 1.0 : 0.5);
     float there = clamp(half_width_px + 0.5 - off_px, 0.0, 1.0) * min(2.0 * half_width_px, 1.0);
-    float room = smoothstep(2.5, 5.0, fifth ? 5.0 * apart_px : apart_px);
+    float room = smoothstep(1.5, 3.5, fifth ? 5.0 * apart_px : apart_px);
     return mix(colour, FRAME.style.contours.colour, there * room);
 }
 
 // In linear light, before any air.
 vec3 ground_colour(SurfacePoint point) {
+    if (!as_map) return sunlit(tint(point.H_m), point);
     vec3 colour = ground_tint(point);
     if (FRAME.style.light == light_hillshade) colour = hillshaded(colour, point);
     if (FRAME.style.light == light_relief) colour = in_relief_light(colour, point);
@@ -95,7 +98,7 @@ vec3 ground_colour(SurfacePoint point) {
 
 vec3 seen_ground(SurfacePoint point) {
     vec3 colour = ground_colour(point);
-    return FRAME.style.is_map == 1u ? colour : in_haze(colour, point.h_m, length(point.view));
+    return as_map && FRAME.style.is_map == 1u ? colour : in_haze(colour, point.h_m, length(point.view));
 }
 
-vec3 seen_background(vec3 direction) { return FRAME.style.is_map == 1u ? FRAME.style.no_data_colour : background(direction); }
+vec3 seen_background(vec3 direction) { return as_map && FRAME.style.is_map == 1u ? FRAME.style.no_data_colour : background(direction); }

@@ -1,6 +1,8 @@
 #version 460
 // Colours each pixel once: turns its triangle id back into a place on the surface, and that into light.
 #extension GL_GOOGLE_include_directive : require
+// A map: any FrameStyle that is not tints by height, as light, in the sun and in air. Code of its own, so that other pictures pay nothing.
+layout(constant_id = 1) const bool as_map = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

@@ -29,10 +29,24 @@ vec2 rise_at_post(PageBlocks block, FramePage page, ivec2 post) {
     return height_step_m * rise / span_m;
 }
 
+// The same of the geoid's undulation, at a place of the region; metres from one of its posts to the next.
+vec2 geoid_rise(vec2 region, vec2 post_m) {
+    if (FRAME.undulation.N_m == uvec2(0u)) return vec2(0.0);
+    float east = undulation_at(region + vec2(0.0, 1.0)), west = undulation_at(region - vec2(0.0, 1.0));
+    float north = undulation_at(region - vec2(1.0, 0.0)), south = undulation_at(region + vec2(1.0, 0.0));
+    return 0.5 * vec2(east - west, north - south) / post_m;
+}
+
+// Of the heights above sea level, as the data have them: a lake is level. What the steps of drawn heights round off is no slope.
 vec3 horn_normal_at(PageBlocks block, FramePage page, vec2 post) {
     ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 in_cell = post - vec2(cell);
     vec2 north = mix(rise_at_post(block, page, cell), rise_at_post(block, page, cell + ivec2(0, 1)), in_cell.y);
     vec2 south = mix(rise_at_post(block, page, cell + ivec2(1, 0)), rise_at_post(block, page, cell + ivec2(1, 1)), in_cell.y);
-    return normalize(vec3(-mix(north, south, in_cell.x), 1.0));
+    float cosine = RowTable(FRAME.row_terms).at[page.row_terms + uint(cell.x)].cosine;
+    vec2 post_m = vec2(max(abs(cosine) * block.at[0].column_spacing_m, 1.0e-3), block.at[0].row_spacing_m);
+    vec2 rise = mix(north, south, in_cell.x) - geoid_rise(region_post(page, post), post_m);
+    float step_m = height_step_m * (FRAME.height_bits == 32u ? 1.0 : float(1u << FRAME.height_shift));
+    if (all(lessThan(abs(rise) * 2.0 * post_m * float(1u << page.level), vec2(1.01 * step_m)))) rise = vec2(0.0);
+    return normalize(vec3(-rise, 1.0));
 }

@@ -97,7 +97,7 @@ float undulation_at(vec2 post) {
 // A map's angle is that of Horn's formula; light alone takes the sharper one.
 vec3 shading_normal_at(PageBlocks block, FramePage page, vec2 post) {
     bool is_angle = FRAME.style.colour_by != colour_by_height || FRAME.style.light == light_hillshade || FRAME.style.light == light_relief;
-    if (is_angle) return horn_normal_at(block, page, post);
+    if (as_map && is_angle) return horn_normal_at(block, page, post);
     return normal_at(block, page, post);
 }
 
@@ -166,7 +166,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     descend(page, post, length(point.view));
     point.normal = shading_normal_at(PageBlocks(page.block), page, post);
     point.H_per_px = 0.0;
-    if (FRAME.style.contours.interval_m > 0.0) {
+    if (as_map && FRAME.style.contours.interval_m > 0.0) {
         // The shares are quotients of terms linear in the ray: how they change from pixel to pixel, and the height with them.
         vec3 pixel = vec3(2.0 / (vec2(FRAME.width_px, FRAME.height_px) * FRAME.projection_scale), 0.0);
         vec2 along_x = shares_change(vec3(pixel.x, 0.0, 0.0), at[0], edge_b, edge_c, shares) * scale;

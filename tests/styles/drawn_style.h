@@ -6,6 +6,7 @@
 #include <gdal.h>
 #include <gdal_utils.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -129,7 +130,25 @@ class StyleTest : public GpuTest {
         return load_style(view, field);
     }
 
-    // The same bytes by both ways of drawing.
+    // The same bytes by both ways of drawing, but where a pixel's centre lies on the edge of two triangles
+    // and they show it of one and of the other.
+    static void hold_alike(const DepthPicture& mesh, const DepthPicture& compute) {
+        ASSERT_EQ(mesh.points.size(), compute.points.size());
+        std::size_t ties = 0, unlike = 0;
+        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+            const DrawnPoint &one = mesh.points[i], &other = compute.points[i];
+            const bool same = one.row == other.row && one.column == other.column && one.z_m == other.z_m;
+            const bool alike = std::equal(mesh.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i),
+                                          mesh.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i + 4),
+                                          compute.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+            ties += same ? 0U : 1U;
+            unlike += same && !alike ? 1U : 0U;
+        }
+        EXPECT_EQ(unlike, 0U) << "pixels of mesh and compute differ";
+        EXPECT_LE(ties, 8 + mesh.points.size() / 5000);
+    }
+
+    // By both ways of drawing.
     std::optional<DepthPicture> drawn(const Region& region, const Camera& camera, const Style& style) {
         std::optional<DepthPicture> first;
         for (const RasterPath path : {RasterPath::mesh, RasterPath::compute}) {
@@ -143,7 +162,7 @@ class StyleTest : public GpuTest {
             EXPECT_TRUE(picture.ok()) << picture.error().line();
             if (!picture.ok()) return std::nullopt;
             if (first) {
-                EXPECT_EQ(first->rgba, picture->rgba) << "of mesh and compute";
+                hold_alike(*first, *picture);
             } else {
                 first = std::move(*picture);
             }

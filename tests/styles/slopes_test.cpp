@@ -268,10 +268,17 @@ TEST_F(Slopes, AreThoseOfGdaldemOnAProjectedRaster) {
     OSRDestroySpatialReference(to);
 }
 
-// Level ground has no aspect: the style says what it is drawn in.
+// Level ground has no aspect, although the geoid falls by 1 m in a km below it: the style says what it is
+// drawn in.
 TEST_F(Slopes, LevelGroundTakesItsOwnColour) {
     Region region;
     region.field = test::square_field(46.5, 8.0, 30.0, 60, [](int, int) { return 1500.0; });
+    region.field.undulation.lat = {1.0, 50.0, 0, -1, 8};
+    region.field.undulation.lon = {1.0, 5.0, 0, +1, 8};
+    for (int row = 0; row < 8; ++row) {
+        for (int column = 0; column < 8; ++column)
+            region.field.undulation.N_m.push_back(static_cast<float>(80.0 * column - 110.0 * row));
+    }
     const Camera camera = test::straight_down(region.field, 30.0, 40.0, 64);
     const auto style = style_of(telling("aspect", "aspect_deg", 1.0), ".json", camera, region.field);
     ASSERT_TRUE(style.ok()) << style.error().line();
