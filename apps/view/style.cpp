@@ -87,12 +87,15 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     }
     ORO_TRY(Style style, read_style(*text, path, field));
     light_from(view.sun.value_or(style.sun), style);
-    if (style.contours_by_view) {
-        style.frame.contours.interval_m =
-            static_cast<float>(contour_interval_m(view.camera, view.exaggeration, field));
-        ORO_CHECK(field.health());
-    }
+    ORO_CHECK(fit_to_view(style, view, field));
     return style;
+}
+
+Result<void> fit_to_view(Style& style, const View& view, const HeightField& field) {
+    if (!style.contours_by_view) return {};
+    style.frame.contours.interval_m =
+        static_cast<float>(contour_interval_m(view.camera, view.exaggeration, field));
+    return field.health();
 }
 
 }  // namespace oro

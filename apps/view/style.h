@@ -23,4 +23,7 @@ bool is_style_path(const std::string& style);
 // light. Errors: no such style, or what is wrong in it; posts that cannot be read.
 Result<Style> load_style(const View& view, const HeightField& field);
 
+// What of a style follows from the view, after the eye has moved. Errors: posts that cannot be read.
+Result<void> fit_to_view(Style& style, const View& view, const HeightField& field);
+
 }  // namespace oro
