@@ -22,7 +22,7 @@ class ColourTables : public test::StyleTest {
     void SetUp() override {
         test::StyleTest::SetUp();
         region_.field = test::square_field(46.5, 8.0, post_m, 160, ramp_m);
-        raster_ = test::local_raster(region_.field, post_m);
+        raster_ = test::local_raster(region_.field, post_m, post_m);
     }
 
     // Largest difference of a byte, at pixels within 0.1 m of a post's height.

@@ -104,11 +104,11 @@ inline std::vector<Band> gdaldem(const std::filesystem::path& raster, const char
 }
 
 // A field's posts as a raster of metres, in no place.
-inline std::filesystem::path local_raster(const HeightField& field, double post_m) {
+inline std::filesystem::path local_raster(const HeightField& field, double column_m, double row_m) {
     Raster raster;
     raster.rows = field.grid.rows();
     raster.columns = field.grid.columns();
-    raster.cell_corners = {0.0, post_m, 0.0, 0.0, 0.0, -post_m};
+    raster.cell_corners = {0.0, column_m, 0.0, 0.0, 0.0, -row_m};
     raster.crs = "";
     const std::filesystem::path file = scratch_folder() / "posts.tif";
     EXPECT_NE(write_raster(file, raster, [&](int row, int column) { return field.H_at_post_m(row, column); }),

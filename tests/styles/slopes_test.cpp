@@ -65,8 +65,11 @@ const std::string hillshade =
 // Downhill (east, north), metres per metre, at each post, from what gdaldem says of it.
 class GdalSlopes {
   public:
-    explicit GdalSlopes(const std::filesystem::path& raster)
-        : slope_(gdaldem(raster, "slope").at(0)),
+    // rows_per_column: gdaldem takes cells for squares when it computes an aspect; so many metres of a row's
+    // spacing to one of a column's undo that.
+    explicit GdalSlopes(const std::filesystem::path& raster, double rows_per_column = 1.0)
+        : rows_per_column_(rows_per_column),
+          slope_(gdaldem(raster, "slope").at(0)),
           aspect_(gdaldem(raster, "aspect").at(0)),
           shade_(gdaldem(raster, "hillshade").at(0)) {}
 
@@ -85,8 +88,10 @@ class GdalSlopes {
     [[nodiscard]] glm::dvec2 at(int row, int column) const {
         const double slope = std::tan(slope_.at(row, column) / to_deg), aspect = aspect_.at(row, column);
         if (aspect < 0.0) return {0.0, 0.0};  // flat
-        return slope * glm::dvec2(std::sin(aspect / to_deg), std::cos(aspect / to_deg));
+        return slope * glm::normalize(glm::dvec2(std::sin(aspect / to_deg) * rows_per_column_,
+                                                 std::cos(aspect / to_deg)));
     }
+    double rows_per_column_;
     Band slope_, aspect_, shade_;
 };
 
@@ -223,7 +228,24 @@ TEST_F(Slopes, AreThoseOfGdaldemOnTheSamePosts) {
     region.field = test::square_field(46.5, 8.0, post_m, posts,
                                       [](int row, int column) { return hills_m(row, column, post_m); });
     const Camera camera = test::straight_down(region.field, post_m, 190.0, 1100);
-    look("the same posts", region, camera, GdalSlopes(test::local_raster(region.field, post_m)),
+    look("the same posts", region, camera, GdalSlopes(test::local_raster(region.field, post_m, post_m)),
+         [](const DrawnPoint& point) { return glm::dvec2(point.row, point.column); });
+}
+
+// Real terrain, in whole metres, on its own grid of latitudes and longitudes: a part so low that a column's
+// metres change by 0.05 % at most.
+TEST_F(Slopes, AreThoseOfGdaldemOnTheBundledRegion) {
+    RegionRequest request = test::request_for({(test::bundled_data() / "jacksboro.tif").string()});
+    request.box = BoundingBox{-84.36, 36.50, -84.28, 36.58};
+    std::string reason;
+    const auto region = test::opened(request, &reason);
+    ASSERT_TRUE(region) << reason;
+    const PostGrid& grid = region->field.grid;
+    const test::MetresPerDegree degree =
+        test::metres_per_degree(0.5 * (grid.north_deg() + grid.south_deg()), 500.0);
+    const double column_m = degree.lon * grid.lon.spacing_deg(), row_m = degree.lat * grid.lat.spacing_deg();
+    look("the bundled region", *region, test::straight_down(region->field, row_m, 90.0, 1200),
+         GdalSlopes(test::local_raster(region->field, column_m, row_m), row_m / column_m),
          [](const DrawnPoint& point) { return glm::dvec2(point.row, point.column); });
 }
 
