@@ -16,7 +16,9 @@ namespace {
 
 constexpr int across = 25, down = 16;  // sight lines
 constexpr double wanted_px = 11.0;     // 5 to 40 is wanted, and steep ground has half of the middle
-constexpr double highest_m = 9000.0;   // no ground above it
+constexpr double least_px = 5.5;
+constexpr double wanted_lines = 5.0;  // from the low ground to the high, where there is room for them
+constexpr double highest_m = 9000.0;  // no ground above it
 constexpr double otherwise_m = 100.0;
 
 // H at a place where there is ground.
@@ -73,15 +75,24 @@ std::optional<double> H_per_px(const HeightField& field, double exaggeration, co
     return std::hypot(rise(right), rise(up));
 }
 
-double round_interval_m(double wanted_m) {
-    double best_m = 1.0;
+// The nearest to what is wanted of those that are at least so large; 5,000 where none is.
+double round_interval_m(double wanted_m, double least_m) {
+    double best_m = 5000.0;
     for (const double power : {1.0, 10.0, 100.0, 1000.0}) {
         for (const double step : {1.0, 2.0, 5.0}) {
             const double off = std::abs(std::log(step * power / wanted_m));
-            if (off < std::abs(std::log(best_m / wanted_m))) best_m = step * power;
+            if (step * power >= least_m && off < std::abs(std::log(best_m / wanted_m))) best_m = step * power;
         }
     }
     return best_m;
+}
+
+// The value that so large a share of them is below.
+double quantile(std::vector<double> values, double share) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, at);
+    return *at;
 }
 
 }  // namespace
@@ -89,7 +100,7 @@ double round_interval_m(double wanted_m) {
 double contour_interval_m(const Camera& camera, double exaggeration, const HeightField& field) {
     const Ecef eye = camera.eye_ecef();
     const double px_rad = 2.0 * camera.half_fov_tangent().y / camera.height_px;
-    std::vector<double> rises_m;
+    std::vector<double> rises_m, heights_m;
     for (int y = 0; y < down; ++y) {
         for (int x = 0; x < across; ++x) {
             const glm::dvec2 at((x + 0.5) * camera.width_px / across, (y + 0.5) * camera.height_px / down);
@@ -97,13 +108,15 @@ double contour_interval_m(const Camera& camera, double exaggeration, const Heigh
             if (!ground) continue;
             const auto rise_m =
                 H_per_px(field, exaggeration, *ground, ecef_from_geodetic(*ground).m - eye.m, px_rad);
-            if (rise_m && *rise_m > 0.0) rises_m.push_back(*rise_m);
+            if (!rise_m || *rise_m <= 0.0) continue;
+            rises_m.push_back(*rise_m);
+            heights_m.push_back(*H_at(field, ground->lat_deg, ground->lon_deg));
         }
     }
     if (rises_m.empty()) return otherwise_m;
-    const auto middle = rises_m.begin() + static_cast<std::ptrdiff_t>(rises_m.size() / 2);
-    std::ranges::nth_element(rises_m, middle);
-    return round_interval_m(wanted_px * *middle);
+    const double rise_m = quantile(rises_m, 0.5);
+    const double relief_m = quantile(heights_m, 0.95) - quantile(heights_m, 0.05);
+    return round_interval_m(std::min(wanted_px * rise_m, relief_m / wanted_lines), least_px * rise_m);
 }
 
 }  // namespace oro
