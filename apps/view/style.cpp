@@ -21,14 +21,6 @@
 namespace oro {
 namespace {
 
-void light_from(const SunDirection& sun, Style& style) {
-    style.sun = sun;
-    const double azimuth = radians_from_deg(sun.azimuth_deg).rad,
-                 elevation = radians_from_deg(sun.elevation_deg).rad;
-    style.frame.sun_enu = gpu::vec3(std::sin(azimuth) * std::cos(elevation),
-                                    std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
-}
-
 // "default, aspect, grey": of the styles that come with the program; "" where there are none.
 std::string style_names() {
     std::vector<std::string> names;
@@ -70,6 +62,13 @@ bool is_style_path(const std::string& style) {
     return style.ends_with(".json") || is_table(style) || style.find('/') != std::string::npos;
 }
 
+void light_by(const SunDirection& sun, gpu::FrameStyle& style) {
+    const double azimuth = radians_from_deg(sun.azimuth_deg).rad,
+                 elevation = radians_from_deg(sun.elevation_deg).rad;
+    style.sun_enu = gpu::vec3(std::sin(azimuth) * std::cos(elevation),
+                              std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
+}
+
 Result<Style> load_style(const View& view, const HeightField& field) {
     const std::string& name = view.style;
     const bool is_path = is_style_path(name);
@@ -86,7 +85,8 @@ Result<Style> load_style(const View& view, const HeightField& field) {
                      text.error().line()};
     }
     ORO_TRY(Style style, read_style(*text, path, field));
-    light_from(view.sun.value_or(style.sun), style);
+    style.sun = view.sun.value_or(style.sun);
+    light_by(style.sun, style.frame);
     ORO_CHECK(fit_to_view(style, view, field));
     return style;
 }

@@ -18,6 +18,9 @@ struct Style {
 // True for a path (ending in .json or .txt, or with a folder), false for a name in the data folder.
 bool is_style_path(const std::string& style);
 
+// Lets that sun light a frame; colours stay.
+void light_by(const SunDirection& sun, gpu::FrameStyle& style);
+
 // A view's style, by name (in the data folder) or by path (.json, or .txt: a colour table of GDAL), lit by
 // the view's sun where it has one; `field` is what the view looks at. Colours are turned from sRGB to linear
 // light. Errors: no such style, or what is wrong in it; posts that cannot be read.
