@@ -174,24 +174,59 @@ ORO_CONST uint large_max = 262144u;
 ORO_CONST uint tasks_max = 1048576u;
 
 struct TintStop {
-    float H_m;
-    vec3 colour;  // linear light
+    float at;     // H in metres, or degrees: as FrameStyle.colour_by
+    vec3 colour;  // linear light; with tints_as_codes sRGB-encoded, 0 to 1
 };
-ORO_CONST uint tint_stops_max = 24u;
+ORO_CONST uint tint_stops_max = 256u;
 
-// How a frame is coloured. Colours are linear light, Rec. 709 primaries.
+// FrameStyle.colour_by: what of the ground its tints are of.
+ORO_CONST uint colour_by_height = 0u;
+ORO_CONST uint colour_by_slope = 1u;   // degrees, 0 level
+ORO_CONST uint colour_by_aspect = 2u;  // degrees clockwise from true north: where the ground falls to
+// FrameStyle.light: what lies over the tints.
+ORO_CONST uint light_sun = 0u;        // the sun and ambient light
+ORO_CONST uint light_none = 1u;       // the tints are what is seen
+ORO_CONST uint light_hillshade = 2u;  // the tints times a hillshade's grey
+ORO_CONST uint light_relief = 3u;     // warm light and cool shadow, stronger with height
+
+// Light of two colours, as on Swiss relief maps: more of it the higher the ground.
+struct ReliefLight {
+    vec3 lit;         // what slopes towards the sun turn to; codes, 0 to 1, as those below
+    float lit_share;  // ... by so much, 0 to 1
+    vec3 shadow;      // what slopes away from the sun are multiplied with
+    vec3 veil;        // the air in the valleys
+    float low_H_m;
+    float high_H_m;      // from here on no veil, and all of the contrast
+    float low_contrast;  // at low_H_m and below, of 1
+    float low_veil;      // the veil's share there
+};
+struct ContourLines {
+    float interval_m;  // 0: none
+    float width_px;    // of a line; every fifth is twice as wide
+    vec3 colour;       // linear light
+};
+
+// How a frame is coloured. Colours are linear light, Rec. 709 primaries. All zero where nothing is said:
+// coloured by height, in sunlight, through air.
 struct FrameStyle {
-    TintStop tints[24];
+    TintStop tints[256];
     uint tint_count;
-    vec3 sun_enu;   // unit vector towards the sun in the local frame of every place (a map's light)
-    float sun_hidden;  // share of its light that does not come: 0 by day, 1 when it has set
-    float ambient;  // share of the light that has no direction
-    float relief;   // slopes are shaded as if they were this much steeper (1: as they are)
+    uint colour_by;       // colour_by_...
+    uint tints_as_codes;  // 1: tints are mixed as sRGB codes, as GIS programs do; 0: as light
+    uint light;           // light_...
+    uint is_map;          // 1: there is no air, and no_data_colour wherever there is no ground
+    vec3 sun_enu;         // unit vector towards the sun in the local frame of every place (a map's light)
+    float sun_hidden;     // share of its light that does not come: 0 by day, 1 when it has set
+    float ambient;        // share of the light that has no direction
+    float relief;         // slopes are shaded as if they were this much steeper (1: as they are)
     vec3 haze_colour;
     float haze_distance_m;  // distance at which haze has taken 63 % of the colour
     vec3 zenith_colour;
     vec3 no_data_colour;  // the bare ellipsoid
     float sky_scale_height_m;
+    vec3 flat_colour;  // of ground that falls nowhere, by aspect
+    ReliefLight relief_light;
+    ContourLines contours;
 };
 
 // The geoid's undulation N at nodes of its own, bilinear between them; the nearest beyond them.

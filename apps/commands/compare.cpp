@@ -93,7 +93,7 @@ Result<void> run_compare(const CompareOptions& options) {
         ORO_CHECK(spare_inputs({options.out}, view, region));
         ORO_CHECK(spare_view({options.out}, options.view_file));
     }
-    ORO_TRY(const Style style, load_style(view.style, view.sun));
+    ORO_TRY(const Style style, load_style(view, region.field));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(Scene scene, create_scene(
                              *gpu, region, view.exaggeration, options.memory,

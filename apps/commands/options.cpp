@@ -53,9 +53,10 @@ void add_eye_options(CLI::App& command, ViewOptions& options) {
 
 void add_look_options(CLI::App& command, ViewOptions& options) {
     OptionGroup looks(command, "Looks");
-    looks.option("--style", options.style, "NAME",
-                 "Colours of the ground and the sky: a style that comes with the program (default: default), "
-                 "or a .json file of your own.");
+    looks.option(
+        "--style", options.style, "NAME",
+        "Colours of the ground and the sky: a style that comes with the program (default: default), "
+        "a .json file of your own, or a .txt file: a colour table as gdaldem color-relief reads it.");
     CLI::Option& sun = looks.option(
         "--sun", options.sun, "AZIMUTH,ELEVATION",
         "Where light comes from, in degrees: clockwise from north, and above the horizon; 315,45 is from the "

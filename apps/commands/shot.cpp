@@ -263,7 +263,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     if (!is_check(options, files)) say_edited(shot.view, options.quiet);
     shot.times.read_s = seconds_since(reading);
     ORO_CHECK(spare_inputs(written_files(options, files), shot.view, shot.region));
-    ORO_TRY(const Style style, load_style(shot.view.style, shot.view.sun));
+    ORO_TRY(const Style style, load_style(shot.view, shot.region.field));
     bar.clear();
     say_notes(options, shot);
 

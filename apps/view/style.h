@@ -1,4 +1,4 @@
-// Styles: how heights become colours. Data, not code: data/styles/*.json.
+// Styles: how the ground becomes colours. Data, not code: data/styles/*.json, and colour tables of GDAL.
 #pragma once
 
 #include <string>
@@ -12,16 +12,21 @@ namespace oro {
 struct Style {
     gpu::FrameStyle frame;
     SunDirection sun;
+    bool contours_by_view{false};  // their interval follows from the view (apps/styles/contour_interval.h)
 };
 
-// True for a path (ending in .json, or with a folder), false for a name in the data folder.
+// True for a path (ending in .json or .txt, or with a folder), false for a name in the data folder.
 bool is_style_path(const std::string& style);
 
 // Lets that sun light a frame; colours stay.
 void light_by(const SunDirection& sun, gpu::FrameStyle& style);
 
-// A style by name (in the data folder) or by path (ending in .json), lit by the view's sun where it has one.
-// Colours are turned from sRGB to linear light. Errors: no such style, or what is wrong in it.
-Result<Style> load_style(const std::string& name, const std::optional<SunDirection>& sun);
+// A view's style, by name (in the data folder) or by path (.json, or .txt: a colour table of GDAL), lit by
+// the view's sun where it has one; `field` is what the view looks at. Colours are turned from sRGB to linear
+// light. Errors: no such style, or what is wrong in it; posts that cannot be read.
+Result<Style> load_style(const View& view, const HeightField& field);
+
+// What of a style follows from the view, after the eye has moved. Errors: posts that cannot be read.
+Result<void> fit_to_view(Style& style, const View& view, const HeightField& field);
 
 }  // namespace oro

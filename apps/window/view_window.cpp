@@ -32,7 +32,7 @@ struct Viewer {
     const WindowOptions& options;
     View view;
     Region region;
-    gpu::FrameStyle style;
+    Style style;
     const Gpu& gpu;
     std::unique_ptr<Scene> scene;  // of every n-th post while `finer` is being measured
     Window& window;
@@ -172,7 +172,7 @@ void follow_sun(Viewer& viewer) {
     std::optional<SunDirection>& sun = viewer.view.sun;
     if (!sun || !sun->time) return;
     aim_sun(sun, viewer.view.camera.eye);
-    light_by(*sun, viewer.style);
+    light_by(*sun, viewer.style.frame);
 }
 
 Result<void> take_picture(Viewer& viewer) {
@@ -187,8 +187,9 @@ Result<void> take_picture(Viewer& viewer) {
     const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
     const Camera& camera = viewer.view.camera;
     ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
+    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field));
     const auto written = write_picture(files, false, viewer.view, viewer.region, middle, viewer.gpu,
-                                       *viewer.scene, viewer.style, {});
+                                       *viewer.scene, viewer.style.frame, {});
     viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
     say(viewer.options.quiet && written.ok(), viewer.message);
     if (!written.ok() || viewer.options.quiet) return {};
@@ -274,7 +275,8 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         say(viewer.options.quiet, "note: " + viewer.message);
         show_title(viewer);
     }
-    ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style));
+    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field));
+    ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style.frame));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown;
     if (shown && !viewer.is_shown) {
@@ -335,7 +337,7 @@ Result<void> run_view(const WindowOptions& options) {
     if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
     view.camera = above_ground(view.camera, region.field, view.exaggeration);
     ORO_CHECK(region.field.health());
-    ORO_TRY(const Style style, load_style(view.style, view.sun));
+    ORO_TRY(const Style style, load_style(view, region.field));
     GpuOptions gpu_options = gpu_options_from_environment();
     gpu_options.instance_extensions = extensions;
     gpu_options.presents = true;
@@ -356,14 +358,9 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_TRY(renderer_options.path, choose_path(view.pipeline, *gpu));
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
-    Viewer viewer{options,
-                  std::move(view),
-                  std::move(region),
-                  style.frame,
-                  *gpu,
-                  std::make_unique<Scene>(std::move(scene)),
-                  *window,
-                  renderer};
+    Viewer viewer{
+        options, std::move(view), std::move(region), style, *gpu, std::make_unique<Scene>(std::move(scene)),
+        *window, renderer};
     viewer.started = started;
     if (coarse_first) viewer.finer = std::make_unique<FinerLevels>(viewer.region, viewer.view.exaggeration);
     return run_loop(viewer);

@@ -12,7 +12,7 @@
 namespace oro {
 namespace {
 
-constexpr VkDeviceSize pages_offset = 2048;  // FrameConstants come first
+constexpr VkDeviceSize pages_offset = 8192;  // FrameConstants come first
 static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
 
 // Where the parts of a frame's data lie, in bytes.
@@ -320,7 +320,9 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.shade.get());
+    const OwnedPipeline& shade =
+        is_drawn_as_map(plan.constants.style) ? pipelines_.shade_map : pipelines_.shade;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.get());
     vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
 }
 
@@ -355,6 +357,8 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     assert(plan.constants.width_px <= options_.extent.width &&
            plan.constants.height_px <= options_.extent.height);
     assert(sample_count == 1 || options_.several_samples);
+    if (options_.shades && is_drawn_as_map(style) && !pipelines_.shade_map)
+        ORO_CHECK(create_map_shading(*gpu_, options_.path, pipelines_));
     ORO_CHECK(upload(plan, style, sample_index, sample_count));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;

@@ -227,7 +227,29 @@ Result<void> create_compute_path(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
+// By constant_id, of the shading pass and of that for triangles.
+struct ShadingConstants {
+    VkBool32 from_compute;
+    VkBool32 as_map;
+};
+constexpr std::array<VkSpecializationMapEntry, 2> shading_constants_map{
+    VkSpecializationMapEntry{0, offsetof(ShadingConstants, from_compute), sizeof(VkBool32)},
+    VkSpecializationMapEntry{1, offsetof(ShadingConstants, as_map), sizeof(VkBool32)}};
+
 }  // namespace
+
+bool is_drawn_as_map(const gpu::FrameStyle& style) {
+    return style.colour_by != gpu::colour_by_height || style.tints_as_codes != 0 ||
+           style.light != gpu::light_sun || style.is_map != 0 || style.contours.interval_m > 0.0F;
+}
+
+Result<void> create_map_shading(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
+    const ShadingConstants values{path == RasterPath::mesh ? VK_FALSE : VK_TRUE, VK_TRUE};
+    const VkSpecializationInfo constants{2, shading_constants_map.data(), sizeof(values), &values};
+    ORO_TRY(pipelines.shade_map,
+            create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade as a map", &constants));
+    return {};
+}
 
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants) {
     const bool by_mesh = path == RasterPath::mesh;
@@ -236,16 +258,16 @@ Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const Pipeli
     ORO_CHECK(by_mesh ? create_mesh_path(gpu, wants.record_positions, pipelines)
                       : create_compute_path(gpu, pipelines));
     ORO_CHECK(create_choice(gpu, pipelines));
-    const VkBool32 from_compute = by_mesh ? VK_FALSE : VK_TRUE;
-    const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
-    const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};
+    const ShadingConstants values{by_mesh ? VK_FALSE : VK_TRUE, VK_FALSE};
+    const VkSpecializationInfo constants{2, shading_constants_map.data(), sizeof(values), &values};
     if (wants.shades) {
         ORO_TRY(pipelines.shade,
                 create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade", &constants));
     }
     if (wants.triangles) {
+        const VkSpecializationInfo one_constant{1, shading_constants_map.data(), sizeof(values), &values};
         ORO_TRY(pipelines.triangles,
-                create_compute_pipeline(gpu, pipelines, triangles_comp_spirv, "triangles", &constants,
+                create_compute_pipeline(gpu, pipelines, triangles_comp_spirv, "triangles", &one_constant,
                                         VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
     }
     return pipelines;

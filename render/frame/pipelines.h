@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/device/gpu.h"
+#include "shaders/shared.h"
 
 namespace oro {
 
@@ -19,6 +20,7 @@ struct Pipelines {
     std::uint32_t meshlets_per_group{1};                    // of a mesh workgroup
     OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
     OwnedPipeline shade;                                    // compute, 8 x 8
+    OwnedPipeline shade_map;                                // the same for maps; see create_map_shading
     OwnedPipeline triangles;                                // what each pixel shows, compute, 8 x 8
 };
 
@@ -31,5 +33,10 @@ struct PipelineWants {
 
 // Sizes of workgroups follow the device's preferred limits.
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants);
+
+// Whether a style is drawn by `shade_map`: it is more than tints by height in sunlight and air.
+bool is_drawn_as_map(const gpu::FrameStyle& style);
+// Makes `shade_map`, once there is a style for it.
+Result<void> create_map_shading(const Gpu& gpu, RasterPath path, Pipelines& pipelines);
 
 }  // namespace oro

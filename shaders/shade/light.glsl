@@ -1,15 +1,4 @@
-// Style: tint, hillshade, haze and sky, all from FrameStyle. Needs surface.glsl.
-
-// Reads the table where it is: handed over as a value it was copied for every pixel, three quarters of the whole pass's time.
-vec3 tint(float H_m) {
-    vec3 colour = FRAME.style.tints[0].colour;
-    for (uint i = 1u; i < FRAME.style.tint_count; ++i) {
-        float low = FRAME.style.tints[i - 1u].H_m, high = FRAME.style.tints[i].H_m;
-        if (H_m < low) break;
-        colour = mix(FRAME.style.tints[i - 1u].colour, FRAME.style.tints[i].colour, clamp((H_m - low) / (high - low), 0.0, 1.0));
-    }
-    return colour;
-}
+// Air: haze and sky, from FrameStyle.
 
 // Metres of air at sea-level density along a straight path between two heights: density falls by e each scale height.
 float air_path_m(float from_h_m, float to_h_m, float distance_m, float scale_height_m) {
@@ -23,15 +12,6 @@ float air_path_m(float from_h_m, float to_h_m, float distance_m, float scale_hei
 vec3 in_haze(vec3 colour, float to_h_m, float distance_m) {
     float air_m = air_path_m(FRAME.eye_h_m, to_h_m, distance_m, FRAME.style.sky_scale_height_m);
     return mix(FRAME.style.haze_colour, colour, exp(-air_m / FRAME.style.haze_distance_m));
-}
-
-vec3 lit_ground(SurfacePoint point) {
-    vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
-    float direct = (1.0 - FRAME.style.sun_hidden) * max(dot(normal, FRAME.style.sun_enu), 0.0);
-    // The sky's share falls with the slope: a wall sees half of it.
-    float diffuse = 0.5 + 0.5 * normal.z;
-    float light = FRAME.style.ambient * diffuse + (1.0 - FRAME.style.ambient) * direct;
-    return in_haze(tint(point.H_m) * light, point.h_m, length(point.view));
 }
 
 vec3 sky(float sine_above_horizon) {

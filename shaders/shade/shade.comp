@@ -1,11 +1,15 @@
 #version 460
 // Colours each pixel once: turns its triangle id back into a place on the surface, and that into light.
 #extension GL_GOOGLE_include_directive : require
+// A map: any FrameStyle that is not tints by height, as light, in the sun and in air. Code of its own, so that other pictures pay nothing.
+layout(constant_id = 1) const bool as_map = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
 #include "shaders/shade/surface.glsl"
 #include "shaders/shade/light.glsl"
+#include "shaders/shade/srgb.glsl"
+#include "shaders/shade/ground.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
@@ -14,12 +18,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer D
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 layout(binding = 1, rgba32f) uniform image2D sum;  // of the samples so far, linear light; alpha: those with ground
 layout(binding = 2, rgba8) uniform writeonly image2D picture;  // sRGB-encoded; alpha: the share of samples with ground
-
-vec3 srgb_from_linear(vec3 linear) {
-    // Source: IEC 61966-2-1:1999, 5.2.
-    vec3 clamped = clamp(linear, 0.0, 1.0);
-    return mix(12.92 * clamped, 1.055 * pow(clamped, vec3(1.0 / 2.4)) - 0.055, greaterThan(clamped, vec3(0.0031308)));
-}
 
 void keep_depth(ivec2 pixel, float depth) {
     if (FRAME.depths != uvec2(0u)) Depths(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)] = depth;
@@ -36,11 +34,11 @@ void main() {
     float ground = id == 0u ? 0.0 : 1.0;
     vec3 colour;
     if (id == 0u) {
-        colour = background(normalize(ray));
+        colour = seen_background(normalize(ray));
     } else {
         SurfacePoint point = surface_at(id - 1u, ray);
         depth = FRAME.near_m / -point.view.z;
-        colour = lit_ground(point);
+        colour = seen_ground(point);
     }
     // From the triangle and the pixel alone, so that both ways of drawing give the same.
     keep_depth(pixel, depth);

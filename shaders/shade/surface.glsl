@@ -6,6 +6,7 @@ struct SurfacePoint {
     float H_m;      // orthometric, not exaggerated
     float h_m;      // above the ellipsoid, as drawn
     vec3 normal;    // east, north, up at the place
+    float H_per_px; // how fast H changes on the picture; 0 where no contours are asked for
 };
 
 int height_or(PageBlocks block, ivec2 post, int otherwise) {
@@ -91,6 +92,15 @@ float undulation_at(vec2 post) {
     return mix(north, south, share.x);
 }
 
+#include "shaders/shade/slopes.glsl"
+
+// A map's angle is that of Horn's formula; light alone takes the sharper one.
+vec3 shading_normal_at(PageBlocks block, FramePage page, vec2 post) {
+    bool is_angle = FRAME.style.colour_by != colour_by_height || FRAME.style.light == light_hillshade || FRAME.style.light == light_relief;
+    if (as_map && is_angle) return horn_normal_at(block, page, post);
+    return normal_at(block, page, post);
+}
+
 vec3 across(vec3 along, vec3 v) { return v - dot(v, along) * along; }
 // Shares of a triangle's second and third post at the point of its rim that is nearest to a ray from the eye: for pixels at a rim, whose
 // ray may pass just beside it (1/256 px). To bound the shares of the plane's point one by one would move it far along a slim triangle.
@@ -124,6 +134,12 @@ FramePage corners_of(uint id, out uvec2 posts[3], out float heights_m[3], out ve
     return page;
 }
 
+// What a step of the ray adds to a point's shares of its triangle, times the determinant.
+vec2 shares_change(vec3 ray_step, vec3 first, vec3 edge_b, vec3 edge_c, vec2 shares) {
+    vec3 p = cross(ray_step, edge_c);
+    return vec2(dot(-first, p), dot(ray_step, cross(-first, edge_b))) - shares * dot(edge_b, p);
+}
+
 SurfacePoint surface_at(uint id, vec3 ray) {
     uvec2 posts[3];
     vec3 at[3];
@@ -148,6 +164,15 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     point.H_m = (point.h_m - undulation_at(region_post(page, point.post))) / FRAME.exaggeration;
     vec2 post = point.post;
     descend(page, post, length(point.view));
-    point.normal = normal_at(PageBlocks(page.block), page, post);
+    point.normal = shading_normal_at(PageBlocks(page.block), page, post);
+    point.H_per_px = 0.0;
+    if (as_map && FRAME.style.contours.interval_m > 0.0) {
+        // The shares are quotients of terms linear in the ray: how they change from pixel to pixel, and the height with them.
+        vec3 pixel = vec3(2.0 / (vec2(FRAME.width_px, FRAME.height_px) * FRAME.projection_scale), 0.0);
+        vec2 along_x = shares_change(vec3(pixel.x, 0.0, 0.0), at[0], edge_b, edge_c, shares) * scale;
+        vec2 along_y = shares_change(vec3(0.0, pixel.y, 0.0), at[0], edge_b, edge_c, shares) * scale;
+        vec2 rise_m = vec2(heights_m[1] - heights_m[0], heights_m[2] - heights_m[0]);
+        point.H_per_px = length(vec2(dot(along_x, rise_m), dot(along_y, rise_m))) / FRAME.exaggeration;
+    }
     return point;
 }

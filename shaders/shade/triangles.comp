@@ -1,6 +1,7 @@
 #version 460
 // Tells of each pixel which triangle it shows: its posts, and where they were placed. Pictures are measured with it.
 #extension GL_GOOGLE_include_directive : require
+const bool as_map = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

@@ -177,6 +177,10 @@ TEST_F(BadInput, Styles) {
     expect_refusal(shoot(bundled(), {"--style", no_json}), failed, {no_json});
     const auto colourless = file("b.json", R"({"name": "b", "tints": [{"H_m": 0, "colour": "green"}]})");
     expect_refusal(shoot(bundled(), {"--style", colourless}), failed, {colourless, "green"});
+    const auto table = file("c.txt", "0 white\n50% beige\n");
+    expect_refusal(shoot(bundled(), {"--style", table}), failed,
+                   {table.string() + ", line 2: no colour is called 'beige'"});
+    expect_refusal(shoot(bundled(), {"--style", "no-such.txt"}), failed, {"no-such.txt"});
 }
 
 TEST_F(BadInput, ViewFiles) {

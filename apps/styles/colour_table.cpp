@@ -1,0 +1,179 @@
+#include "apps/styles/colour_table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/styles/colours.h"
+
+namespace oro {
+namespace {
+
+constexpr double largest_m = 1e9;
+constexpr ColourCodes paper{244, 243, 238};  // where the table has no `nv`
+
+struct NamedColour {
+    std::string_view name;
+    ColourCodes colour;
+};
+// As GDAL 3.6 has them; each is held against GDAL by a test.
+constexpr std::array<NamedColour, 16> named_colours{{{"white", {255, 255, 255}},
+                                                     {"black", {0, 0, 0}},
+                                                     {"red", {255, 0, 0}},
+                                                     {"green", {0, 255, 0}},
+                                                     {"blue", {0, 0, 255}},
+                                                     {"yellow", {255, 255, 0}},
+                                                     {"magenta", {255, 0, 255}},
+                                                     {"cyan", {0, 255, 255}},
+                                                     {"aqua", {0, 191, 191}},
+                                                     {"grey", {191, 191, 191}},
+                                                     {"gray", {191, 191, 191}},
+                                                     {"orange", {255, 127, 0}},
+                                                     {"brown", {191, 127, 63}},
+                                                     {"purple", {127, 0, 255}},
+                                                     {"violet", {127, 0, 255}},
+                                                     {"indigo", {0, 127, 255}}}};
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return text;
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+    constexpr std::string_view between = " \t\r,:";
+    std::vector<std::string> words;
+    for (std::size_t at = 0; (at = line.find_first_not_of(between, at)) != std::string::npos;) {
+        const std::size_t end = std::min(line.find_first_of(between, at), line.size());
+        words.push_back(line.substr(at, end - at));
+        at = end;
+    }
+    return words;
+}
+
+std::optional<double> number_in(std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (fault != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
+        return std::nullopt;
+    return value;
+}
+
+// What a line says: its colour, and where it holds.
+struct Entry {
+    enum class Kind { height, percentage, no_data };
+    Kind kind{Kind::height};
+    double value{};
+    ColourCodes colour;
+};
+
+// The reason, where a line cannot be read.
+std::string read_colour(const std::vector<std::string>& words, ColourCodes& colour) {
+    if (words.size() >= 4) {
+        std::array<int, 3> codes{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto code = number_in(words[i + 1]);
+            if (!code || *code < 0.0 || *code > 255.0)
+                return "'" + words[i + 1] + "' is no number from 0 to 255";
+            codes[i] = static_cast<int>(*code);
+        }
+        colour = {codes[0], codes[1], codes[2]};
+        return "";
+    }
+    if (words.size() < 2) return "there is no colour";
+    const std::string name = lower(words[1]);
+    const auto* const found = std::ranges::find(named_colours, name, &NamedColour::name);
+    if (found == named_colours.end()) return "no colour is called '" + words[1] + "'";
+    colour = found->colour;
+    return "";
+}
+
+std::string read_entry(const std::vector<std::string>& words, Entry& entry) {
+    const std::string& first = words[0];
+    if (lower(first) == "nv") {
+        entry.kind = Entry::Kind::no_data;
+    } else if (first.size() > 1 && first.ends_with('%')) {
+        entry.kind = Entry::Kind::percentage;
+        const auto value = number_in(std::string_view(first).substr(0, first.size() - 1));
+        if (!value || *value < 0.0 || *value > 100.0) return "'" + first + "' is no percentage from 0 to 100";
+        entry.value = *value;
+    } else {
+        const auto value = number_in(first);
+        if (!value || std::abs(*value) > largest_m) return "'" + first + "' is no height in metres";
+        entry.value = *value;
+    }
+    return read_colour(words, entry.colour);
+}
+
+Result<std::vector<Entry>> read_entries(const std::string& text, const std::string& file) {
+    std::vector<Entry> entries;
+    std::istringstream in(text);
+    std::size_t number = 0;
+    for (std::string line; std::getline(in, line);) {
+        const std::string where = file + ", line " + std::to_string(++number);
+        if (line.starts_with('#') && line.find("COLOR_MODEL") != std::string::npos)
+            return Error{ErrorKind::failed, where, "a palette of GMT; its heights must stand one on a line"};
+        const std::vector<std::string> words = words_of(line);
+        if (words.empty() || words[0].starts_with('#') || words[0].starts_with('/')) continue;
+        Entry entry;
+        if (const std::string reason = read_entry(words, entry); !reason.empty())
+            return Error{ErrorKind::failed, where, reason};
+        entries.push_back(entry);
+    }
+    return entries;
+}
+
+gpu::FrameStyle flat_map() {
+    gpu::FrameStyle style{};
+    style.tints_as_codes = 1;
+    style.light = gpu::light_none;
+    style.is_map = 1;
+    style.sun_enu = {0.0F, 0.0F, 1.0F};
+    style.relief = 1.0F;
+    style.haze_distance_m = 1e9F;
+    style.sky_scale_height_m = 8000.0F;
+    style.no_data_colour = linear_light(paper);
+    return style;
+}
+
+}  // namespace
+
+Result<gpu::FrameStyle> style_of_colour_table(const std::string& text, const std::string& file,
+                                              const std::function<HeightRange()>& range) {
+    ORO_TRY(const std::vector<Entry> entries, read_entries(text, file));
+    gpu::FrameStyle style = flat_map();
+    std::optional<HeightRange> heights;
+    std::vector<std::pair<double, ColourCodes>> stops;
+    for (const Entry& entry : entries) {
+        double H_m = entry.value;
+        if (entry.kind == Entry::Kind::no_data) {
+            style.no_data_colour = linear_light(entry.colour);
+            continue;
+        }
+        if (entry.kind == Entry::Kind::percentage) {
+            if (!heights) heights = range();
+            const double lowest_m = heights->lowest_m, highest_m = heights->highest_m;
+            H_m = lowest_m + (highest_m - lowest_m) * entry.value / 100.0;
+        }
+        stops.emplace_back(H_m, entry.colour);
+    }
+    if (stops.empty()) return Error{ErrorKind::failed, file, "no line holds a height and a colour"};
+    if (stops.size() > gpu::tint_stops_max)
+        return Error{ErrorKind::failed, file,
+                     std::to_string(stops.size()) + " heights; a style has room for " +
+                         std::to_string(gpu::tint_stops_max)};
+    std::ranges::stable_sort(stops, {}, &std::pair<double, ColourCodes>::first);
+    for (const auto& [H_m, colour] : stops)
+        style.tints[style.tint_count++] = {static_cast<float>(H_m), unit_codes(colour)};
+    return style;
+}
+
+}  // namespace oro

@@ -1,0 +1,104 @@
+// Style: what colours the ground, and what lights it, all from FrameStyle. Needs surface.glsl, light.glsl and srgb.glsl.
+
+// The number of the first stop above a value; the table is ascending. Reads the table where it is: handed over as a value it was copied
+// for every pixel, three quarters of the whole pass's time.
+uint tint_above(float value) {
+    uint first = 0u, last = FRAME.style.tint_count;
+    while (first < last) {
+        uint middle = (first + last) / 2u;
+        if (value < FRAME.style.tints[middle].at) last = middle;
+        else first = middle + 1u;
+    }
+    return first;
+}
+
+// Linear between stops, constant beyond the ends.
+vec3 tint(float value) {
+    uint above = tint_above(value);
+    if (above == 0u) return FRAME.style.tints[0].colour;
+    if (above == FRAME.style.tint_count) return FRAME.style.tints[above - 1u].colour;
+    float low = FRAME.style.tints[above - 1u].at, high = FRAME.style.tints[above].at;
+    return mix(FRAME.style.tints[above - 1u].colour, FRAME.style.tints[above].colour, clamp((value - low) / (high - low), 0.0, 1.0));
+}
+
+// Of the ground as it is: not exaggerated.
+float slope_deg(SurfacePoint point) { return degrees(atan(length(point.normal.xy), FRAME.exaggeration * point.normal.z)); }
+
+// Where the ground falls to, clockwise from true north, 0 to 360.
+float aspect_deg(SurfacePoint point) {
+    float angle = degrees(atan(point.normal.x, point.normal.y));
+    return angle < 0.0 ? angle + 360.0 : angle;
+}
+
+// In linear light, or as codes.
+vec3 ground_tint(SurfacePoint point) {
+    if (FRAME.style.colour_by == colour_by_slope) return tint(slope_deg(point));
+    if (FRAME.style.colour_by == colour_by_height) return tint(point.H_m);
+    return point.normal.xy == vec2(0.0) ? FRAME.style.flat_colour : tint(aspect_deg(point));
+}
+
+// Cosine of the angle between the sun and the slope, which is drawn `relief` times as steep.
+float towards_sun(SurfacePoint point) {
+    vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
+    return dot(normal, FRAME.style.sun_enu);
+}
+
+vec3 sunlit(vec3 colour, SurfacePoint point) {
+    vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
+    float direct = (1.0 - FRAME.style.sun_hidden) * max(dot(normal, FRAME.style.sun_enu), 0.0);
+    // The sky's share falls with the slope: a wall sees half of it.
+    float diffuse = 0.5 + 0.5 * normal.z;
+    float light = FRAME.style.ambient * diffuse + (1.0 - FRAME.style.ambient) * direct;
+    return colour * light;
+}
+
+// A hillshade's grey, 1 to 255 of 255, as gdaldem computes it.
+vec3 hillshaded(vec3 codes, SurfacePoint point) { return codes * ((1.0 + 254.0 * max(towards_sun(point), 0.0)) / 255.0); }
+
+// Slopes towards the sun take its warm colour, those away from it are multiplied with a cool one; level ground keeps its tint. The air in
+// the valleys takes contrast away, as it does for one who looks down.
+// Source: E. Imhof, Cartographic Relief Presentation, 1982, chapters 9 and 13, by eye.
+vec3 in_relief_light(vec3 codes, SurfacePoint point) {
+    float level = max(FRAME.style.sun_enu.z, 0.05), cosine = towards_sun(point);
+    float lit = clamp((cosine - level) / max(1.0 - level, 0.05), 0.0, 1.0), turned_away = clamp((level - cosine) / level, 0.0, 1.0);
+    ReliefLight light = FRAME.style.relief_light;
+    float up = smoothstep(light.low_H_m, light.high_H_m, point.H_m);
+    float contrast = mix(light.low_contrast, 1.0, up);
+    vec3 warm = mix(codes, light.lit, light.lit_share * contrast * lit);
+    vec3 shaded = warm * mix(vec3(1.0), light.shadow, contrast * turned_away);
+    // Steep ground is darker whichever way it faces: relief is seen in the light, too.
+    float steep = 1.0 - normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z)).z;
+    return mix(shaded * (1.0 - 0.35 * contrast * steep), light.veil, light.low_veil * (1.0 - up));
+}
+
+// Lines where H is a multiple of the interval, as wide as the style says wherever the ground is seen from; thinned out where they would
+// stand less than 3.5 px apart. A centimetre is added to H: a lake at a round height is no line.
+vec3 with_contours(vec3 colour, SurfacePoint point) {
+    float interval = FRAME.style.contours.interval_m;
+    if (interval <= 0.0 || point.H_per_px <= 0.0) return colour;
+    float in_intervals = (point.H_m + 0.01) / interval, nearest = floor(in_intervals + 0.5);
+    float off_px = abs(in_intervals - nearest) * interval / point.H_per_px, apart_px = interval / point.H_per_px;
+    bool fifth = mod(nearest, 5.0) == 0.0;
+    float half_width_px = FRAME.style.contours.width_px * (fifth ? 1.0 : 0.5);
+    float there = clamp(half_width_px + 0.5 - off_px, 0.0, 1.0) * min(2.0 * half_width_px, 1.0);
+    float room = smoothstep(1.5, 3.5, fifth ? 5.0 * apart_px : apart_px);
+    return mix(colour, FRAME.style.contours.colour, there * room);
+}
+
+// In linear light, before any air.
+vec3 ground_colour(SurfacePoint point) {
+    if (!as_map) return sunlit(tint(point.H_m), point);
+    vec3 colour = ground_tint(point);
+    if (FRAME.style.light == light_hillshade) colour = hillshaded(colour, point);
+    if (FRAME.style.light == light_relief) colour = in_relief_light(colour, point);
+    if (FRAME.style.tints_as_codes == 1u) colour = linear_from_srgb(colour);
+    if (FRAME.style.light == light_sun) colour = sunlit(colour, point);
+    return with_contours(colour, point);
+}
+
+vec3 seen_ground(SurfacePoint point) {
+    vec3 colour = ground_colour(point);
+    return as_map && FRAME.style.is_map == 1u ? colour : in_haze(colour, point.h_m, length(point.view));
+}
+
+vec3 seen_background(vec3 direction) { return as_map && FRAME.style.is_map == 1u ? FRAME.style.no_data_colour : background(direction); }

@@ -1,0 +1,113 @@
+// Colour tables in text against gdaldem color-relief, and what is wrong in them.
+#include "apps/styles/colour_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "tests/styles/drawn_style.h"
+
+namespace oro {
+namespace {
+
+constexpr double post_m = 30.0;
+
+// Heights rise by 4 m a post to the east and 1.3 m to the south: all of the tables below, and beyond.
+double ramp_m(int row, int column) {
+    return 1200.0 + 4.0 * column + 1.3 * row;
+}
+
+class ColourTables : public test::StyleTest {
+  protected:
+    void SetUp() override {
+        test::StyleTest::SetUp();
+        region_.field = test::square_field(46.5, 8.0, post_m, 160, ramp_m);
+        raster_ = test::local_raster(region_.field, post_m, post_m);
+    }
+
+    // Largest difference of a byte, at pixels within 0.1 m of a post's height.
+    void hold(const char* what, const std::string& text) {
+        SCOPED_TRACE(what);
+        const std::filesystem::path table = test::scratch_folder() / "table.txt";
+        std::ofstream(table) << text;
+        const auto bands = test::gdaldem(raster_, "color-relief", table.c_str());
+        ASSERT_GE(bands.size(), 3U);
+        const Camera camera = test::straight_down(region_.field, post_m, 150.0, 900);
+        const auto style = style_of(text, ".txt", camera, region_.field);
+        ASSERT_TRUE(style.ok()) << style.error().line();
+        const auto picture = drawn(region_, camera, *style);
+        ASSERT_TRUE(picture);
+        int compared = 0;
+        double worst = 0.0;
+        for (std::size_t pixel = 0; pixel < picture->points.size(); ++pixel) {
+            const DrawnPoint& point = picture->points[pixel];
+            if (point.background()) continue;
+            const int row = static_cast<int>(std::lround(point.row)),
+                      column = static_cast<int>(std::lround(point.column));
+            if (std::abs(4.0 * (point.column - column) + 1.3 * (point.row - row)) > 0.1) continue;
+            ++compared;
+            for (std::size_t c = 0; c < 3; ++c)
+                worst = std::max(worst,
+                                 std::abs(picture->rgba[4 * pixel + c] - double{bands[c].at(row, column)}));
+        }
+        std::printf("%s: %d pixels at posts, off by up to %.0f of 255\n", what, compared, worst);
+        EXPECT_GT(compared, 10000);
+        EXPECT_LE(worst, 1.0) << "of 255";
+    }
+
+    Region region_;
+    std::filesystem::path raster_;
+};
+
+TEST_F(ColourTables, AreReadAndMixedAsGdaldemDoes) {
+    hold("numbers, names, comments",
+         "# heights\n1300 10 20 200\n1500,250,30,20\n/ more\n1600:0:255:0:128\n1750\tyellow\n\n");
+    hold("percentages and a background", "nv 255 0 255\n0% 0 0 0\n50% 200 100 0 255\n100% 255 255 255\n");
+    hold("not in order, with a sign and a power", "+1.7e3 255 255 255\n1250.5 0 0 90\n1400 90 200 40\n");
+    // Between posts' heights, all of which are multiples of 0.1 m.
+    hold("a step", "1200 0 0 0\n1500.05 255 0 0\n1500.05 0 0 255\n1900 255 255 255\n");
+    hold("one colour", "1500 12 34 56\n");
+}
+
+TEST_F(ColourTables, KnowGdaldemsNamesOfColours) {
+    for (const char* name : {"white", "black", "red", "green", "blue", "yellow", "magenta", "cyan", "aqua",
+                             "grey", "gray", "orange", "brown", "purple", "violet", "indigo"}) {
+        const std::string text = std::string("1500 ") + name + "\n";
+        const std::filesystem::path table = test::scratch_folder() / "table.txt";
+        std::ofstream(table) << text;
+        const auto bands = test::gdaldem(raster_, "color-relief", table.c_str());
+        ASSERT_GE(bands.size(), 3U) << name;
+        const auto style = style_of_colour_table(text, "t", [] { return HeightRange{}; });
+        ASSERT_TRUE(style.ok()) << style.error().line();
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(255.0F * style->tints[0].colour[c], bands[static_cast<std::size_t>(c)].at(5, 5),
+                        0.01F)
+                << name;
+    }
+}
+
+TEST(ColourTableText, FaultsAreToldWithTheirLine) {
+    struct Bad {
+        std::string text, says;
+    };
+    std::string long_table;
+    for (int i = 0; i <= static_cast<int>(gpu::tint_stops_max); ++i)
+        long_table += std::to_string(i) + " red\n";
+    const std::array bad{Bad{"0 red\n10 pink\n", "t.txt, line 2: no colour is called 'pink'"},
+                         Bad{"0 red\nten 1 2 3\n", "t.txt, line 2: 'ten' is no height in metres"},
+                         Bad{"0 1 2 256\n", "t.txt, line 1: '256' is no number from 0 to 255"},
+                         Bad{"101% red\n", "'101%' is no percentage from 0 to 100"},
+                         Bad{"5\n", "t.txt, line 1: there is no colour"},
+                         Bad{"# nothing\nnv red\n", "t.txt: no line holds a height and a colour"},
+                         Bad{"nan red\n", "'nan' is no height in metres"},
+                         Bad{"# COLOR_MODEL = RGB\n", "a palette of GMT"},
+                         Bad{long_table, "257 heights; a style has room for 256"}};
+    for (const Bad& one : bad) {
+        const auto style = style_of_colour_table(one.text, "t.txt", [] { return HeightRange{}; });
+        ASSERT_FALSE(style.ok()) << one.says;
+        EXPECT_NE(style.error().line().find(one.says), std::string::npos) << style.error().line();
+    }
+}
+
+}  // namespace
+}  // namespace oro

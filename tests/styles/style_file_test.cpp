@@ -1,0 +1,71 @@
+// Style files: those that come with the program, and what is wrong in others.
+#include <array>
+
+#include "tests/styles/drawn_style.h"
+
+namespace oro {
+namespace {
+
+Result<Style> loaded(const std::string& text) {
+    const std::filesystem::path file = test::scratch_folder() / "style.json";
+    std::ofstream(file) << text;
+    View view;
+    view.style = file.string();
+    return load_style(view, test::square_field(46.5, 8.0, 30.0, 4, [](int, int) { return 1.0; }));
+}
+
+TEST(StyleFiles, ThoseThatComeWithTheProgramAreRead) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(test::bundled_data() / "styles")) {
+        std::ifstream file(entry.path());
+        const std::string text((std::istreambuf_iterator<char>(file)), {});
+        const auto style = loaded(text);
+        ASSERT_TRUE(style.ok()) << style.error().line();
+        EXPECT_NE(text.find("\"licence\": \"CC0-1.0"), std::string::npos) << entry.path();
+        // Maps have no air, default has.
+        EXPECT_EQ(style->frame.is_map == 0, entry.path().stem() == "default") << entry.path();
+        ++count;
+    }
+    EXPECT_GE(count, 8);
+}
+
+TEST(StyleFiles, FaultsAreToldInOneLine) {
+    const std::string tints = R"("tints": [{"H_m": 0, "colour": "#ffffff"}])";
+    const std::string map = tints + R"(, "background": "#ffffff")";
+    struct Bad {
+        std::string text, says;
+    };
+    const std::array bad{
+        Bad{R"({)" + map + R"(, "light": "moon"})",
+            "'light' is 'moon'; there is: sun, none, hillshade, relief"},
+        Bad{R"({)" + map + R"(, "light": "none", "colour_by": "gradient"})",
+            "'colour_by' is 'gradient'; there is: height, slope, aspect"},
+        Bad{R"({)" + map + R"(, "light": "none", "shine": 1})",
+            "a style has no field 'shine'; there is: name, "},
+        Bad{R"({)" + map + R"(, "light": "none", "flat": "#ffffff"})", "'flat' is for"},
+        Bad{R"({)" + map + R"(, "light": "none", "sky": {}})",
+            "'background' is for maps; they have no 'sky'"},
+        Bad{R"({"tints": [{"H_m": 0, "colour": "#ffffff", "color": "#000000"}], "background": "#ffffff",
+                "light": "none"})",
+            "one of 'tints' has no field 'color'"},
+        Bad{R"({"tints": [{"slope_deg": 91, "colour": "#ffffff"}], "colour_by": "slope", "background": "#ffffff",
+                "light": "none"})",
+            "slope_deg"},
+        Bad{R"({"tints": [{"aspect_deg": 9, "colour": "#ffffff"}], "colour_by": "aspect", "background": "#ffffff",
+                "light": "none"})",
+            "'flat' is missing"},
+        Bad{R"({)" + map + R"(, "light": "none", "contours": {"colour": "#000000", "width_px": 0}})",
+            "width_px"},
+        Bad{R"({)" + map + R"(, "light": "hillshade", "sun": {"azimuth_deg": 1, "elevation_deg": 1}})",
+            "'relief' is missing"}};
+    for (const Bad& one : bad) {
+        const auto style = loaded(one.text);
+        ASSERT_FALSE(style.ok()) << one.text;
+        const std::string line = style.error().line();
+        EXPECT_NE(line.find(one.says), std::string::npos) << line;
+        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    }
+}
+
+}  // namespace
+}  // namespace oro
