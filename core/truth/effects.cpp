@@ -27,8 +27,6 @@ constexpr double unlike_the_truth = 2.5;
 constexpr double nearer = 1.3;
 // Ground behind edges that is farther from them comes out only where it is moved farther.
 constexpr double in_gaps_px = 1.5;
-// Half a unit in the last place of a float, relative.
-constexpr double float_rounding = 1.0 / 16777216.0;
 
 // Collects one effect's sizes at the samples.
 class Sizes {
@@ -113,21 +111,62 @@ EffectSize EffectPrediction::moved(const Drawn& drawn, double margin) const {
     return sizes.size(margin);
 }
 
-EffectSize EffectPrediction::moved_by(const WorldModel& model) const {
-    EffectSize size =
-        moved([&](const Sample& sample) { return model_offset_m(model, camera_.eye, sample.point); },
-              between_samples);
-    Sizes shown;
-    for (const Sample& sample : view_samples(surface_, sight_of(model, camera_.eye), camera_, threads_)) {
-        if (sample.beside_px > in_gaps_px) continue;
+namespace {
+
+WorldModel plane(const TrueWorld& world) {
+    return {Earth::flat, world.air, Precision::relative};
+}
+
+// The same picture with so many pixels more on each side.
+Camera widened(const Camera& camera, int rim_px) {
+    Camera wide = camera;
+    wide.width_px += 2 * rim_px;
+    wide.height_px += 2 * rim_px;
+    const double tangent = camera.half_fov_tangent().y * wide.height_px / camera.height_px;
+    wide.vertical_fov_deg = 360.0 / std::numbers::pi * std::atan(tangent);
+    return wide;
+}
+
+}  // namespace
+
+// How far a point in front of the eye lies outside the picture.
+double EffectPrediction::outside_px(const glm::dvec3& apparent_m) const {
+    const glm::dvec3 view = view_from_ecef_ * apparent_m;
+    const glm::dvec2 from_middle_px = glm::abs(glm::dvec2(view) / -view.z) * pixels_per_tangent_;
+    const glm::dvec2 half_px(0.5 * camera_.width_px, 0.5 * camera_.height_px);
+    return std::max({from_middle_px.x - half_px.x, from_middle_px.y - half_px.y, 0.0});
+}
+
+const std::vector<EffectPrediction::Shown>& EffectPrediction::shown_by(EffectKind kind,
+                                                                       const WorldModel& model,
+                                                                       int rim_px) const {
+    const auto [found, is_new] = shown_.try_emplace({kind, rim_px});
+    std::vector<Shown>& all = found->second;
+    if (!is_new) return all;
+    const Camera wide = rim_px > 0 ? widened(camera_, rim_px) : camera_;
+    for (const Sample& sample : view_samples(surface_, sight_of(model, camera_.eye), wide, threads_)) {
         const glm::dvec3 offset_m = ecef_from_geodetic(sample.point).m - sight_.eye.m;
         const glm::dvec3 seen_m = sight_.refraction.apparent_m(offset_m);
         const double metres = glm::length(sight_.refraction.true_m(sample.apparent_m) - offset_m);
         // Truly behind the eye: as far as the metres reach at its distance.
         const double px = (view_from_ecef_ * seen_m).z >= 0.0 ? any_way_px(sample, metres)
                                                               : apart_px(sample.apparent_m, seen_m);
-        shown.add(metres, px, sample.even);
+        const double outside = rim_px > 0 ? outside_px(sample.apparent_m) : 0.0;
+        all.push_back({metres, px, sample.beside_px, outside, sample.even && outside == 0.0});
     }
+    return all;
+}
+
+EffectSize EffectPrediction::moved_by(EffectKind kind, const WorldModel& model, double tau_px) const {
+    EffectSize size =
+        moved([&](const Sample& sample) { return model_offset_m(model, camera_.eye, sample.point); },
+              between_samples);
+    Sizes shown;
+    // Ground beside the picture may come into it as what lies behind edges comes out.
+    const int rim_px = tau_px > 0.0 ? static_cast<int>(behind_edges_px) : 0;
+    for (const Shown& one : shown_by(kind, model, rim_px))
+        if (one.beside_px <= in_gaps_px + tau_px && one.outside_px <= tau_px)
+            shown.add(one.metres, one.px, one.even);
     const EffectSize of_shown = shown.size(between_samples);
     size.worst_m = std::max(size.worst_m, of_shown.worst_m);
     size.worst_px = std::max(size.worst_px, of_shown.worst_px);
@@ -290,56 +329,17 @@ std::optional<EffectSize> EffectPrediction::stated_by_source() const {
     return size;
 }
 
-// What drawing rounds off, by no more than is known beforehand; nothing for other effects.
-std::optional<EffectSize> EffectPrediction::known_bound(EffectKind kind) const {
-    const PostGrid& grid = surface_.field().grid;
-    const double cell_m = wgs84_a_m * std::hypot(radians_from_deg(grid.lat.spacing_deg()).rad,
-                                                 radians_from_deg(grid.lon.spacing_deg()).rad);
-    // Along the sight line nothing moves on the picture.
-    const auto along_m = [](const Sample& sample) { return 4.0 * float_rounding * sample.distance_m; };
-    constexpr double corner_px = std::numbers::sqrt2 / 256.0;
-    const auto corner_m = [&](const Sample& sample) {
-        const double z_m = std::max(near_plane_m, -(view_from_ecef_ * sample.apparent_m).z);
-        return corner_px / pixels_per_tangent_ * z_m * std::hypot(1.0, sample.slope);
-    };
-    EffectSize size;
-    switch (kind) {
-        case EffectKind::steps_f32:
-            return lifted([](const Sample&) { return 0.5 * height_step_m; });
-        // A ground point moves with the corners of its triangle.
-        case EffectKind::placement: {
-            const auto off_m = [&](const Sample& sample) {
-                return placement_far_share * (sample.distance_m + cell_m);
-            };
-            return anywhere(off_m, off_m);
-        }
-        case EffectKind::depth:
-            size = anywhere(along_m, along_m);
-            size.worst_px = size.typical_px = 0.0;
-            return size;
-        // Two corners of a triangle may move apart by a step along each axis.
-        case EffectKind::pixel_grid:
-            size = anywhere(corner_m, corner_m);
-            if (!empty()) size.worst_px = size.typical_px = corner_px;
-            return size;
-        case EffectKind::flat_cells:
-            return in_flat_cells();
-        default:
-            return std::nullopt;
-    }
-}
-
 Result<std::optional<EffectSize>> EffectPrediction::new_size(EffectKind kind, double tau_px) const {
     using Size = std::optional<EffectSize>;
     switch (kind) {
         case EffectKind::geoid:
             return Size(without_geoid());
         case EffectKind::sphere:
-            return Size(moved_by({Earth::sphere, world_.air, Precision::relative}));
+            return Size(moved_by(kind, {Earth::sphere, world_.air, Precision::relative}, 0.0));
         case EffectKind::flat:
-            return Size(moved_by({Earth::flat, world_.air, Precision::relative}));
+            return Size(moved_by(kind, plane(world_), 0.0));
         case EffectKind::refraction:
-            return Size(moved_by({Earth::ellipsoid, Air{}, Precision::relative}));
+            return Size(moved_by(kind, {Earth::ellipsoid, Air{}, Precision::relative}, 0.0));
         case EffectKind::float32_posts:
             return Size(in_float32(Precision::rounded_posts));
         case EffectKind::float32_view:
@@ -370,9 +370,12 @@ Result<EffectSize> EffectPrediction::total(const DrawingModel& drawing) const {
         if (effect.group == EffectGroup::data || !effect.in_picture(drawing, world_)) continue;
         ORO_TRY(const std::optional<EffectSize> one, size(effect.kind, drawing.tau_px));
         if (!one) continue;
-        sum.worst_m += one->worst_m;
+        // On a plane there is no end to how far ground is moved, and levels let more of it come out.
+        const EffectSize largest =
+            effect.kind == EffectKind::flat ? moved_by(effect.kind, plane(world_), drawing.tau_px) : *one;
+        sum.worst_m += largest.worst_m;
         sum.typical_m += one->typical_m;
-        sum.worst_px += one->worst_px;
+        sum.worst_px += largest.worst_px;
         sum.typical_px += one->typical_px;
     }
     return sum;

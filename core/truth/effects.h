@@ -52,9 +52,9 @@ class EffectPrediction {
     [[nodiscard]] double nearest_m() const;
     [[nodiscard]] double median_distance_m() const;
 
-    // Of one effect by itself. tau_px: for detail. Nothing for a source that says nothing. Errors: a page
-    // that cannot be read.
-    // Not from several threads at a time.
+    // Of one effect by itself. tau_px: for detail.
+    // Nothing for a source that says nothing. Errors: a page that cannot be read. Not from several threads at
+    // a time.
     [[nodiscard]] Result<std::optional<EffectSize>> size(EffectKind kind, double tau_px) const;
 
     // What lies between posts that are `apart` of the region's apart: 1 for the data as they are. 2 predicts
@@ -64,7 +64,8 @@ class EffectPrediction {
     [[nodiscard]] EffectSize interpolation_estimate(int apart) const;
 
     // Bound of the whole error of a picture that is drawn so: the sum of the effects that are in it, but for
-    // interpolation and source, which no drawing can help. Errors: as size().
+    // interpolation and source, which no drawing can help. A plane's counts with what levels let come out.
+    // Errors: as size().
     [[nodiscard]] Result<EffectSize> total(const DrawingModel& drawing) const;
 
   private:
@@ -74,7 +75,19 @@ class EffectPrediction {
     // What is drawn elsewhere than it is seen: by where the truth's samples are drawn, and by where what a
     // picture of `model` shows truly is.
     [[nodiscard]] EffectSize moved(const Drawn& drawn, double margin) const;
-    [[nodiscard]] EffectSize moved_by(const WorldModel& model) const;
+    // tau_px: levels may let so much more ground come out from behind edges.
+    [[nodiscard]] EffectSize moved_by(EffectKind kind, const WorldModel& model, double tau_px) const;
+    // A point that a picture of another model shows: how far that is from where it truly is.
+    struct Shown {
+        double metres;
+        double px;
+        double beside_px;   // as ViewSample
+        double outside_px;  // of the picture
+        bool even;
+    };
+    [[nodiscard]] double outside_px(const glm::dvec3& apparent_m) const;
+    [[nodiscard]] const std::vector<Shown>& shown_by(EffectKind kind, const WorldModel& model,
+                                                     int rim_px) const;
     // Heights that are off by no more than a bound.
     [[nodiscard]] EffectSize lifted(const Bound& height_m) const;
     // Points that are off by no more than a bound, whichever way.
@@ -109,6 +122,7 @@ class EffectPrediction {
     glm::dmat3 view_from_ecef_;
     double pixels_per_tangent_;
     std::vector<ViewSample> samples_;
+    mutable std::map<std::pair<EffectKind, int>, std::vector<Shown>> shown_;
     mutable std::map<std::pair<EffectKind, double>, std::optional<EffectSize>> known_;
 };
 

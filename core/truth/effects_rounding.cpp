@@ -1,16 +1,21 @@
-// What rounding makes of posts.
+// What rounding makes of posts and pictures.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <numbers>
 
+#include "core/frame/placement_promise.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/truth/effects.h"
 
 namespace oro {
 
 namespace {
+
+// Half a unit in the last place of a float, relative.
+constexpr double float_rounding = 1.0 / 16777216.0;
 
 // Half a step of float32 at a number of this size; neighbours across a power of two included.
 double half_step(double value) {
@@ -38,6 +43,45 @@ double transform_m(const glm::dmat3& rotation, const glm::dvec3& ecef_m, const g
 }
 
 }  // namespace
+
+// What drawing rounds off, by no more than is known beforehand; nothing for other effects.
+std::optional<EffectSize> EffectPrediction::known_bound(EffectKind kind) const {
+    const PostGrid& grid = surface_.field().grid;
+    const double cell_m = wgs84_a_m * std::hypot(radians_from_deg(grid.lat.spacing_deg()).rad,
+                                                 radians_from_deg(grid.lon.spacing_deg()).rad);
+    // Along the sight line nothing moves on the picture.
+    const auto along_m = [](const Sample& sample) { return 4.0 * float_rounding * sample.distance_m; };
+    constexpr double corner_px = std::numbers::sqrt2 / 256.0;
+    const auto corner_m = [&](const Sample& sample) {
+        const double z_m = std::max(near_plane_m, -(view_from_ecef_ * sample.apparent_m).z);
+        return corner_px / pixels_per_tangent_ * z_m * std::hypot(1.0, sample.slope);
+    };
+    EffectSize size;
+    switch (kind) {
+        case EffectKind::steps_f32:
+            return lifted([](const Sample&) { return 0.5 * height_step_m; });
+        // A ground point moves with the corners of its triangle.
+        case EffectKind::placement: {
+            const auto off_m = [&](const Sample& sample) {
+                return placement_far_share * (sample.distance_m + cell_m);
+            };
+            return anywhere(off_m, off_m);
+        }
+        case EffectKind::depth:
+            size = anywhere(along_m, along_m);
+            size.worst_px = size.typical_px = 0.0;
+            return size;
+        // Two corners of a triangle may move apart by a step along each axis.
+        case EffectKind::pixel_grid:
+            size = anywhere(corner_m, corner_m);
+            if (!empty()) size.worst_px = size.typical_px = corner_px;
+            return size;
+        case EffectKind::flat_cells:
+            return in_flat_cells();
+        default:
+            return std::nullopt;
+    }
+}
 
 // Bounds are derived; what is usual is worked out in float as a GPU does it.
 EffectSize EffectPrediction::in_float32(Precision precision) const {

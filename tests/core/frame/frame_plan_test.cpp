@@ -255,7 +255,7 @@ class EndlessPages : public RegionPages {
 
     [[nodiscard]] Result<PageRecord> record(const PageIndex& page) const override {
         if (key(page) == unreadable_) return Error{ErrorKind::failed, "terrain.oro", "page 7 is cut off"};
-        PageRecord record;
+        PageRecord record{};
         record.summary.index = page;
         record.reach_m = 1.0e12;
         record.horizon.angle_rad = 4.0;
