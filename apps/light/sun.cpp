@@ -1,30 +1,22 @@
 #include "apps/light/sun.h"
 
-#include <charconv>
 #include <string_view>
 
 #include "apps/command_line/refusals.h"
+#include "apps/command_line/whole_text.h"
 #include "apps/view/view_limits.h"
 #include "core/light/refraction.h"
 #include "core/light/sun_position.h"
 #include "core/light/utc_time.h"
 
 namespace oro {
-namespace {
-
-bool read_number(std::string_view text, double& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
-}
-
-}  // namespace
 
 Result<SunDirection> parse_sun(const std::string& text) {
     SunDirection sun{};
     const std::size_t comma = text.find(',');
     const std::string_view all(text);
-    if (comma == std::string::npos || !read_number(all.substr(0, comma), sun.azimuth_deg) ||
-        !read_number(all.substr(comma + 1), sun.elevation_deg))
+    if (comma == std::string::npos || !read_whole(all.substr(0, comma), sun.azimuth_deg) ||
+        !read_whole(all.substr(comma + 1), sun.elevation_deg))
         return refused("--sun", text, "must be AZIMUTH,ELEVATION in degrees, e.g. 315,45");
     constexpr Limits azimuth = view_limits::sun_azimuth_deg, elevation = view_limits::sun_elevation_deg;
     if (!azimuth.hold(sun.azimuth_deg))

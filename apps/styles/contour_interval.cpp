@@ -21,15 +21,6 @@ constexpr double wanted_lines = 5.0;  // from the low ground to the high, where 
 constexpr double highest_m = 9000.0;  // no ground above it
 constexpr double otherwise_m = 100.0;
 
-// H at a place where there is ground.
-std::optional<double> H_at(const HeightField& field, double lat_deg, double lon_deg) {
-    return field.surface_H_m(lat_deg, lon_deg);
-}
-
-double undulation_m(const HeightField& field, const Geodetic& place) {
-    return field.undulation.N_m.empty() ? 0.0 : field.undulation.at_m(place.lat_deg, place.lon_deg);
-}
-
 // Follows a sight line to the first ground that its steps meet.
 std::optional<Geodetic> ground_seen(const HeightField& field, double exaggeration, const Ecef& eye,
                                     const glm::dvec3& direction) {
@@ -37,8 +28,9 @@ std::optional<Geodetic> ground_seen(const HeightField& field, double exaggeratio
     double along_m = 0.5, last_h_m = 1e300;
     for (int i = 0; i < steps; ++i) {
         const Geodetic at = geodetic_from_ecef({eye.m + along_m * direction});
-        const auto H_m = H_at(field, at.lat_deg, at.lon_deg);
-        const double over_m = H_m ? at.h_m - (*H_m * exaggeration + undulation_m(field, at)) : at.h_m;
+        const auto H_m = field.surface_H_m(at.lat_deg, at.lon_deg);
+        const double over_m =
+            H_m ? at.h_m - (*H_m * exaggeration + field.undulation.at_m(at.lat_deg, at.lon_deg)) : at.h_m;
         if (H_m && over_m <= 0.0) return at;
         if (at.h_m > highest_m * exaggeration && at.h_m > last_h_m) return std::nullopt;
         if (!H_m && at.h_m < -1000.0) return std::nullopt;
@@ -54,10 +46,10 @@ std::optional<double> H_per_px(const HeightField& field, double exaggeration, co
                                const glm::dvec3& from_eye, double px_rad) {
     const PostSpacing post = post_spacing(field.grid, place.lat_deg);
     const double row_deg = field.grid.lat.spacing_deg(), column_deg = field.grid.lon.spacing_deg();
-    const auto north = H_at(field, place.lat_deg + row_deg, place.lon_deg),
-               south = H_at(field, place.lat_deg - row_deg, place.lon_deg),
-               east = H_at(field, place.lat_deg, place.lon_deg + column_deg),
-               west = H_at(field, place.lat_deg, place.lon_deg - column_deg);
+    const auto north = field.surface_H_m(place.lat_deg + row_deg, place.lon_deg),
+               south = field.surface_H_m(place.lat_deg - row_deg, place.lon_deg),
+               east = field.surface_H_m(place.lat_deg, place.lon_deg + column_deg),
+               west = field.surface_H_m(place.lat_deg, place.lon_deg - column_deg);
     if (!north || !south || !east || !west) return std::nullopt;
     const glm::dvec3 normal =
         glm::normalize(glm::dvec3(-exaggeration * (*east - *west) / (2.0 * post.column_m),
@@ -110,7 +102,7 @@ double contour_interval_m(const Camera& camera, double exaggeration, const Heigh
                 H_per_px(field, exaggeration, *ground, ecef_from_geodetic(*ground).m - eye.m, px_rad);
             if (!rise_m || *rise_m <= 0.0) continue;
             rises_m.push_back(*rise_m);
-            heights_m.push_back(*H_at(field, ground->lat_deg, ground->lon_deg));
+            heights_m.push_back(*field.surface_H_m(ground->lat_deg, ground->lon_deg));
         }
     }
     if (rises_m.empty()) return otherwise_m;

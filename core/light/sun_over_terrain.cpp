@@ -20,11 +20,6 @@ double sea_horizon_deg(const Sight& sight, double above_sea_m) {
     return -deg_from_radians(Radians{std::acos(1.0 / (1.0 + above_sea_m * per_m))});
 }
 
-glm::dvec3 enu_towards(double azimuth_deg, double elevation_deg) {
-    const SineCosine east = sine_cosine_deg(azimuth_deg), up = sine_cosine_deg(elevation_deg);
-    return {up.cosine * east.sine, up.cosine * east.cosine, up.sine};
-}
-
 }  // namespace
 
 SunOverTerrain::SunOverTerrain(const TrueSurface& surface, const Geodetic& eye, const Air& air,

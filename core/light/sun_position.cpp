@@ -206,4 +206,9 @@ SunPosition sun_position(double time_utc_s, const Geodetic& place, const Weather
     return sun;
 }
 
+glm::dvec3 enu_towards(double azimuth_deg, double elevation_deg) {
+    const SineCosine east = sine_cosine_deg(azimuth_deg), up = sine_cosine_deg(elevation_deg);
+    return {up.cosine * east.sine, up.cosine * east.cosine, up.sine};
+}
+
 }  // namespace oro

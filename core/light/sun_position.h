@@ -5,6 +5,7 @@
 // from which UTC keeps within 0.9 s (0.004 degree of the sky's turn). Before 1972 they are universal time.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
@@ -72,5 +73,8 @@ double up_s(const SunDayEvents& events, double from_utc_s);
 // the 24 hours from a time on (it may lie seconds before or after them), within 0.01 s. At a pole, where
 // there is no meridian, that itself.
 double solar_noon_utc_s(double from_utc_s, const Geodetic& place);
+
+// Unit vector east, north, up, towards an azimuth (clockwise from north) and an elevation above level.
+glm::dvec3 enu_towards(double azimuth_deg, double elevation_deg);
 
 }  // namespace oro
