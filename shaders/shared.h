@@ -183,6 +183,7 @@ ORO_CONST uint tint_stops_max = 256u;
 ORO_CONST uint colour_by_height = 0u;
 ORO_CONST uint colour_by_slope = 1u;   // degrees, 0 level
 ORO_CONST uint colour_by_aspect = 2u;  // degrees clockwise from true north: where the ground falls to
+ORO_CONST uint colour_by_cover = 3u;   // metres above the snow line, see GroundCover
 // FrameStyle.light: what lies over the tints.
 ORO_CONST uint light_sun = 0u;        // the sun and ambient light
 ORO_CONST uint light_none = 1u;       // the tints are what is seen
@@ -206,6 +207,55 @@ struct ContourLines {
     vec3 colour;       // linear light
 };
 
+// The air, in spherical shells around the Earth: molecules and dust, thinning out by e in each scale height,
+// and ozone between 10 and 40 km. Per metre, for red, green and blue; 0 in `on`: no air but FrameStyle's haze
+// and sky. Source: S. Hillaire, A scalable and production ready sky and atmosphere rendering technique,
+// Computer Graphics Forum 39(4), 2020, table 1.
+struct AirModel {
+    uint on;
+    vec3 molecules_per_m;  // scattered by them, at height 0
+    float molecules_scale_m;
+    float dust_scattering_per_m;
+    float dust_extinction_per_m;  // scattered or taken
+    float dust_scale_m;
+    float dust_forward;   // mean cosine of the angle that dust scatters by
+    vec3 ozone_per_m;     // taken, where it is densest
+    float ground_albedo;  // for light that the ground sends back into the air
+    float exposure;       // 1: as a camera would choose it for the light at the eye
+};
+// Its tables, one vec3 an entry: what a line to space meets of molecules, dust and ozone (metres at full
+// density); logarithms of light scattered more than once and of light from the whole sky on level ground; and
+// the sky as the eye sees it, logarithms, three entries each (shaders/air/air_tables.comp).
+ORO_CONST uint air_column_heights = 64u;
+ORO_CONST uint air_column_angles = 128u;
+ORO_CONST uint air_light_heights = 32u;
+ORO_CONST uint air_light_suns = 64u;
+ORO_CONST uint air_sky_rises = 128u;
+ORO_CONST uint air_sky_turns = 96u;
+ORO_CONST uint air_columns_first = 0u;
+ORO_CONST uint air_scattered_first = 8192u;
+ORO_CONST uint air_skylight_first = 10240u;
+ORO_CONST uint air_sky_first = 12288u;
+ORO_CONST uint air_entries = 49152u;
+
+// What covers the ground by nature: FrameStyle's tints by metres above the snow line of the latitude, and
+// rock where it is steep.
+struct SnowLineStop {
+    float lat_deg;
+    float H_m;
+};
+ORO_CONST uint snow_line_stops_max = 32u;
+struct GroundCover {
+    SnowLineStop snow_line[32];  // ascending; linear between
+    uint snow_line_count;
+    vec3 rock;  // linear light, or codes, as the tints
+    float rock_from_deg;
+    float rock_to_deg;
+    float forest_m;  // above the snow line (so below 0): from here down trees hold on to steeper slopes
+    float shade_m;   // so much lower is the snow line on a slope of 30 degrees that faces the pole
+    float level_m;   // ... and on level ground, where ice flows down to
+};
+
 // How a frame is coloured. Colours are linear light, Rec. 709 primaries. All zero where nothing is said:
 // coloured by height, in sunlight, through air.
 struct FrameStyle {
@@ -227,6 +277,8 @@ struct FrameStyle {
     vec3 flat_colour;  // of ground that falls nowhere, by aspect
     ReliefLight relief_light;
     ContourLines contours;
+    AirModel air;
+    GroundCover cover;
 };
 
 // The geoid's undulation N at nodes of its own, bilinear between them; the nearest beyond them.
@@ -275,6 +327,8 @@ struct FrameConstants {
     float earth_radius_m;  // Gaussian radius of curvature at the eye
     uint width_px;
     uint height_px;
+    uint first_x_px;  // where they begin in the whole picture
+    uint first_y_px;
     float pixels_per_tangent;  // for the choice of levels, see core/lod/levels.h
     float corner_tangent;
     float tau_px;
@@ -305,6 +359,7 @@ struct FrameConstants {
     uvec2 clip_list;     // triangle ids
     uvec2 large_list;    // LargeTriangle[large_max]
     uvec2 task_list;     // LargeTask[tasks_max]
+    uvec2 air;           // vec3[air_entries]; 0 without air
     UndulationTable undulation;
     FrameStyle style;
 };

@@ -188,6 +188,8 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.height_offset = coding.offset_steps;
     constants.width_px = static_cast<gpu::uint>(tile.width_px);
     constants.height_px = static_cast<gpu::uint>(tile.height_px);
+    constants.first_x_px = static_cast<gpu::uint>(tile.x_px);
+    constants.first_y_px = static_cast<gpu::uint>(tile.y_px);
     constants.pixels_per_tangent = view.pixels_per_tangent;
     constants.corner_tangent = view.corner_tangent;
     constants.tau_px = view.tau_px;

@@ -122,6 +122,15 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_edges(std::size_t pages) 
                       pages * gpu::edges_words);
 }
 
+Result<std::vector<float>> FrameRenderer::read_air() {
+    assert(air_.entries().handle);
+    ORO_TRY(const std::vector<std::uint32_t> bits,
+            read_words(air_.entries(), 0, std::size_t{3} * gpu::air_entries));
+    std::vector<float> values(bits.size());
+    std::memcpy(values.data(), bits.data(), bits.size() * sizeof(float));
+    return values;
+}
+
 std::vector<gpu::vec3> FrameRenderer::recorded(std::size_t most) const {
     std::vector<gpu::vec3> positions(std::min<std::size_t>(most, recorded_.size / sizeof(gpu::vec3)));
     std::memcpy(positions.data(), recorded_.mapped, positions.size() * sizeof(gpu::vec3));

@@ -230,6 +230,7 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = style;
+    if (options_.shades) ORO_CHECK(air_.prepare(*gpu_, options_.path, pipelines_, constants));
     address_choice(constants);
     if (compute_) compute_->address(constants);
     const auto copy = [&](VkDeviceSize at, const auto& values) {
@@ -313,20 +314,23 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) const {
+void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
+    air_.record(commands, pipelines_);
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, compute_ ? unused : as_colour,
                   shader_read);
     const bool first = plan.constants.sample_index == 0;
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
-    const OwnedPipeline& shade =
-        is_drawn_as_map(plan.constants.style) ? pipelines_.shade_map : pipelines_.shade;
+    const gpu::FrameStyle& style = plan.constants.style;
+    const OwnedPipeline& shade = style.air.on != 0        ? pipelines_.shade_air
+                                 : is_drawn_as_map(style) ? pipelines_.shade_map
+                                                          : pipelines_.shade;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.get());
     vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
 }
 
-void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) const {
+void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
     const auto stamp = [&](std::uint32_t number) {
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), number);
     };

@@ -8,6 +8,7 @@
 
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
+#include "render/frame/air_tables.h"
 #include "render/frame/compute_raster.h"
 #include "render/frame/pipelines.h"
 
@@ -70,6 +71,9 @@ class FrameRenderer {
     Result<std::vector<std::uint32_t>> read_edges(std::size_t pages);
     // ... and 256 bits: the nodes that may stand for what they cover.
     Result<std::vector<std::uint32_t>> read_accepted(std::size_t pages);
+    // The tables of the air (shaders/shared.h, AirModel) of the last frame, three floats an entry; its style
+    // had air.
+    Result<std::vector<float>> read_air();
     // With record_positions: of every page of the last frame, 129 x 129 positions relative to the eye, in its
     // meridian frame (with record_view in view coordinates), as the mesh shader placed them (those of void
     // posts, and of posts that are not drawn, mean nothing). The first `most` of them.
@@ -89,11 +93,11 @@ class FrameRenderer {
     void address_choice(gpu::FrameConstants& constants) const;
     Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
                                                   std::size_t count);
-    void record(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record(VkCommandBuffer commands, const FramePlan& plan);
     void record_upload(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_choice(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
-    void record_shade(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_shade(VkCommandBuffer commands, const FramePlan& plan);
     Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect,
                                               ImageUse last_use, std::uint32_t width, std::uint32_t height);
 
@@ -101,6 +105,7 @@ class FrameRenderer {
     FrameRendererOptions options_;
     Pipelines pipelines_;
     std::optional<ComputeRaster> compute_;
+    AirTables air_;
     Commands commands_;
     Image ids_, depth_, sum_, picture_;
     OwnedDescriptorPool pool_;

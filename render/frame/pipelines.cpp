@@ -8,6 +8,7 @@
 
 #include "shaders/shared.h"
 #include "spirv/accept_comp.h"
+#include "spirv/air_tables_comp.h"
 #include "spirv/cull_comp.h"
 #include "spirv/live_pages_comp.h"
 #include "spirv/raster_clip_comp.h"
@@ -231,10 +232,21 @@ Result<void> create_compute_path(const Gpu& gpu, Pipelines& pipelines) {
 struct ShadingConstants {
     VkBool32 from_compute;
     VkBool32 as_map;
+    VkBool32 in_air;
 };
-constexpr std::array<VkSpecializationMapEntry, 2> shading_constants_map{
+constexpr std::array<VkSpecializationMapEntry, 3> shading_constants_map{
     VkSpecializationMapEntry{0, offsetof(ShadingConstants, from_compute), sizeof(VkBool32)},
-    VkSpecializationMapEntry{1, offsetof(ShadingConstants, as_map), sizeof(VkBool32)}};
+    VkSpecializationMapEntry{1, offsetof(ShadingConstants, as_map), sizeof(VkBool32)},
+    VkSpecializationMapEntry{2, offsetof(ShadingConstants, in_air), sizeof(VkBool32)}};
+
+Result<OwnedPipeline> create_shading(const Gpu& gpu, const Pipelines& pipelines,
+                                     const ShadingConstants& values, const char* name) {
+    const VkSpecializationInfo constants{3, shading_constants_map.data(), sizeof(values), &values};
+    return create_compute_pipeline(gpu, pipelines, shade_comp_spirv, name, &constants);
+}
+VkBool32 from_compute(RasterPath path) {
+    return path == RasterPath::compute ? VK_TRUE : VK_FALSE;
+}
 
 }  // namespace
 
@@ -244,10 +256,8 @@ bool is_drawn_as_map(const gpu::FrameStyle& style) {
 }
 
 Result<void> create_map_shading(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
-    const ShadingConstants values{path == RasterPath::mesh ? VK_FALSE : VK_TRUE, VK_TRUE};
-    const VkSpecializationInfo constants{2, shading_constants_map.data(), sizeof(values), &values};
     ORO_TRY(pipelines.shade_map,
-            create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade as a map", &constants));
+            create_shading(gpu, pipelines, {from_compute(path), VK_TRUE, VK_FALSE}, "shade as a map"));
     return {};
 }
 
@@ -258,11 +268,9 @@ Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const Pipeli
     ORO_CHECK(by_mesh ? create_mesh_path(gpu, wants.record_positions, pipelines)
                       : create_compute_path(gpu, pipelines));
     ORO_CHECK(create_choice(gpu, pipelines));
-    const ShadingConstants values{by_mesh ? VK_FALSE : VK_TRUE, VK_FALSE};
-    const VkSpecializationInfo constants{2, shading_constants_map.data(), sizeof(values), &values};
+    const ShadingConstants values{from_compute(path), VK_FALSE, VK_FALSE};
     if (wants.shades) {
-        ORO_TRY(pipelines.shade,
-                create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade", &constants));
+        ORO_TRY(pipelines.shade, create_shading(gpu, pipelines, values, "shade"));
     }
     if (wants.triangles) {
         const VkSpecializationInfo one_constant{1, shading_constants_map.data(), sizeof(values), &values};
@@ -271,6 +279,18 @@ Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const Pipeli
                                         VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
     }
     return pipelines;
+}
+
+Result<void> add_air_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
+    ORO_TRY(pipelines.shade_air,
+            create_shading(gpu, pipelines, {from_compute(path), VK_FALSE, VK_TRUE}, "shade in air"));
+    for (std::uint32_t table = 0; table < pipelines.air.size(); ++table) {
+        const VkSpecializationMapEntry entry{0, 0, sizeof(table)};
+        const VkSpecializationInfo constants{1, &entry, sizeof(table), &table};
+        ORO_TRY(pipelines.air[table],
+                create_compute_pipeline(gpu, pipelines, air_tables_comp_spirv, "air tables", &constants));
+    }
+    return {};
 }
 
 }  // namespace oro

@@ -1,6 +1,8 @@
 // The programs that a frame runs: rasterise meshlets into ids and depth, shade pixels.
 #pragma once
 
+#include <array>
+
 #include "render/device/gpu.h"
 #include "shaders/shared.h"
 
@@ -21,7 +23,9 @@ struct Pipelines {
     OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
     OwnedPipeline shade;                                    // compute, 8 x 8
     OwnedPipeline shade_map;                                // the same for maps; see create_map_shading
-    OwnedPipeline triangles;                                // what each pixel shows, compute, 8 x 8
+    OwnedPipeline shade_air;                                // the same in air
+    std::array<OwnedPipeline, 4> air;  // its tables, in this order, 64 entries a workgroup
+    OwnedPipeline triangles;           // what each pixel shows, compute, 8 x 8
 };
 
 // What a renderer is asked for besides triangle ids.
@@ -33,6 +37,8 @@ struct PipelineWants {
 
 // Sizes of workgroups follow the device's preferred limits.
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants);
+// `air` and `shade_air`, for styles that have it: nothing else waits for them to be compiled.
+Result<void> add_air_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines);
 
 // Whether a style is drawn by `shade_map`: it is more than tints by height in sunlight and air.
 bool is_drawn_as_map(const gpu::FrameStyle& style);

@@ -30,8 +30,11 @@ float aspect_deg(SurfacePoint point) {
     return angle < 0.0 ? angle + 360.0 : angle;
 }
 
+#include "shaders/shade/cover.glsl"
+
 // In linear light, or as codes.
 vec3 ground_tint(SurfacePoint point) {
+    if (FRAME.style.colour_by == colour_by_cover) return ground_cover(point);
     if (FRAME.style.colour_by == colour_by_slope) return tint(slope_deg(point));
     if (FRAME.style.colour_by == colour_by_height) return tint(point.H_m);
     return point.normal.xy == vec2(0.0) ? FRAME.style.flat_colour : tint(aspect_deg(point));
@@ -96,9 +99,27 @@ vec3 ground_colour(SurfacePoint point) {
     return with_contours(colour, point);
 }
 
+// By the light of the sun in the air, as a camera shows it.
+vec3 daylit_ground(SurfacePoint point) {
+    vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
+    return shown(through_air(ground_radiance(ground_tint(point), normal, point.h_m, sun_at(point.view)), point.view));
+}
+vec3 daylit_background(vec3 direction) {
+    float horizon, distance_m = bare_earth_m(direction, horizon);
+    vec3 view = distance_m * direction;
+    if (distance_m >= 0.0)
+        return shown(through_air(ground_radiance(FRAME.style.no_data_colour, vec3(0.0, 0.0, 1.0), 0.0, sun_at(view)), view));
+    float above_rad = asin(clamp(dot(direction, FRAME.up_view), -1.0, 1.0)) - asin(horizon);
+    return shown(sky_radiance(direction, above_rad) + sun_disc(direction));
+}
+
 vec3 seen_ground(SurfacePoint point) {
+    if (in_air) return daylit_ground(point);
     vec3 colour = ground_colour(point);
     return as_map && FRAME.style.is_map == 1u ? colour : in_haze(colour, point.h_m, length(point.view));
 }
 
-vec3 seen_background(vec3 direction) { return as_map && FRAME.style.is_map == 1u ? FRAME.style.no_data_colour : background(direction); }
+vec3 seen_background(vec3 direction) {
+    if (in_air) return daylit_background(direction);
+    return as_map && FRAME.style.is_map == 1u ? FRAME.style.no_data_colour : background(direction);
+}

@@ -20,17 +20,20 @@ vec3 sky(float sine_above_horizon) {
     return mix(FRAME.style.haze_colour, FRAME.style.zenith_colour, rise) * density;
 }
 
-// Where no terrain is: the bare ellipsoid below the horizon, the sky above it.
-vec3 background(vec3 direction) {
+// Where a direction meets the bare ellipsoid, metres; -1 where it does not, and `horizon` the sine of the angle down to that.
+float bare_earth_m(vec3 direction, out float horizon) {
     float rise = dot(direction, FRAME.up_view);
     float h = max(FRAME.eye_h_m, 1.0);
     float b = (FRAME.earth_radius_m + h) * rise;
     float c = h * (2.0 * FRAME.earth_radius_m + h);
     float discriminant = b * b - c;
-    if (b < 0.0 && discriminant > 0.0) {
-        float distance_m = c / (-b + sqrt(discriminant));
-        return in_haze(FRAME.style.no_data_colour, 0.0, distance_m);
-    }
-    float horizon = -sqrt(c) / (FRAME.earth_radius_m + h);
-    return sky(rise - horizon);
+    horizon = -sqrt(c) / (FRAME.earth_radius_m + h);
+    return b < 0.0 && discriminant > 0.0 ? c / (-b + sqrt(discriminant)) : -1.0;
+}
+
+// Where no terrain is: the bare ellipsoid below the horizon, the sky above it.
+vec3 background(vec3 direction) {
+    float horizon, distance_m = bare_earth_m(direction, horizon);
+    if (distance_m >= 0.0) return in_haze(FRAME.style.no_data_colour, 0.0, distance_m);
+    return sky(dot(direction, FRAME.up_view) - horizon);
 }

@@ -3,10 +3,14 @@
 #extension GL_GOOGLE_include_directive : require
 // A map: any FrameStyle that is not tints by height, as light, in the sun and in air. Code of its own, so that other pictures pay nothing.
 layout(constant_id = 1) const bool as_map = false;
+layout(constant_id = 2) const bool in_air = false;  // FrameStyle.air
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
 #include "shaders/shade/surface.glsl"
+#include "shaders/air/air.glsl"
+#include "shaders/air/sky.glsl"
+#include "shaders/shade/daylight.glsl"
 #include "shaders/shade/light.glsl"
 #include "shaders/shade/srgb.glsl"
 #include "shaders/shade/ground.glsl"
@@ -18,6 +22,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer D
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 layout(binding = 1, rgba32f) uniform image2D sum;  // of the samples so far, linear light; alpha: those with ground
 layout(binding = 2, rgba8) uniform writeonly image2D picture;  // sRGB-encoded; alpha: the share of samples with ground
+
+// Half a step of 8 bits up or down by the place in the picture: gradients of light get no bands.
+// Source: J. Jimenez, Next generation post processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014, interleaved gradient noise.
+vec3 dithered(vec3 encoded, ivec2 pixel) {
+    if (!in_air) return encoded;
+    vec2 place = vec2(pixel + ivec2(FRAME.first_x_px, FRAME.first_y_px));
+    return encoded + (fract(52.9829189 * fract(dot(place, vec2(0.06711056, 0.00583715)))) - 0.5) / 255.0;
+}
 
 void keep_depth(ivec2 pixel, float depth) {
     if (FRAME.depths != uvec2(0u)) Depths(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)] = depth;
@@ -49,5 +61,5 @@ void main() {
         colour = total.rgb / float(FRAME.sample_count);
         ground = total.a / float(FRAME.sample_count);
     }
-    imageStore(picture, pixel, vec4(srgb_from_linear(colour), ground));
+    imageStore(picture, pixel, vec4(dithered(srgb_from_linear(colour), pixel), ground));
 }

@@ -6,6 +6,7 @@ struct SurfacePoint {
     float H_m;      // orthometric, not exaggerated
     float h_m;      // above the ellipsoid, as drawn
     vec3 normal;    // east, north, up at the place
+    float lat_deg;  // where the style asks for it
     float H_per_px; // how fast H changes on the picture; 0 where no contours are asked for
 };
 
@@ -165,6 +166,11 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     vec2 post = point.post;
     descend(page, post, length(point.view));
     point.normal = shading_normal_at(PageBlocks(page.block), page, post);
+    point.lat_deg = 0.0;
+    if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
+        RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + uint(clamp(post.x, 0.0, float(page_quads)))];
+        point.lat_deg = degrees(atan(row.S, row.C));
+    }
     point.H_per_px = 0.0;
     if (as_map && FRAME.style.contours.interval_m > 0.0) {
         // The shares are quotients of terms linear in the ray: how they change from pixel to pixel, and the height with them.

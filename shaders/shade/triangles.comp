@@ -2,6 +2,7 @@
 // Tells of each pixel which triangle it shows: its posts, and where they were placed. Pictures are measured with it.
 #extension GL_GOOGLE_include_directive : require
 const bool as_map = false;
+const bool in_air = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

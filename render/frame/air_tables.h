@@ -1,0 +1,36 @@
+// The tables of the air that a style has (shaders/air): made when they are first asked for, and again only
+// when what they are made of has changed.
+#pragma once
+
+#include <optional>
+
+#include "render/device/resources.h"
+#include "render/frame/pipelines.h"
+#include "shaders/shared.h"
+
+namespace oro {
+
+class AirTables {
+  public:
+    // Room for a frame's tables, and where they are into its constants; the pipelines on first use. Nothing
+    // happens for a style without air.
+    Result<void> prepare(const Gpu& gpu, RasterPath path, Pipelines& pipelines,
+                         gpu::FrameConstants& constants);
+    // Fills those of them that are not as the constants of the last prepare() ask. The frame's set is bound.
+    void record(VkCommandBuffer commands, const Pipelines& pipelines);
+
+    [[nodiscard]] const Buffer& entries() const { return entries_; }
+
+  private:
+    // What the tables depend on: the first three on the model alone, the sky on all of it.
+    struct Made {
+        gpu::AirModel model{};
+        float earth_radius_m{};
+        float eye_h_m{};
+        gpu::vec3 sun_enu{};
+    };
+    Buffer entries_;
+    std::optional<Made> made_, wanted_;
+};
+
+}  // namespace oro

@@ -1,0 +1,25 @@
+// What covers the ground by nature, without any map of it: FrameStyle.cover. Needs ground.glsl's tints.
+
+float snow_line_m(float lat_deg) {
+    uint last = FRAME.style.cover.snow_line_count - 1u, above = 0u;
+    while (above < last && FRAME.style.cover.snow_line[above].lat_deg < lat_deg) ++above;
+    uint below = max(above, 1u) - 1u;
+    float low = FRAME.style.cover.snow_line[below].lat_deg, high = FRAME.style.cover.snow_line[above].lat_deg;
+    float share = high > low ? clamp((lat_deg - low) / (high - low), 0.0, 1.0) : 0.0;
+    return mix(FRAME.style.cover.snow_line[below].H_m, FRAME.style.cover.snow_line[above].H_m, share);
+}
+
+vec3 ground_cover(SurfacePoint point) {
+    float slope = slope_deg(point), steepness = min(sin(radians(slope)) * 2.0, 1.0);
+    float lean = length(point.normal.xy);
+    float to_pole = lean > 0.0 ? point.normal.y / lean * (point.lat_deg < 0.0 ? -1.0 : 1.0) : 0.0;
+    float above_m = point.H_m - snow_line_m(point.lat_deg) + FRAME.style.cover.shade_m * steepness * to_pole;
+    // Level ground high up is most often ice, which snow feeds from above.
+    float high = smoothstep(-2.0, -1.0, above_m / max(FRAME.style.cover.level_m, 1.0));
+    above_m += FRAME.style.cover.level_m * high * (1.0 - smoothstep(7.0, 15.0, slope));
+    // Trees and snow hold on where grass and scree have slid down.
+    float held = 9.0 * (1.0 - smoothstep(FRAME.style.cover.forest_m, 0.5 * FRAME.style.cover.forest_m, above_m)
+                        + smoothstep(-100.0, 300.0, above_m));
+    float rock = smoothstep(FRAME.style.cover.rock_from_deg + held, FRAME.style.cover.rock_to_deg + held, slope);
+    return mix(tint(above_m), FRAME.style.cover.rock, rock);
+}

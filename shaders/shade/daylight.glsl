@@ -1,0 +1,54 @@
+// Ground and sky by the light of the sun in the air: FrameStyle.air. Needs surface.glsl, air.glsl and sky.glsl.
+
+// Towards the sun from a place: east, north, up there. Its light is parallel.
+vec3 sun_at(vec3 view) {
+    vec3 up = normalize(view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
+    vec3 east = cross(FRAME.view_from_eye * vec3(0.0, 0.0, 1.0), up), sun = sun_in_view();
+    if (dot(east, east) < 1.0e-12) east = FRAME.view_from_eye * vec3(0.0, 1.0, 0.0);
+    east = normalize(east);
+    return vec3(dot(sun, east), dot(sun, cross(up, east)), dot(sun, up));
+}
+
+// What a place on the ground sends to the eye, before the air between.
+vec3 ground_radiance(vec3 albedo, vec3 normal, float h_m, vec3 sun) {
+    vec3 from_sun = sunlight(h_m, sun.z), from_sky = skylight(h_m, sun.z);
+    // Of slopes, the part that does not see the sky sees other ground.
+    vec3 from_ground = AIR.ground_albedo * (from_sun * max(sun.z, 0.0) + from_sky);
+    float open = 0.5 + 0.5 * normal.z;
+    return albedo / pi * (from_sun * max(dot(normal, sun), 0.0) + mix(from_ground, from_sky, open));
+}
+
+// As a place is seen through the air from the eye.
+vec3 through_air(vec3 colour, vec3 view) {
+    float distance_m = length(view);
+    vec3 direction = view / distance_m, sun = sun_in_view();
+    AirRay ray = AirRay(FRAME.earth_radius_m, eye_in_air_m(), dot(direction, FRAME.up_view), FRAME.style.sun_enu.z, dot(direction, sun));
+    float from_m = ray.h_m > air_top_m ? max(way_down_m(ray, air_top_m), 0.0) : 0.0;
+    if (from_m >= distance_m) return colour;
+    int pieces = int(clamp(4.0 + 12.0 * sqrt((distance_m - from_m) / 2.0e5), 4.0, 24.0));
+    AirLight light = gathered(ray, from_m, distance_m, pieces);
+    return colour * light.through + radiance(light, ray.to_sun);
+}
+
+vec3 sun_disc(vec3 direction) {
+    float angle = acos(clamp(dot(direction, sun_in_view()), -1.0, 1.0));
+    float rise = dot(direction, FRAME.up_view);
+    float disc = 1.0 - smoothstep(0.95 * sun_radius_rad, 1.05 * sun_radius_rad, angle);
+    return disc <= 0.0 ? vec3(0.0) : disc * to_space(min(eye_in_air_m(), air_top_m), rise) / (pi * sun_radius_rad * sun_radius_rad);
+}
+
+// White ground in the light at the eye's place is a little below white; when the sun is low less light is let in than a camera would,
+// so that dusk is dark. From space by day, wherever the sun is.
+float exposure() {
+    float h_m = min(eye_in_air_m(), 10000.0), rise = FRAME.style.sun_enu.z;
+    vec3 light = skylight(h_m, rise) + sunlight(h_m, rise) * max(rise, 0.0);
+    float seen = dot(light, vec3(0.2126, 0.7152, 0.0722));  // of Rec. 709
+    seen = mix(seen, 0.8, smoothstep(2.0e4, 2.0e5, FRAME.eye_h_m));
+    return AIR.exposure * pi * 1.45 * pow(max(seen, 2.0e-4), -0.8);
+}
+
+// Bright light is pressed together instead of cut off.
+vec3 shown(vec3 radiance) {
+    vec3 light = radiance * exposure();
+    return mix(light, 0.35 + 0.65 * (1.0 - exp(-(light - 0.35) / 0.65)), greaterThan(light, vec3(0.35)));
+}
