@@ -66,6 +66,10 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
                 "Light as the sun gives it at the eye at this time, e.g. 2026-06-21T05:30+02:00; view is the "
                 "picture's own time. Not with --sun.")
         .excludes(&sun);
+    looks.number(
+        "--visibility", options.visibility_km, "KM",
+        "How clear the air is: how far away at sea level something black can be told from the sky, " +
+            span(view_limits::visibility_km) + ". Default: the style's. For styles with air.");
     looks.whole_number("--samples", options.samples, static_cast<int>(view_limits::samples.low),
                        static_cast<int>(view_limits::samples.high), "N",
                        "How many samples make a pixel, " + span(view_limits::samples) +

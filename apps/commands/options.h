@@ -37,6 +37,7 @@ struct ViewOptions {
     std::optional<double> exaggeration;
     std::optional<int> samples;
     std::optional<std::string> style;
+    std::optional<double> visibility_km;
     std::optional<std::string> time;
     std::optional<std::string> pipeline;
     std::optional<double> tau_px;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 
 #include "apps/report/json_fields.h"
 #include "apps/styles/colours.h"
+#include "apps/styles/daylight_json.h"
+#include "apps/styles/style_fields.h"
 #include "apps/view/view_limits.h"
 
 namespace oro {
@@ -16,62 +16,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double largest = 1e9;  // metres, or whatever else a style measures
-
-ColourCodes colour_of(const json& object, const char* name) {
-    const std::string text = json_string(object, name);
-    if (text.size() != 7 || text[0] != '#' ||
-        text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
-        throw JsonFault{"'" + text + "' is not a colour like #a0b1c2"};
-    const long value = std::strtol(text.c_str() + 1, nullptr, 16);
-    return {static_cast<int>(value >> 16 & 255), static_cast<int>(value >> 8 & 255),
-            static_cast<int>(value & 255)};
-}
-
-float number(const json& object, const char* name, double low, double high) {
-    return static_cast<float>(json_number(object, name, low, high));
-}
-
-float positive(const json& object, const char* name) {
-    const float value = number(object, name, 0.0, largest);
-    if (!(value > 0.0F)) throw JsonFault{"'" + std::string(name) + "' must be above 0"};
-    return value;
-}
-
-void refuse_unknown(const json& object, const char* what, std::initializer_list<std::string_view> known) {
-    for (const auto& [name, value] : object.items()) {
-        if (std::ranges::find(known, name) != known.end()) continue;
-        std::string all;
-        for (const std::string_view one : known) all += (all.empty() ? "" : ", ") + std::string(one);
-        throw JsonFault{std::string(what) + " has no field '" + name + "'; there is: " + all};
-    }
-}
-
-// One of some words, each with its number on the GPU.
-struct Choice {
-    const char* word;
-    gpu::uint number;
-};
-template <std::size_t Count>
-gpu::uint choice(const json& object, const char* name, const std::array<Choice, Count>& choices) {
-    if (!object.contains(name)) return choices[0].number;
-    const std::string text = json_string(object, name);
-    std::string all;
-    for (const Choice& one : choices) {
-        if (text == one.word) return one.number;
-        all += (all.empty() ? "" : ", ") + std::string(one.word);
-    }
-    throw JsonFault{"'" + std::string(name) + "' is '" + text + "'; there is: " + all};
-}
-
 // By FrameStyle.colour_by: what a stop says it holds at, and the range of it.
 struct Measure {
     const char* name;
     double low;
     double high;
 };
-constexpr std::array<Measure, 3> measures{
-    {{"H_m", -largest, largest}, {"slope_deg", 0.0, 90.0}, {"aspect_deg", 0.0, 360.0}}};
+constexpr std::array<Measure, 4> measures{{{"H_m", -largest_in_style, largest_in_style},
+                                           {"slope_deg", 0.0, 90.0},
+                                           {"aspect_deg", 0.0, 360.0},
+                                           {"above_snow_line_m", -largest_in_style, largest_in_style}}};
 
 void read_tints(const json& object, gpu::FrameStyle& style) {
     const auto& tints = json_field(object, "tints");
@@ -79,7 +33,7 @@ void read_tints(const json& object, gpu::FrameStyle& style) {
         throw JsonFault{"'tints' must be a list of 1 to " + std::to_string(gpu::tint_stops_max)};
     const Measure& measure = measures[style.colour_by];
     for (const auto& stop : tints) {
-        const float at = number(stop, measure.name, measure.low, measure.high);
+        const float at = style_number(stop, measure.name, measure.low, measure.high);
         if (style.tint_count > 0 && !(at > style.tints[style.tint_count - 1].at))
             throw JsonFault{"tints must ascend in " + std::string(measure.name)};
         const ColourCodes colour = colour_of(stop, "colour");
@@ -92,14 +46,15 @@ void read_tints(const json& object, gpu::FrameStyle& style) {
 void read_ground(const json& object, gpu::FrameStyle& style) {
     json_field(object, "tints");  // the first that is told missing
     style.colour_by = choice(object, "colour_by",
-                             std::array<Choice, 3>{{{"height", gpu::colour_by_height},
-                                                    {"slope", gpu::colour_by_slope},
-                                                    {"aspect", gpu::colour_by_aspect}}});
+                             std::array<StyleChoice, 4>{{{"height", gpu::colour_by_height},
+                                                         {"slope", gpu::colour_by_slope},
+                                                         {"aspect", gpu::colour_by_aspect},
+                                                         {"cover", gpu::colour_by_cover}}});
     style.light = choice(object, "light",
-                         std::array<Choice, 4>{{{"sun", gpu::light_sun},
-                                                {"none", gpu::light_none},
-                                                {"hillshade", gpu::light_hillshade},
-                                                {"relief", gpu::light_relief}}});
+                         std::array<StyleChoice, 4>{{{"sun", gpu::light_sun},
+                                                     {"none", gpu::light_none},
+                                                     {"hillshade", gpu::light_hillshade},
+                                                     {"relief", gpu::light_relief}}});
     style.tints_as_codes = style.light == gpu::light_sun ? 0 : 1;
     read_tints(object, style);
     if (style.colour_by == gpu::colour_by_aspect) {
@@ -107,6 +62,11 @@ void read_ground(const json& object, gpu::FrameStyle& style) {
         style.flat_colour = style.tints_as_codes == 1 ? unit_codes(flat) : linear_light(flat);
     } else if (object.contains("flat")) {
         throw JsonFault{"'flat' is for 'colour_by': 'aspect'"};
+    }
+    if (style.colour_by == gpu::colour_by_cover) {
+        style.cover = cover_of(json_field(object, "cover"), style.tints_as_codes == 1);
+    } else if (object.contains("cover")) {
+        throw JsonFault{"'cover' is for 'colour_by': 'cover'"};
     }
 }
 
@@ -121,26 +81,35 @@ SunDirection read_light(const json& object, gpu::FrameStyle& style) {
                            view_limits::sun_elevation_deg.high)};
         refuse_unknown(own, "'sun'", {"azimuth_deg", "elevation_deg"});
     }
-    if (style.light == gpu::light_sun) style.ambient = number(object, "ambient", 0.0, 1.0);
+    if (style.light == gpu::light_sun) style.ambient = style_number(object, "ambient", 0.0, 1.0);
     style.relief = dark ? 1.0F : positive(object, "relief");
     if (style.light != gpu::light_relief) return sun;
     const auto& light = json_field(object, "relief_light");
     gpu::ReliefLight& relief = style.relief_light;
     relief.lit = unit_codes(colour_of(light, "lit"));
-    relief.lit_share = number(light, "lit_share", 0.0, 1.0);
+    relief.lit_share = style_number(light, "lit_share", 0.0, 1.0);
     relief.shadow = unit_codes(colour_of(light, "shadow"));
     relief.veil = unit_codes(colour_of(light, "veil"));
-    relief.low_H_m = number(light, "low_H_m", -largest, largest);
-    relief.high_H_m = number(light, "high_H_m", -largest, largest);
+    relief.low_H_m = style_number(light, "low_H_m", -largest_in_style, largest_in_style);
+    relief.high_H_m = style_number(light, "high_H_m", -largest_in_style, largest_in_style);
     if (!(relief.high_H_m > relief.low_H_m)) throw JsonFault{"'high_H_m' must be above 'low_H_m'"};
-    relief.low_contrast = number(light, "low_contrast", 0.0, 1.0);
-    relief.low_veil = number(light, "low_veil", 0.0, 1.0);
+    relief.low_contrast = style_number(light, "low_contrast", 0.0, 1.0);
+    relief.low_veil = style_number(light, "low_veil", 0.0, 1.0);
     refuse_unknown(light, "'relief_light'",
                    {"lit", "lit_share", "shadow", "veil", "low_H_m", "high_H_m", "low_contrast", "low_veil"});
     return sun;
 }
 
 void read_air(const json& object, gpu::FrameStyle& style) {
+    if (object.contains("air")) {
+        for (const char* name : {"haze", "sky", "background", "contours"})
+            if (object.contains(name))
+                throw JsonFault{"with 'air' a style has no '" + std::string(name) + "'"};
+        if (style.light != gpu::light_sun) throw JsonFault{"with 'air' a style is lit by the sun"};
+        style.air = air_of(json_field(object, "air"));
+        style.no_data_colour = linear_light(colour_of(object, "no_data"));
+        return;
+    }
     if (object.contains("background")) {
         for (const char* name : {"haze", "sky", "no_data"}) {
             if (object.contains(name))
@@ -149,7 +118,7 @@ void read_air(const json& object, gpu::FrameStyle& style) {
         style.is_map = 1;
         style.no_data_colour = linear_light(colour_of(object, "background"));
         // Of no use to a map, and numbers all the same.
-        style.haze_distance_m = static_cast<float>(largest);
+        style.haze_distance_m = static_cast<float>(largest_in_style);
         style.sky_scale_height_m = 8000.0F;
         return;
     }
@@ -169,10 +138,10 @@ bool read_contours(const json& object, gpu::FrameStyle& style) {
     if (!object.contains("contours")) return false;
     const auto& lines = json_field(object, "contours");
     style.contours.colour = linear_light(colour_of(lines, "colour"));
-    style.contours.width_px = number(lines, "width_px", 0.1, 20.0);
+    style.contours.width_px = style_number(lines, "width_px", 0.1, 20.0);
     refuse_unknown(lines, "'contours'", {"colour", "width_px", "interval_m"});
     if (!lines.contains("interval_m")) return true;
-    style.contours.interval_m = number(lines, "interval_m", 0.1, 1e5);
+    style.contours.interval_m = style_number(lines, "interval_m", 0.1, 1e5);
     return false;
 }
 
@@ -186,7 +155,7 @@ Style style_of_json(const json& object) {
     style.contours_by_view = read_contours(object, style.frame);
     refuse_unknown(object, "a style",
                    {"name", "licence", "colour_by", "tints", "flat", "light", "sun", "ambient", "relief",
-                    "relief_light", "contours", "background", "haze", "sky", "no_data"});
+                    "relief_light", "contours", "background", "haze", "sky", "air", "no_data", "cover"});
     return style;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,7 +15,9 @@
 #include "apps/report/json_fields.h"
 #include "apps/styles/colour_table.h"
 #include "apps/styles/contour_interval.h"
+#include "apps/styles/daylight_json.h"
 #include "apps/styles/style_json.h"
+#include "core/light/sun_position.h"
 
 namespace oro {
 namespace {
@@ -63,10 +64,7 @@ bool is_style_path(const std::string& style) {
 }
 
 void light_by(const SunDirection& sun, gpu::FrameStyle& style) {
-    const double azimuth = radians_from_deg(sun.azimuth_deg).rad,
-                 elevation = radians_from_deg(sun.elevation_deg).rad;
-    style.sun_enu = gpu::vec3(std::sin(azimuth) * std::cos(elevation),
-                              std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
+    style.sun_enu = gpu::vec3(enu_towards(sun.azimuth_deg, sun.elevation_deg));
     style.sun_hidden = static_cast<float>(1.0 - direct_light(sun));
 }
 
@@ -86,6 +84,11 @@ Result<Style> load_style(const View& view, const HeightField& field) {
                      text.error().line()};
     }
     ORO_TRY(Style style, read_style(*text, path, field));
+    if (view.visibility_km) {
+        if (style.frame.air.on == 0)
+            return Error{ErrorKind::usage, "--visibility", "is for styles with air; " + name + " has none"};
+        set_visibility(*view.visibility_km, style.frame.air);
+    }
     style.sun = view.sun.value_or(style.sun);
     light_by(style.sun, style.frame);
     ORO_CHECK(fit_to_view(style, view, field));

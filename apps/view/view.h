@@ -31,7 +31,8 @@ struct View {
     Camera camera;  // the eye's h is above the ellipsoid
     double exaggeration{1.0};
     int samples{1};
-    std::optional<SunDirection> sun;  // nothing: the style's
+    std::optional<SunDirection> sun;      // nothing: the style's
+    std::optional<double> visibility_km;  // nothing: the style's
     std::string style{"default"};
     std::string pipeline{"auto"};  // or "mesh", "compute": written views name the one that drew them
     double tau_px{1.0};            // largest error of what is drawn; 0: full resolution

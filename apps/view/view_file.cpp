@@ -141,6 +141,9 @@ View read_fields(const nlohmann::json& json) {
     view.samples = static_cast<int>(whole(json, "samples", limits::samples));
     view.exaggeration = number(json, "exaggeration", limits::exaggeration);
     if (const auto& sun = json_field(json, "sun"); !sun.is_null()) view.sun = read_sun(sun);
+    // Views of before there was air that light goes through have none.
+    if (json.contains("visibility_km"))
+        view.visibility_km = number(json, "visibility_km", limits::visibility_km);
     view.style = path_from(json, "style");
     // Views of before there was a choice have none.
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
@@ -197,6 +200,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["exaggeration"] = view.exaggeration;
     json["sun"] = nullptr;
     if (view.sun) json["sun"] = sun_json(*view.sun);
+    if (view.visibility_km) json["visibility_km"] = *view.visibility_km;
     json["style"] = path_json(view.style);
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;

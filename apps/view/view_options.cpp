@@ -1,5 +1,4 @@
 // From options to a view: numbers checked, the clock asked, nothing opened.
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -7,6 +6,7 @@
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/command_line/refusals.h"
+#include "apps/command_line/whole_text.h"
 #include "apps/report/json_text.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
@@ -14,12 +14,6 @@
 
 namespace oro {
 namespace {
-
-template <class Number>
-bool read_whole(std::string_view text, Number& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
-}
 
 Result<void> set_size(const std::string& text, Camera& camera) {
     const std::size_t cross = text.find_first_of("xX");
@@ -105,6 +99,10 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
         view.samples = static_cast<int>(samples);
     }
     if (options.style) view.style = *options.style;
+    if (options.visibility_km) {
+        ORO_TRY(view.visibility_km,
+                within("--visibility", *options.visibility_km, view_limits::visibility_km));
+    }
     if (options.pipeline) view.pipeline = *options.pipeline;
     ORO_CHECK(apply_models(view, options));
     if (options.tau_px) {

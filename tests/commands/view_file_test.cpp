@@ -20,6 +20,7 @@ oro::View unusual_view() {
     view.exaggeration = 1.7;
     view.samples = 5;
     view.sun = oro::SunDirection{270.0, -3.5};
+    view.visibility_km = 12.5;
     view.style = "other";
     view.pipeline = "compute";
     view.model = {oro::Earth::sphere, {-0.25}, oro::Precision::naive};
@@ -37,6 +38,7 @@ TEST(ViewFile, EveryFieldComesBack) {
         ASSERT_TRUE(read.ok()) << read.error().line();
         EXPECT_EQ(oro::view_to_json(*read, pretty), text);
         EXPECT_EQ(read->pipeline, "compute");
+        EXPECT_EQ(read->visibility_km, 12.5);
         EXPECT_EQ(read->camera.eye.lat_deg, view.camera.eye.lat_deg);
         EXPECT_EQ(read->model.air, oro::Air{-0.25});
         EXPECT_FALSE(read->has_geoid);

@@ -22,8 +22,10 @@ TEST(StyleFiles, ThoseThatComeWithTheProgramAreRead) {
         const auto style = loaded(text);
         ASSERT_TRUE(style.ok()) << style.error().line();
         EXPECT_NE(text.find("\"licence\": \"CC0-1.0"), std::string::npos) << entry.path();
-        // Maps have no air, default has.
-        EXPECT_EQ(style->frame.is_map == 0, entry.path().stem() == "default") << entry.path();
+        // Maps have no air; default and natural have.
+        const std::string name = entry.path().stem();
+        EXPECT_EQ(style->frame.is_map == 0, name == "default" || name == "natural") << entry.path();
+        EXPECT_EQ(style->frame.air.on == 1, name == "natural") << entry.path();
         ++count;
     }
     EXPECT_GE(count, 8);
@@ -32,6 +34,11 @@ TEST(StyleFiles, ThoseThatComeWithTheProgramAreRead) {
 TEST(StyleFiles, FaultsAreToldInOneLine) {
     const std::string tints = R"("tints": [{"H_m": 0, "colour": "#ffffff"}])";
     const std::string map = tints + R"(, "background": "#ffffff")";
+    const std::string cover =
+        R"("tints": [{"above_snow_line_m": 0, "colour": "#ffffff"}], "colour_by": "cover", "light": "none",
+            "background": "#ffffff")";
+    const std::string daylight =
+        tints + R"(, "sun": {"azimuth_deg": 1, "elevation_deg": 1}, "ambient": 0.2, "relief": 1)";
     struct Bad {
         std::string text, says;
     };
@@ -39,7 +46,7 @@ TEST(StyleFiles, FaultsAreToldInOneLine) {
         Bad{R"({)" + map + R"(, "light": "moon"})",
             "'light' is 'moon'; there is: sun, none, hillshade, relief"},
         Bad{R"({)" + map + R"(, "light": "none", "colour_by": "gradient"})",
-            "'colour_by' is 'gradient'; there is: height, slope, aspect"},
+            "'colour_by' is 'gradient'; there is: height, slope, aspect, cover"},
         Bad{R"({)" + map + R"(, "light": "none", "shine": 1})",
             "a style has no field 'shine'; there is: name, "},
         Bad{R"({)" + map + R"(, "light": "none", "flat": "#ffffff"})", "'flat' is for"},
@@ -57,7 +64,21 @@ TEST(StyleFiles, FaultsAreToldInOneLine) {
         Bad{R"({)" + map + R"(, "light": "none", "contours": {"colour": "#000000", "width_px": 0}})",
             "width_px"},
         Bad{R"({)" + map + R"(, "light": "hillshade", "sun": {"azimuth_deg": 1, "elevation_deg": 1}})",
-            "'relief' is missing"}};
+            "'relief' is missing"},
+        Bad{R"({)" + map + R"(, "light": "none", "cover": {}})", "'cover' is for"},
+        Bad{R"({)" + cover + R"(, "cover": {"snow_line": [{"lat_deg": 91, "H_m": 0}]}})", "lat_deg"},
+        Bad{R"({)" + cover +
+                R"(, "cover": {"snow_line": [{"lat_deg": 9, "H_m": 0}, {"lat_deg": 9, "H_m": 1}]}})",
+            "'snow_line' must ascend in lat_deg"},
+        Bad{R"({)" + cover + R"(, "cover": {"snow_line": [{"lat_deg": 9, "H_m": 0}], "rock": "#000000",
+                "rock_from_deg": 40, "rock_to_deg": 40}})",
+            "'rock_to_deg' must be above 'rock_from_deg'"},
+        Bad{R"({)" + daylight + R"(, "air": {"visibility_km": 300, "ground_albedo": 0.2, "exposure": 1}})",
+            "visibility_km"},
+        Bad{R"({)" + daylight +
+                R"(, "air": {"visibility_km": 50, "ground_albedo": 0.2, "exposure": 1, "fog": 1}})",
+            "'air' has no field 'fog'"},
+        Bad{R"({)" + daylight + R"(, "air": {}, "haze": {}})", "with 'air' a style has no 'haze'"}};
     for (const Bad& one : bad) {
         const auto style = loaded(one.text);
         ASSERT_FALSE(style.ok()) << one.text;

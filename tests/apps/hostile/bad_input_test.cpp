@@ -174,6 +174,10 @@ TEST_F(BadInput, NamesOfStyles) {
 
 TEST_F(BadInput, Styles) {
     const auto no_json = file("a.json", "{ \"name\": ");
+    expect_refusal(shoot(bundled(), {"--style", "plain", "--visibility", "50"}), usage,
+                   {"--visibility: is for styles with air; plain has none"});
+    expect_refusal(shoot(bundled(), {"--style", "natural", "--visibility", "300"}), usage,
+                   {"--visibility 300: must be between 0.05 and 288"});
     expect_refusal(shoot(bundled(), {"--style", no_json}), failed, {no_json});
     const auto colourless = file("b.json", R"({"name": "b", "tints": [{"H_m": 0, "colour": "green"}]})");
     expect_refusal(shoot(bundled(), {"--style", colourless}), failed, {colourless, "green"});
