@@ -45,7 +45,7 @@ void add_eye_options(CLI::App& command, ViewOptions& options) {
                "Look at this place on the ground. Needs --at. Not with --heading or --pitch.");
     eye.number("--fov", options.vertical_fov_deg, "DEGREES",
                "Angle of view from the bottom of the picture to its top, " + span(view_limits::fov_deg) +
-                   " (default 45).");
+                   " (default 45; without --at 30).");
     eye.option(
         "--size", options.size, "WIDTHxHEIGHT",
         "Size of the picture in pixels, each side " + span(view_limits::side_px) + " (default 1280x720).");

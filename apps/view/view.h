@@ -56,8 +56,8 @@ Result<RegionRequest> region_request(const RegionOptions& options);
 Result<View> view_without_eye(const ViewOptions& options, RegionRequest region);
 
 // Puts the eye of a view where the options say: at a place over the ground or above sea level, or so that the
-// whole region is in the picture. Errors: no data under an eye that is placed over the ground (no_data); an
-// eye beyond view_limits (usage).
+// whole region is in the picture (apps/eye/overview.h). Errors: no data under an eye that is placed over the ground
+// (no_data); an eye beyond view_limits (usage).
 Result<void> place_eye(View& view, const ViewOptions& options, const Region& region);
 
 // Nothing of a region is in a view: an error where the eye is not over the region's box (a view of another

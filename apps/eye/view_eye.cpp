@@ -1,11 +1,9 @@
 // Where the eye of a view is: on a place, or so that the whole region can be seen.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <glm/geometric.hpp>
-#include <limits>
 
 #include "apps/command_line/refusals.h"
+#include "apps/eye/overview.h"
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
 #include "core/terrain/ground.h"
@@ -34,76 +32,6 @@ std::string where_data_are(const PostGrid& grid, double lat_deg, double lon_deg)
                   grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg());
     if (std::abs(lon_deg) > 90.0 || !holds(grid, lon_deg, lat_deg)) return text;
     return text + (". " + place_name(lon_deg, lat_deg)) + " lies inside: latitude comes first";
-}
-
-// Points all over the drawn surface, at most some 64 x 64 of them.
-std::vector<Ecef> surface_points(const HeightField& field, double exaggeration) {
-    std::vector<Ecef> points;
-    const int row_step = std::max(1, field.grid.rows() / 64),
-              column_step = std::max(1, field.grid.columns() / 64);
-    for (int row = 0; row < field.grid.rows(); row += row_step) {
-        for (int column = 0; column < field.grid.columns(); column += column_step) {
-            if (!is_void(field.H_at_post_m(row, column)))
-                points.push_back(post_ecef(field, row, column, exaggeration));
-        }
-    }
-    return points;
-}
-
-// True when all points are inside the middle of the picture (a margin of 4 % on each side).
-bool holds_all(const Camera& camera, const std::vector<Ecef>& points) {
-    const glm::dmat3 view_from_ecef = camera.view_from_ecef();
-    const glm::dvec3 eye = camera.eye_ecef().m;
-    const glm::dvec2 reach = camera.half_fov_tangent() * 0.92;
-    return std::all_of(points.begin(), points.end(), [&](const Ecef& point) {
-        const glm::dvec3 view = view_from_ecef * (point.m - eye);
-        return view.z < 0.0 && std::abs(view.x) <= -view.z * reach.x && std::abs(view.y) <= -view.z * reach.y;
-    });
-}
-
-// An eye that looks at `centre` from a distance; oblique for parts of the Earth, from above for most of it.
-void stand_off(Camera& camera, const Geodetic& centre, double heading_deg, double pitch_deg,
-               double distance_m) {
-    const double heading = radians_from_deg(heading_deg).rad, pitch = radians_from_deg(pitch_deg).rad;
-    const glm::dvec3 forward(std::sin(heading) * std::cos(pitch), std::cos(heading) * std::cos(pitch),
-                             std::sin(pitch));
-    const glm::dvec3 forward_ecef = ecef_from_enu(centre.lat_deg, centre.lon_deg) * forward;
-    camera.eye = geodetic_from_ecef({ecef_from_geodetic(centre).m - distance_m * forward_ecef});
-    const double roll_deg = camera.attitude.roll_deg;
-    if (camera.eye.h_m > 3e6) {
-        // Far out, north is up: heading and pitch towards the centre are those of the line of sight.
-        camera.attitude = attitude_towards(camera.eye, centre);
-    } else {
-        camera.attitude = attitude_of_direction(camera.eye, forward_ecef);
-    }
-    camera.attitude.roll_deg = roll_deg;
-}
-
-Result<void> see_whole_region(View& view, const ViewOptions& options, const Region& region) {
-    const std::vector<Ecef> points = surface_points(region.field, view.exaggeration);
-    if (points.empty()) return Error{ErrorKind::no_data, "region", "every post is void"};
-    glm::dvec3 mean(0.0);
-    for (const Ecef& point : points) mean += point.m / static_cast<double>(points.size());
-    double radius_m = 0.0;
-    for (const Ecef& point : points) radius_m = std::max(radius_m, glm::length(point.m - mean));
-    Geodetic centre = glm::length(mean) > 1e6 ? geodetic_from_ecef({mean}) : Geodetic{0.0, 0.0, 0.0};
-    const bool wide = radius_m > 1.5e6;  // so curved that an oblique view would hide its far side
-    if (wide) centre.h_m = 0.0;
-    const double heading_deg = options.heading_deg.value_or(0.0);
-    const double pitch_deg = options.pitch_deg.value_or(wide ? -89.9 : -32.0);
-    double near_m = 0.0, far_m = std::max(1.0, radius_m);
-    while (stand_off(view.camera, centre, heading_deg, pitch_deg, far_m),
-           !holds_all(view.camera, points) && far_m < 1e9) {
-        near_m = far_m;
-        far_m *= 1.5;
-    }
-    for (int i = 0; i < 40; ++i) {
-        const double middle_m = 0.5 * (near_m + far_m);
-        stand_off(view.camera, centre, heading_deg, pitch_deg, middle_m);
-        (holds_all(view.camera, points) ? far_m : near_m) = middle_m;
-    }
-    stand_off(view.camera, centre, heading_deg, pitch_deg, far_m);
-    return {};
 }
 
 Result<Place> place_of(const char* option, const std::string& text) {
