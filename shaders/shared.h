@@ -256,6 +256,26 @@ struct GroundCover {
     float level_m;   // ... and on level ground, where ice flows down to
 };
 
+// Water in the ground's heights, in air. 0 in `on`: none is looked for. Level areas are water: see
+// shaders/shade/water.glsl.
+struct WaterModel {
+    uint on;
+    uint voids_are_sea;   // 1: what has no height inside the region is the sea
+    float sea_low_H_m;    // posts between these two heights are the sea's, level or not; none where the
+    float sea_high_H_m;   // ... second is below the first
+    vec3 deep;            // share of light that comes out of deep water again
+    float wave_variance;  // mean square of the slopes of its waves
+};
+// What is drawn where the region has no height and nothing hides it; no ground, for whoever asks what a pixel
+// shows. 0 in `on`: all of it is coloured as what lies outside the region.
+ORO_CONST uint voids_hatched = 1u;     // quiet lines on the bare ellipsoid
+ORO_CONST uint voids_with_skirt = 2u;  // the region's rim stands on walls
+struct VoidHatch {
+    uint on;      // voids_... together
+    vec3 colour;  // linear light
+    vec3 lines;
+};
+
 // How a frame is coloured. Colours are linear light, Rec. 709 primaries. All zero where nothing is said:
 // coloured by height, in sunlight, through air.
 struct FrameStyle {
@@ -279,6 +299,8 @@ struct FrameStyle {
     ContourLines contours;
     AirModel air;
     GroundCover cover;
+    WaterModel water;
+    VoidHatch voids;
 };
 
 // The geoid's undulation N at nodes of its own, bilinear between them; the nearest beyond them.
@@ -301,6 +323,19 @@ struct DrawnTriangle {
     vec3 at[3];    // view coordinates, as they are drawn
     uint rows[3];  // no_triangle: the background
     uint columns[3];
+};
+
+// Where the eye stands over the region's grid of posts: from a place in view coordinates to the post below it
+// (shaders/shade/outside.glsl).
+struct EyePost {
+    vec2 post;       // (row, column), fractional; of the region, or beyond it
+    vec2 per_rad;    // rows a radian southwards, columns a radian eastwards
+    vec2 post_m;     // metres from post to post in the region's middle, along a meridian and along a parallel
+    vec2 latitude;   // cosine and sine
+    float normal_m;  // radius of curvature across the meridian,
+    float meridian_m;  // ... and along it
+    float e2;          // of the Earth as it is drawn
+    float turn;        // columns once round the Earth
 };
 
 struct FrameConstants {
@@ -362,6 +397,7 @@ struct FrameConstants {
     uvec2 air;           // vec3[air_entries]; 0 without air
     UndulationTable undulation;
     FrameStyle style;
+    EyePost eye_post;
 };
 
 #ifdef __cplusplus

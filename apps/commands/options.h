@@ -38,6 +38,8 @@ struct ViewOptions {
     std::optional<int> samples;
     std::optional<std::string> style;
     std::optional<double> visibility_km;
+    std::optional<std::string> sea;
+    std::optional<std::string> rim;
     std::optional<std::string> time;
     std::optional<std::string> pipeline;
     std::optional<double> tau_px;

@@ -100,6 +100,27 @@ SunDirection read_light(const json& object, gpu::FrameStyle& style) {
     return sun;
 }
 
+// Water by the steepness of its waves (root mean square of their slopes) and what comes out of its depth.
+void read_water(const json& object, gpu::FrameStyle& style) {
+    if (!object.contains("water")) return;
+    const auto& water = json_field(object, "water");
+    style.water.on = 1;
+    style.water.sea_low_H_m = 0.0F;
+    style.water.sea_high_H_m = -1.0F;
+    style.water.deep = linear_light(colour_of(water, "colour"));
+    const float waves = style_number(water, "waves", 0.01, 1.0);
+    style.water.wave_variance = waves * waves;
+    refuse_unknown(water, "'water'", {"colour", "waves"});
+}
+
+void read_voids(const json& object, gpu::FrameStyle& style) {
+    if (!object.contains("voids")) return;
+    const auto& voids = json_field(object, "voids");
+    style.voids = {gpu::voids_hatched | gpu::voids_with_skirt, linear_light(colour_of(voids, "colour")),
+                   linear_light(colour_of(voids, "lines"))};
+    refuse_unknown(voids, "'voids'", {"colour", "lines"});
+}
+
 void read_air(const json& object, gpu::FrameStyle& style) {
     if (object.contains("air")) {
         for (const char* name : {"haze", "sky", "background", "contours"})
@@ -107,9 +128,13 @@ void read_air(const json& object, gpu::FrameStyle& style) {
                 throw JsonFault{"with 'air' a style has no '" + std::string(name) + "'"};
         if (style.light != gpu::light_sun) throw JsonFault{"with 'air' a style is lit by the sun"};
         style.air = air_of(json_field(object, "air"));
+        read_water(object, style);
+        read_voids(object, style);
         style.no_data_colour = linear_light(colour_of(object, "no_data"));
         return;
     }
+    for (const char* name : {"water", "voids"})
+        if (object.contains(name)) throw JsonFault{"'" + std::string(name) + "' is for styles with 'air'"};
     if (object.contains("background")) {
         for (const char* name : {"haze", "sky", "no_data"}) {
             if (object.contains(name))
@@ -153,9 +178,10 @@ Style style_of_json(const json& object) {
     style.sun = read_light(object, style.frame);
     read_air(object, style.frame);
     style.contours_by_view = read_contours(object, style.frame);
-    refuse_unknown(object, "a style",
-                   {"name", "licence", "colour_by", "tints", "flat", "light", "sun", "ambient", "relief",
-                    "relief_light", "contours", "background", "haze", "sky", "air", "no_data", "cover"});
+    refuse_unknown(
+        object, "a style",
+        {"name", "licence", "colour_by", "tints", "flat", "light", "sun", "ambient", "relief", "relief_light",
+         "contours", "background", "haze", "sky", "air", "no_data", "cover", "water", "voids"});
     return style;
 }
 

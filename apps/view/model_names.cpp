@@ -26,6 +26,8 @@ constexpr Names<bool, 2> geoids{{{"egm96", true}, {"none", false}}};
 constexpr Names<Air, 1> airs{{{"standard", standard_air}}};
 constexpr Names<AirLaw, 2> air_laws{{{"constant", AirLaw::constant}, {"standard", AirLaw::standard}}};
 constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16", HeightStorage::i16}}};
+constexpr Names<Sea, 3> seas{{{"level", Sea::level}, {"low", Sea::low}, {"voids", Sea::voids}}};
+constexpr Names<Rim, 2> rims{{{"skirt", Rim::skirt}, {"none", Rim::none}}};
 
 template <class Choice, std::size_t count>
 Result<Choice> named(const char* option, const Names<Choice, count>& names, const std::string& name) {
@@ -57,6 +59,12 @@ Result<bool> geoid_named(const std::string& name) {
 Result<HeightStorage> heights_named(const std::string& name) {
     return named("--heights", storages, name);
 }
+Result<Sea> sea_named(const std::string& name) {
+    return named("--sea", seas, name);
+}
+Result<Rim> rim_named(const std::string& name) {
+    return named("--rim", rims, name);
+}
 Result<Air> air_named(const std::string& name) {
     return named("--air", airs, name);
 }
@@ -69,6 +77,18 @@ std::vector<std::string> earth_words() {
 }
 std::vector<std::string> precision_words() {
     return words_of(precisions);
+}
+std::vector<std::string> sea_words() {
+    return words_of(seas);
+}
+std::vector<std::string> rim_words() {
+    return words_of(rims);
+}
+const char* name_of(Sea sea) {
+    return name_in(seas, sea);
+}
+const char* name_of(Rim rim) {
+    return name_in(rims, rim);
 }
 std::vector<std::string> geoid_words() {
     return words_of(geoids);

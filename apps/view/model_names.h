@@ -1,4 +1,4 @@
-// The models of a view by the names that options and view files have for them.
+// The models and the surroundings of a view by the names that options and view files have for them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,6 +14,8 @@ Result<Earth> earth_named(const std::string& name);            // "ellipsoid", "
 Result<Precision> precision_named(const std::string& name);    // "relative", "naive"
 Result<bool> geoid_named(const std::string& name);             // "egm96": true, "none"
 Result<HeightStorage> heights_named(const std::string& name);  // "f32", "i16"
+Result<Sea> sea_named(const std::string& name);                // "level", "low", "voids"
+Result<Rim> rim_named(const std::string& name);                // "skirt", "none"
 
 // The same words, as options list them.
 std::vector<std::string> earth_words();
@@ -21,6 +23,10 @@ std::vector<std::string> precision_words();
 std::vector<std::string> geoid_words();
 std::vector<std::string> heights_words();
 std::vector<std::string> air_words();
+std::vector<std::string> sea_words();
+std::vector<std::string> rim_words();
+const char* name_of(Sea sea);
+const char* name_of(Rim rim);
 const char* name_of(HeightStorage heights);
 
 // What asks for that air: "--air standard", "--refraction 0.13".

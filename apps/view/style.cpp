@@ -57,6 +57,25 @@ Result<Style> read_style(const std::string& text, const std::string& path, const
     }
 }
 
+// What the view says of the sea and of the rim. No dry land lies as low as 500 m below the sea: a region that
+// has such ground tells the sea's depth, and all of it that is not above 0 is sea.
+Result<void> surround(gpu::FrameStyle& style, const View& view, const HeightField& field) {
+    if (view.rim == Rim::none) style.voids.on &= ~gpu::voids_with_skirt;
+    gpu::WaterModel& water = style.water;
+    if (water.on == 0) return {};
+    constexpr float lowest_land_H_m = -500.0F, noise_m = 5.0F;
+    if (view.sea == Sea::voids) water.voids_are_sea = 1;
+    if (view.sea == Sea::low) {
+        water.sea_low_H_m = -noise_m;
+        water.sea_high_H_m = noise_m;
+    }
+    if (height_range(field).lowest_m < lowest_land_H_m) {
+        water.sea_low_H_m = -1e9F;
+        water.sea_high_H_m = std::max(water.sea_high_H_m, 0.0F);
+    }
+    return field.health();
+}
+
 }  // namespace
 
 bool is_style_path(const std::string& style) {
@@ -91,6 +110,7 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     }
     style.sun = view.sun.value_or(style.sun);
     light_by(style.sun, style.frame);
+    ORO_CHECK(surround(style.frame, view, field));
     ORO_CHECK(fit_to_view(style, view, field));
     return style;
 }

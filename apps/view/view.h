@@ -26,6 +26,13 @@ struct ToldView {
     std::optional<Fingerprints> prints;  // none of before there were any
 };
 
+// What a style that has water takes for the sea: level ground alone; low ground, too (posts from 5 m below
+// sea level to 5 m above it, whose mean over 3 x 3 of them is at most 1 m: heights of the sea with noise);
+// or, beside level ground, what has no height.
+enum class Sea { level, low, voids };
+// What is below the rim of a region, in styles that draw voids: walls down to the ellipsoid, or nothing.
+enum class Rim { skirt, none };
+
 struct View {
     RegionRequest region;
     Camera camera;  // the eye's h is above the ellipsoid
@@ -34,6 +41,8 @@ struct View {
     std::optional<SunDirection> sun;      // nothing: the style's
     std::optional<double> visibility_km;  // nothing: the style's
     std::string style{"default"};
+    Sea sea{Sea::level};
+    Rim rim{Rim::skirt};
     std::string pipeline{"auto"};  // or "mesh", "compute": written views name the one that drew them
     double tau_px{1.0};            // largest error of what is drawn; 0: full resolution
     WorldModel model;
@@ -56,8 +65,8 @@ Result<RegionRequest> region_request(const RegionOptions& options);
 Result<View> view_without_eye(const ViewOptions& options, RegionRequest region);
 
 // Puts the eye of a view where the options say: at a place over the ground or above sea level, or so that the
-// whole region is in the picture (apps/eye/overview.h). Errors: no data under an eye that is placed over the ground
-// (no_data); an eye beyond view_limits (usage).
+// whole region is in the picture (apps/eye/overview.h). Errors: no data under an eye that is placed over the
+// ground (no_data); an eye beyond view_limits (usage).
 Result<void> place_eye(View& view, const ViewOptions& options, const Region& region);
 
 // Nothing of a region is in a view: an error where the eye is not over the region's box (a view of another

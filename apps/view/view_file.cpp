@@ -145,6 +145,8 @@ View read_fields(const nlohmann::json& json) {
     if (json.contains("visibility_km"))
         view.visibility_km = number(json, "visibility_km", limits::visibility_km);
     view.style = path_from(json, "style");
+    read_choice(json, "sea", sea_named, view.sea);
+    read_choice(json, "rim", rim_named, view.rim);
     // Views of before there was a choice have none.
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
     if (!raster_request_named(view.pipeline))
@@ -202,6 +204,8 @@ std::string view_to_json(const View& view, bool pretty) {
     if (view.sun) json["sun"] = sun_json(*view.sun);
     if (view.visibility_km) json["visibility_km"] = *view.visibility_km;
     json["style"] = path_json(view.style);
+    json["sea"] = name_of(view.sea);
+    json["rim"] = name_of(view.rim);
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;
     json["accuracy"] = view.accuracy;

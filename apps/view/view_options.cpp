@@ -103,6 +103,12 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
         ORO_TRY(view.visibility_km,
                 within("--visibility", *options.visibility_km, view_limits::visibility_km));
     }
+    if (options.sea) {
+        ORO_TRY(view.sea, sea_named(*options.sea));
+    }
+    if (options.rim) {
+        ORO_TRY(view.rim, rim_named(*options.rim));
+    }
     if (options.pipeline) view.pipeline = *options.pipeline;
     ORO_CHECK(apply_models(view, options));
     if (options.tau_px) {

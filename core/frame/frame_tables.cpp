@@ -32,6 +32,26 @@ gpu::UndulationTable undulation_table(const PostGrid& grid, const UndulationFiel
     return table;
 }
 
+gpu::EyePost eye_post(const PostGrid& grid, const Geodetic& eye, Earth earth) {
+    gpu::EyePost place{};
+    const double middle_deg = 0.5 * (grid.north_deg() + grid.south_deg());
+    const SineCosine lat = sine_cosine_deg(eye.lat_deg), middle = sine_cosine_deg(middle_deg);
+    const double rad_per_deg = radians_from_deg(1.0).rad;
+    place.post = gpu::vec2(grid.lat.index_at(eye.lat_deg), grid.lon.index_at(eye.lon_deg));
+    place.per_rad =
+        gpu::vec2(grid.lat.posts_per_deg, grid.lon.posts_per_deg) / static_cast<float>(rad_per_deg);
+    place.post_m =
+        gpu::vec2(meridian_radius_m(middle_deg) * rad_per_deg / grid.lat.posts_per_deg,
+                  prime_vertical_radius_m(middle_deg) * middle.cosine * rad_per_deg / grid.lon.posts_per_deg);
+    place.latitude = gpu::vec2(lat.cosine, lat.sine);
+    const bool sphere = earth == Earth::sphere;
+    place.normal_m = static_cast<float>(sphere ? mean_radius_m : prime_vertical_radius_m(eye.lat_deg));
+    place.meridian_m = static_cast<float>(sphere ? mean_radius_m : meridian_radius_m(eye.lat_deg));
+    place.e2 = static_cast<float>(sphere ? 0.0 : wgs84_e2);
+    place.turn = static_cast<float>(360.0 * grid.lon.posts_per_deg);
+    return place;
+}
+
 // Of a column from the eye's meridian, within half a turn.
 double east_of_eye_deg(const PostGrid& grid, const Geodetic& eye, std::int64_t column) {
     // Round the Earth the last column is the first.
@@ -199,6 +219,7 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.cut_column = cut_column(region.grid, camera.eye, model.earth);
     constants.sample_count = 1;
     constants.undulation = undulation_table(region.grid, region.undulation);
+    constants.eye_post = eye_post(region.grid, camera.eye, model.earth);
     return constants;
 }
 

@@ -101,14 +101,17 @@ vec3 ground_colour(SurfacePoint point) {
 
 // By the light of the sun in the air, as a camera shows it.
 vec3 daylit_ground(SurfacePoint point) {
+    point.H_m = land_H_m(point);
     vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
-    return shown(through_air(ground_radiance(ground_tint(point), normal, point.h_m, sun_at(point.view)), point.view));
+    vec3 sun = sun_at(point.view), ground = ground_radiance(ground_tint(point), normal, point.h_m, sun);
+    if (point.water > 0.0) ground = mix(ground, water_radiance(point.view, point.h_m, sun), point.water);
+    return shown(through_air(ground, point.view));
 }
 vec3 daylit_background(vec3 direction) {
-    float horizon, distance_m = bare_earth_m(direction, horizon);
+    float horizon, distance_m = bare_sea_m(direction, horizon);
     vec3 view = distance_m * direction;
     if (distance_m >= 0.0)
-        return shown(through_air(ground_radiance(FRAME.style.no_data_colour, vec3(0.0, 0.0, 1.0), 0.0, sun_at(view)), view));
+        return shown(through_air(bare_radiance(direction, view), view));
     float above_rad = asin(clamp(dot(direction, FRAME.up_view), -1.0, 1.0)) - asin(horizon);
     return shown(sky_radiance(direction, above_rad) + sun_disc(direction));
 }

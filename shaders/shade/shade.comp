@@ -13,6 +13,8 @@ layout(constant_id = 2) const bool in_air = false;  // FrameStyle.air
 #include "shaders/shade/daylight.glsl"
 #include "shaders/shade/light.glsl"
 #include "shaders/shade/srgb.glsl"
+#include "shaders/shade/water.glsl"
+#include "shaders/shade/outside.glsl"
 #include "shaders/shade/ground.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -8,6 +8,7 @@ struct SurfacePoint {
     vec3 normal;    // east, north, up at the place
     float lat_deg;  // where the style asks for it
     float H_per_px; // how fast H changes on the picture; 0 where no contours are asked for
+    float water;    // share of water; 0 where none is looked for
 };
 
 int height_or(PageBlocks block, ivec2 post, int otherwise) {
@@ -102,6 +103,8 @@ vec3 shading_normal_at(PageBlocks block, FramePage page, vec2 post) {
     return normal_at(block, page, post);
 }
 
+#include "shaders/shade/water_share.glsl"
+
 vec3 across(vec3 along, vec3 v) { return v - dot(v, along) * along; }
 // Shares of a triangle's second and third post at the point of its rim that is nearest to a ray from the eye: for pixels at a rim, whose
 // ray may pass just beside it (1/256 px). To bound the shares of the plane's point one by one would move it far along a slim triangle.
@@ -171,6 +174,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
         RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + uint(clamp(post.x, 0.0, float(page_quads)))];
         point.lat_deg = degrees(atan(row.S, row.C));
     }
+    point.water = in_air && FRAME.style.water.on == 1u ? water_share(page, post) : 0.0;
     point.H_per_px = 0.0;
     if (as_map && FRAME.style.contours.interval_m > 0.0) {
         // The shares are quotients of terms linear in the ray: how they change from pixel to pixel, and the height with them.

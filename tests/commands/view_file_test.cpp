@@ -22,6 +22,8 @@ oro::View unusual_view() {
     view.sun = oro::SunDirection{270.0, -3.5};
     view.visibility_km = 12.5;
     view.style = "other";
+    view.sea = oro::Sea::low;
+    view.rim = oro::Rim::none;
     view.pipeline = "compute";
     view.model = {oro::Earth::sphere, {-0.25}, oro::Precision::naive};
     view.has_geoid = false;
@@ -39,6 +41,8 @@ TEST(ViewFile, EveryFieldComesBack) {
         EXPECT_EQ(oro::view_to_json(*read, pretty), text);
         EXPECT_EQ(read->pipeline, "compute");
         EXPECT_EQ(read->visibility_km, 12.5);
+        EXPECT_EQ(read->sea, oro::Sea::low);
+        EXPECT_EQ(read->rim, oro::Rim::none);
         EXPECT_EQ(read->camera.eye.lat_deg, view.camera.eye.lat_deg);
         EXPECT_EQ(read->model.air, oro::Air{-0.25});
         EXPECT_FALSE(read->has_geoid);

@@ -184,6 +184,25 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(GroundCover, shade_m),
         ORO_MEMBER(GroundCover, level_m),
 
+        ORO_MEMBER(FrameStyle, water),
+        ORO_MEMBER(FrameStyle, voids),
+        ORO_MEMBER(WaterModel, on),
+        ORO_MEMBER(WaterModel, voids_are_sea),
+        ORO_MEMBER(WaterModel, sea_low_H_m),
+        ORO_MEMBER(WaterModel, sea_high_H_m),
+        ORO_MEMBER(WaterModel, deep),
+        ORO_MEMBER(WaterModel, wave_variance),
+        ORO_MEMBER(VoidHatch, on),
+        ORO_MEMBER(VoidHatch, colour),
+        ORO_MEMBER(VoidHatch, lines),
+        ORO_MEMBER(EyePost, post),
+        ORO_MEMBER(EyePost, per_rad),
+        ORO_MEMBER(EyePost, post_m),
+        ORO_MEMBER(EyePost, latitude),
+        ORO_MEMBER(EyePost, normal_m),
+        ORO_MEMBER(EyePost, meridian_m),
+        ORO_MEMBER(EyePost, e2),
+        ORO_MEMBER(EyePost, turn),
         ORO_MEMBER(AirModel, on),
         ORO_MEMBER(AirModel, molecules_per_m),
         ORO_MEMBER(AirModel, molecules_scale_m),
@@ -255,6 +274,7 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, air),
         ORO_MEMBER(FrameConstants, undulation),
         ORO_MEMBER(FrameConstants, style),
+        ORO_MEMBER(FrameConstants, eye_post),
     };
 #undef ORO_MEMBER
     return table;
