@@ -69,14 +69,26 @@ void GoldenPicture::draw(const char* pipeline) {
         << differing << " pixels differ by more than " << largest_difference;
 }
 
+// Over the whole region, from where it was seen without --at when these were drawn.
+std::vector<std::string> overview(const char* at, const char* pitch, std::vector<std::string> more) {
+    more.insert(more.end(), {"--at", at, "--pitch", pitch});
+    return more;
+}
+constexpr const char* high = "geo:36.31908402195145,-84.24583444757508,19462.21847260557";
+constexpr const char* high_pitch = "-32.27179029236471";
+
 INSTANTIATE_TEST_SUITE_P(
     Jacksboro, GoldenPicture,
     ::testing::Values(
-        Golden{"levels_overview", {}},
+        Golden{"levels_overview", overview(high, high_pitch, {})},
         Golden{"levels_valley",
                {"--at", "36.47,-84.27", "--above", "300", "--heading", "50", "--pitch", "-8"}},
-        Golden{"levels_coarse", {"--tau", "6"}}, Golden{"overview", {"--tau", "0"}},
-        Golden{"overview_samples", {"--tau", "0", "--samples", "8", "--exaggeration", "2"}},
+        Golden{"levels_coarse", overview(high, high_pitch, {"--tau", "6"})},
+        Golden{"overview", overview("geo:36.319084019283,-84.2458344475751,19462.21865897812",
+                                    "-32.27179029503319", {"--tau", "0"})},
+        Golden{"overview_samples",
+               overview("geo:36.315628163967396,-84.24583555921514,20236.995972077362", "-32.27524615065357",
+                        {"--tau", "0", "--samples", "8", "--exaggeration", "2"})},
         Golden{"valley",
                {"--tau", "0", "--at", "36.47,-84.27", "--above", "300", "--heading", "50", "--pitch", "-8"}},
         Golden{"edge",
