@@ -13,6 +13,7 @@
 #include "geo/files/foreign_text.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
+#include "geo/sources/raster_crs.h"
 #include "geo/sources/raster_library.h"
 #include "geo/sources/raster_parts.h"
 #include "geo/sources/raster_place.h"
@@ -37,41 +38,6 @@ std::string not_elevation(GDALDatasetH dataset) {
         return "has a colour palette: an image, no elevation";
     if (GDALDataTypeIsComplex(GDALGetRasterDataType(band))) return "holds complex numbers, no elevation";
     return "";
-}
-
-Result<SpatialReference> crs_of(GDALDatasetH dataset) {
-    const OGRSpatialReferenceH stated = GDALGetSpatialRef(dataset);
-    const auto fault = [](const std::string& what) { return Error{ErrorKind::failed, "", what}; };
-    if (!stated) {
-        return fault(GDALGetGCPCount(dataset) > 0
-                         ? "is placed by ground control points only; warp it first (gdalwarp)"
-                         : "states no coordinate reference system, so where it lies is unknown; give it one "
-                           "(gdal_edit.py -a_srs)");
-    }
-    if (text_of(OSRGetName(stated)).empty())
-        return fault("its coordinate reference system is unknown to PROJ");
-    if (OSRIsLocal(stated) || (!OSRIsGeographic(stated) && !OSRIsProjected(stated)))
-        return fault("its coordinate reference system (" + text_of(OSRGetName(stated)) +
-                     ") is tied to no place on the Earth");
-    SpatialReference crs(OSRClone(stated));
-    OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    return crs;
-}
-
-std::string wkt_of(OGRSpatialReferenceH crs) {
-    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-    char* text = nullptr;
-    OSRExportToWktEx(crs, &text, options);
-    std::string wkt = text ? text : "";
-    CPLFree(text);
-    return wkt;
-}
-
-std::string crs_name(OGRSpatialReferenceH crs) {
-    const char* const authority = OSRGetAuthorityName(crs, nullptr);
-    const char* const code = OSRGetAuthorityCode(crs, nullptr);
-    const std::string name = text_of(OSRGetName(crs));
-    return authority && code ? std::string(authority) + ":" + code + " " + name : name;
 }
 
 // What heights refer to: by the CRS, by DTED metadata, or assumed.
@@ -207,10 +173,7 @@ Result<Source> described(const SourcePath& path, const Dataset& dataset, const s
         lower_case(text_of(GDALGetMetadataItem(dataset.get(), "AREA_OR_POINT", nullptr))) == "point";
     source.report.posts_are = points ? PostsAre::points : PostsAre::cell_centres;
     source.report.attribution = attribution_of(dataset.get());
-    const SpatialReference horizontal(OSRClone(crs.get()));
-    if (OSRIsCompound(horizontal.get())) OSRStripVertical(horizontal.get());
-    if (OSRGetAxesCount(horizontal.get()) == 3) OSRDemoteTo2D(horizontal.get(), nullptr);
-    OSRSetAxisMappingStrategy(horizontal.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    const SpatialReference horizontal = horizontal_part(crs.get());
     source.report.crs = crs_name(horizontal.get());
     if (const double epoch = OSRGetCoordinateEpoch(crs.get()); epoch > 0.0)
         source.report.horizontal_datum.coordinate_epoch = epoch;

@@ -30,7 +30,7 @@ FrameLayout layout_of(const FramePlan& plan) {
     return layout;
 }
 
-constexpr std::uint32_t timestamp_count = 4;
+constexpr std::uint32_t timestamp_count = 6;  // the last two with images over the ground alone
 
 Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
     VkQueryPoolCreateInfo info{};
@@ -212,7 +212,7 @@ void FrameRenderer::address_choice(gpu::FrameConstants& constants) const {
 }
 
 Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style, std::uint32_t sample_index,
-                                   std::uint32_t sample_count) {
+                                   std::uint32_t sample_count, DrapeStore* drape) {
     ORO_CHECK(reserve(plan));
     const FrameLayout layout = layout_of(plan);
     gpu::FrameConstants& constants = plan.constants;
@@ -230,6 +230,7 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = style;
+    ORO_CHECK(drape_.prepare(*gpu_, options_.path, pipelines_, options_.shades ? drape : nullptr, constants));
     if (options_.shades) ORO_CHECK(air_.prepare(*gpu_, options_.path, pipelines_, constants));
     address_choice(constants);
     if (compute_) compute_->address(constants);
@@ -314,22 +315,6 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
-    air_.record(commands, pipelines_);
-    image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, compute_ ? unused : as_colour,
-                  shader_read);
-    const bool first = plan.constants.sample_index == 0;
-    image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
-                  shader_write);
-    image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
-    const gpu::FrameStyle& style = plan.constants.style;
-    const OwnedPipeline& shade = style.air.on != 0        ? pipelines_.shade_air
-                                 : is_drawn_as_map(style) ? pipelines_.shade_map
-                                                          : pipelines_.shade;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.get());
-    vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
-}
-
 void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
     const auto stamp = [&](std::uint32_t number) {
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), number);
@@ -345,7 +330,11 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
         record_raster(commands, plan);
     }
     stamp(2);
-    if (options_.shades) record_shade(commands, plan);
+    if (drape_.is_on()) {
+        record_wants(commands, plan);
+    } else if (options_.shades) {
+        record_shade(commands, plan);
+    }
     stamp(3);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
@@ -357,13 +346,14 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
 }
 
 Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& style,
-                                        std::uint32_t sample_index, std::uint32_t sample_count) {
+                                        std::uint32_t sample_index, std::uint32_t sample_count,
+                                        DrapeStore* drape) {
     assert(plan.constants.width_px <= options_.extent.width &&
            plan.constants.height_px <= options_.extent.height);
     assert(sample_count == 1 || options_.several_samples);
     if (options_.shades && is_drawn_as_map(style) && !pipelines_.shade_map)
         ORO_CHECK(create_map_shading(*gpu_, options_.path, pipelines_));
-    ORO_CHECK(upload(plan, style, sample_index, sample_count));
+    ORO_CHECK(upload(plan, style, sample_index, sample_count, drape));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
@@ -375,16 +365,19 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
         return Error{ErrorKind::failed, "picture",
                      std::to_string(report.counts.triangles_not_clipped) +
                          " triangles more than the compute path can clip in a frame; --pipeline mesh can"};
+    if (drape_.is_on()) {
+        ORO_TRY(report.images_settled, shade_with_images(plan));
+    }
     std::array<std::uint64_t, timestamp_count> ticks{};
-    ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, timestamp_count, sizeof(ticks),
-                                 ticks.data(), sizeof(std::uint64_t),
-                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    const std::uint32_t written = drape_.is_on() ? timestamp_count : 4;
+    ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, written, sizeof(ticks), ticks.data(),
+                                 sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     const auto between_s = [&](std::size_t from) {
         return gpu_->seconds_between(ticks[from], ticks[from + 1]);
     };
     report.choose_s = between_s(0);
     report.raster_s = between_s(1);
-    report.shade_s = between_s(2);
+    report.shade_s = between_s(drape_.is_on() ? 4 : 2);
     return report;
 }
 

@@ -10,6 +10,7 @@
 #include "render/device/resources.h"
 #include "render/frame/air_tables.h"
 #include "render/frame/compute_raster.h"
+#include "render/frame/drape_wants.h"
 #include "render/frame/pipelines.h"
 
 namespace oro {
@@ -22,6 +23,7 @@ struct FrameReport {
     double choose_s{};            // GPU timestamps: levels chosen
     double raster_s{};            // from pages to triangle ids, by either path
     double shade_s{};             // the shading pass
+    bool images_settled{true};    // images over the ground are as fine as the frame asks for
     [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
 };
 
@@ -33,6 +35,7 @@ struct FrameRendererOptions {
     bool keep_depths{false};       // for read_depths()
     bool keep_triangles{false};    // for read_triangles()
     bool shades{true};             // false: for times alone, there is nothing to be read
+    bool waits_for_images{true};   // false: a frame is drawn with what of them is there
     RasterPath path{RasterPath::mesh};
 };
 
@@ -51,9 +54,9 @@ class FrameRenderer {
 
     // Draws one sample of a plan (its tile is within the extent, its pages are on the GPU) and waits for it.
     // With sample_count > 1 the picture is complete after the last sample_index. Same plan, pages and style:
-    // same bytes, on one driver.
+    // same bytes, on one driver. drape: images over the ground, or null.
     Result<FrameReport> draw(FramePlan plan, const gpu::FrameStyle& style, std::uint32_t sample_index = 0,
-                             std::uint32_t sample_count = 1);
+                             std::uint32_t sample_count = 1, DrapeStore* drape = nullptr);
 
     // The picture's top left width x height pixels as RGBA rows, sRGB.
     Result<std::vector<std::uint8_t>> read_picture(std::uint32_t width, std::uint32_t height);
@@ -88,7 +91,7 @@ class FrameRenderer {
     Result<void> create_set();
     Result<void> reserve(const FramePlan& plan);
     Result<void> upload(FramePlan& plan, const gpu::FrameStyle& style, std::uint32_t sample_index,
-                        std::uint32_t sample_count);
+                        std::uint32_t sample_count, DrapeStore* drape);
     void bind_constants() const;
     void address_choice(gpu::FrameConstants& constants) const;
     Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
@@ -98,6 +101,10 @@ class FrameRenderer {
     void record_choice(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
+    void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
+    Result<void> ask_again(const FramePlan& plan, std::uint32_t seed);
+    Result<bool> bring_images(const FramePlan& plan);
+    Result<bool> shade_with_images(const FramePlan& plan);
     Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect,
                                               ImageUse last_use, std::uint32_t width, std::uint32_t height);
 
@@ -106,6 +113,7 @@ class FrameRenderer {
     Pipelines pipelines_;
     std::optional<ComputeRaster> compute_;
     AirTables air_;
+    DrapeWants drape_;
     Commands commands_;
     Image ids_, depth_, sum_, picture_;
     OwnedDescriptorPool pool_;

@@ -31,8 +31,10 @@ Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle
             report.pages_beyond_frustum += plan.pages_beyond_frustum;
             report.pages_beyond_horizon += plan.pages_beyond_horizon;
         }
-        ORO_TRY(const FrameReport drawn, renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),
-                                                       static_cast<std::uint32_t>(options.samples)));
+        ORO_TRY(const FrameReport drawn,
+                renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),
+                              static_cast<std::uint32_t>(options.samples), scene.drape()));
+        report.images_settled = report.images_settled && drawn.images_settled;
         if (i == 0) add_counts(report, drawn);
         report.choose_s += drawn.choose_s;
         report.raster_s += drawn.raster_s;

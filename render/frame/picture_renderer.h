@@ -30,6 +30,7 @@ struct PictureReport {
     std::uint64_t ground_px{};    // pixels that show ground, in any of their samples
     std::uint64_t pages_drawn{};  // with a meshlet of the right level
     bool settled{true};           // all that tau asks for was there
+    bool images_settled{true};    // all of the images over the ground that the picture can show was there
     double choose_s{};            // GPU timestamps, all samples
     double raster_s{};
     double shade_s{};

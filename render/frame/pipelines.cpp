@@ -10,6 +10,7 @@
 #include "spirv/accept_comp.h"
 #include "spirv/air_tables_comp.h"
 #include "spirv/cull_comp.h"
+#include "spirv/drape_wants_comp.h"
 #include "spirv/live_pages_comp.h"
 #include "spirv/raster_clip_comp.h"
 #include "spirv/raster_comp.h"
@@ -233,15 +234,18 @@ struct ShadingConstants {
     VkBool32 from_compute;
     VkBool32 as_map;
     VkBool32 in_air;
+    VkBool32 draped;
 };
-constexpr std::array<VkSpecializationMapEntry, 3> shading_constants_map{
+constexpr std::array<VkSpecializationMapEntry, 4> shading_constants_map{
     VkSpecializationMapEntry{0, offsetof(ShadingConstants, from_compute), sizeof(VkBool32)},
     VkSpecializationMapEntry{1, offsetof(ShadingConstants, as_map), sizeof(VkBool32)},
-    VkSpecializationMapEntry{2, offsetof(ShadingConstants, in_air), sizeof(VkBool32)}};
+    VkSpecializationMapEntry{2, offsetof(ShadingConstants, in_air), sizeof(VkBool32)},
+    VkSpecializationMapEntry{6, offsetof(ShadingConstants, draped), sizeof(VkBool32)}};
 
 Result<OwnedPipeline> create_shading(const Gpu& gpu, const Pipelines& pipelines,
                                      const ShadingConstants& values, const char* name) {
-    const VkSpecializationInfo constants{3, shading_constants_map.data(), sizeof(values), &values};
+    const VkSpecializationInfo constants{shading_constants_map.size(), shading_constants_map.data(),
+                                         sizeof(values), &values};
     return create_compute_pipeline(gpu, pipelines, shade_comp_spirv, name, &constants);
 }
 VkBool32 from_compute(RasterPath path) {
@@ -256,8 +260,9 @@ bool is_drawn_as_map(const gpu::FrameStyle& style) {
 }
 
 Result<void> create_map_shading(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
-    ORO_TRY(pipelines.shade_map,
-            create_shading(gpu, pipelines, {from_compute(path), VK_TRUE, VK_FALSE}, "shade as a map"));
+    ORO_TRY(
+        pipelines.shade_map,
+        create_shading(gpu, pipelines, {from_compute(path), VK_TRUE, VK_FALSE, VK_FALSE}, "shade as a map"));
     return {};
 }
 
@@ -268,7 +273,7 @@ Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const Pipeli
     ORO_CHECK(by_mesh ? create_mesh_path(gpu, wants.record_positions, pipelines)
                       : create_compute_path(gpu, pipelines));
     ORO_CHECK(create_choice(gpu, pipelines));
-    const ShadingConstants values{from_compute(path), VK_FALSE, VK_FALSE};
+    const ShadingConstants values{from_compute(path), VK_FALSE, VK_FALSE, VK_FALSE};
     if (wants.shades) {
         ORO_TRY(pipelines.shade, create_shading(gpu, pipelines, values, "shade"));
     }
@@ -281,9 +286,40 @@ Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const Pipeli
     return pipelines;
 }
 
+namespace {
+
+// Number in Pipelines::shade_draped.
+std::size_t shading_of(const gpu::FrameStyle& style) {
+    return style.air.on != 0 ? 2 : is_drawn_as_map(style) ? 1 : 0;
+}
+
+}  // namespace
+
+Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, const gpu::FrameStyle& style,
+                                 Pipelines& pipelines) {
+    const std::size_t which = shading_of(style);
+    const VkBool32 compute = from_compute(path), as_map = which == 1 ? VK_TRUE : VK_FALSE,
+                   in_air = which == 2 ? VK_TRUE : VK_FALSE;
+    if (!pipelines.shade_draped[which]) {
+        ORO_TRY(pipelines.shade_draped[which],
+                create_shading(gpu, pipelines, {compute, as_map, in_air, VK_TRUE}, "shade with images"));
+    }
+    if (!pipelines.drape_wants) {
+        const VkSpecializationInfo one_constant{1, shading_constants_map.data(), sizeof(compute), &compute};
+        ORO_TRY(pipelines.drape_wants, create_compute_pipeline(gpu, pipelines, drape_wants_comp_spirv,
+                                                               "wanted image tiles", &one_constant));
+    }
+    return {};
+}
+
+const OwnedPipeline& draped_shading(const Pipelines& pipelines, const gpu::FrameStyle& style) {
+    return pipelines.shade_draped[shading_of(style)];
+}
+
 Result<void> add_air_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
-    ORO_TRY(pipelines.shade_air,
-            create_shading(gpu, pipelines, {from_compute(path), VK_FALSE, VK_TRUE}, "shade in air"));
+    ORO_TRY(
+        pipelines.shade_air,
+        create_shading(gpu, pipelines, {from_compute(path), VK_FALSE, VK_TRUE, VK_FALSE}, "shade in air"));
     for (std::uint32_t table = 0; table < pipelines.air.size(); ++table) {
         const VkSpecializationMapEntry entry{0, 0, sizeof(table)};
         const VkSpecializationInfo constants{1, &entry, sizeof(table), &table};

@@ -24,8 +24,10 @@ struct Pipelines {
     OwnedPipeline shade;                                    // compute, 8 x 8
     OwnedPipeline shade_map;                                // the same for maps; see create_map_shading
     OwnedPipeline shade_air;                                // the same in air
-    std::array<OwnedPipeline, 4> air;  // its tables, in this order, 64 entries a workgroup
-    OwnedPipeline triangles;           // what each pixel shows, compute, 8 x 8
+    std::array<OwnedPipeline, 3> shade_draped;  // shade, shade_map and shade_air with images over the ground
+    OwnedPipeline drape_wants;                  // what tiles of them are wanted, compute, 8 x 8
+    std::array<OwnedPipeline, 4> air;           // its tables, in this order, 64 entries a workgroup
+    OwnedPipeline triangles;                    // what each pixel shows, compute, 8 x 8
 };
 
 // What a renderer is asked for besides triangle ids.
@@ -39,6 +41,12 @@ struct PipelineWants {
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants);
 // `air` and `shade_air`, for styles that have it: nothing else waits for them to be compiled.
 Result<void> add_air_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines);
+
+// Those that a style with images over the ground needs, as far as they are not there.
+Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, const gpu::FrameStyle& style,
+                                 Pipelines& pipelines);
+// The one of `shade_draped` for a style.
+const OwnedPipeline& draped_shading(const Pipelines& pipelines, const gpu::FrameStyle& style);
 
 // Whether a style is drawn by `shade_map`: it is more than tints by height in sunlight and air.
 bool is_drawn_as_map(const gpu::FrameStyle& style);

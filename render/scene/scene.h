@@ -5,9 +5,11 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "core/frame/frame_plan.h"
 #include "core/frame/region_pages.h"
+#include "render/scene/drape_store.h"
 #include "render/scene/page_store.h"
 #include "render/scene/page_stream.h"
 
@@ -43,6 +45,10 @@ class Scene {
     Result<FramePlan> settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                    const WorldModel& model = {});
 
+    // Images over the ground; null: none.
+    void set_drape(std::unique_ptr<DrapeStore> drape) { drape_ = std::move(drape); }
+    [[nodiscard]] DrapeStore* drape() const { return drape_.get(); }
+
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
     [[nodiscard]] PageStore& store() { return store_; }
     [[nodiscard]] std::uint64_t bytes_sent() const { return bytes_sent_; }
@@ -58,6 +64,7 @@ class Scene {
     std::unique_ptr<RegionPages> pages_;
     std::unique_ptr<PageStream> stream_;
     PageStore store_;
+    std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
     std::uint64_t bytes_sent_{};
     bool full_{false};  // of the last frame's pages

@@ -90,8 +90,11 @@ vec3 with_contours(vec3 colour, SurfacePoint point) {
 
 // In linear light, before any air.
 vec3 ground_colour(SurfacePoint point) {
-    if (!as_map) return sunlit(tint(point.H_m), point);
-    vec3 colour = ground_tint(point);
+    if (!as_map) {
+        vec3 light = with_drape(tint(point.H_m), point, false);
+        return sunlit(light, point);
+    }
+    vec3 colour = with_drape(ground_tint(point), point, FRAME.style.tints_as_codes == 1u);
     if (FRAME.style.light == light_hillshade) colour = hillshaded(colour, point);
     if (FRAME.style.light == light_relief) colour = in_relief_light(colour, point);
     if (FRAME.style.tints_as_codes == 1u) colour = linear_from_srgb(colour);
@@ -103,7 +106,7 @@ vec3 ground_colour(SurfacePoint point) {
 vec3 daylit_ground(SurfacePoint point) {
     point.H_m = land_H_m(point);
     vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
-    vec3 sun = sun_at(point.view), ground = ground_radiance(ground_tint(point), normal, point.h_m, sun);
+    vec3 sun = sun_at(point.view), ground = ground_radiance(with_drape(ground_tint(point), point, false), normal, point.h_m, sun);
     if (point.water > 0.0) ground = mix(ground, water_radiance(point.view, point.h_m, sun), point.water);
     return shown(through_air(ground, point.view));
 }

@@ -4,6 +4,7 @@
 // A map: any FrameStyle that is not tints by height, as light, in the sun and in air. Code of its own, so that other pictures pay nothing.
 layout(constant_id = 1) const bool as_map = false;
 layout(constant_id = 2) const bool in_air = false;  // FrameStyle.air
+layout(constant_id = 6) const bool draped = false;  // FrameConstants.drape
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
@@ -15,6 +16,8 @@ layout(constant_id = 2) const bool in_air = false;  // FrameStyle.air
 #include "shaders/shade/srgb.glsl"
 #include "shaders/shade/water.glsl"
 #include "shaders/shade/outside.glsl"
+#define ORO_DRAPE_MIXES
+#include "shaders/shade/drape.glsl"
 #include "shaders/shade/ground.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -9,6 +9,10 @@ struct SurfacePoint {
     float lat_deg;  // where the style asks for it
     float H_per_px; // how fast H changes on the picture; 0 where no contours are asked for
     float water;    // share of water; 0 where none is looked for
+    ivec2 drape_post;  // for images over the ground: (row, column) in the region, whole posts ...
+    vec2 drape_part;   // ... and the rest,
+    vec2 drape_post_m; // ... metres from a post to the next
+    vec3 drape_normal; // ... and the smooth surface's normal, whatever `normal` is
 };
 
 int height_or(PageBlocks block, ivec2 post, int otherwise) {
@@ -144,6 +148,16 @@ vec2 shares_change(vec3 ray_step, vec3 first, vec3 edge_b, vec3 edge_c, vec2 sha
     return vec2(dot(-first, p), dot(ray_step, cross(-first, edge_b))) - shares * dot(edge_b, p);
 }
 
+// A place in a page (row, column, fractional) in the region, without the rounding that a large number would bring.
+void drape_place(FramePage page, vec2 post, out ivec2 whole, out vec2 part) {
+    ivec2 first = ivec2(page.first_row, page.first_column), last = ivec2(FRAME.last_row, FRAME.last_column);
+    vec2 quad = floor(post);
+    ivec2 from = min(first + (ivec2(quad) << page.level), last), to = min(from + (1 << page.level), last);
+    vec2 along = (post - quad) * vec2(to - from), posts = floor(along);
+    whole = from + ivec2(posts);
+    part = along - posts;
+}
+
 SurfacePoint surface_at(uint id, vec3 ray) {
     uvec2 posts[3];
     vec3 at[3];
@@ -166,6 +180,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     point.post = share_a * vec2(posts[0]) + share_b * vec2(posts[1]) + share_c * vec2(posts[2]);
     point.h_m = share_a * heights_m[0] + share_b * heights_m[1] + share_c * heights_m[2];
     point.H_m = (point.h_m - undulation_at(region_post(page, point.post))) / FRAME.exaggeration;
+    if (draped) drape_place(page, point.post, point.drape_post, point.drape_part);
     vec2 post = point.post;
     descend(page, post, length(point.view));
     point.normal = shading_normal_at(PageBlocks(page.block), page, post);
@@ -175,6 +190,12 @@ SurfacePoint surface_at(uint id, vec3 ray) {
         point.lat_deg = degrees(atan(row.S, row.C));
     }
     point.water = in_air && FRAME.style.water.on == 1u ? water_share(page, post) : 0.0;
+    if (draped) {
+        PageBlocks block = PageBlocks(page.block);
+        point.drape_normal = normal_at(block, page, post);
+        float cosine = abs(RowTable(FRAME.row_terms).at[page.row_terms + uint(post.x)].cosine);
+        point.drape_post_m = vec2(block.at[0].row_spacing_m, max(cosine * block.at[0].column_spacing_m, 1.0e-3));
+    }
     point.H_per_px = 0.0;
     if (as_map && FRAME.style.contours.interval_m > 0.0) {
         // The shares are quotients of terms linear in the ray: how they change from pixel to pixel, and the height with them.

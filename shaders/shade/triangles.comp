@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 const bool as_map = false;
 const bool in_air = false;
+const bool draped = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

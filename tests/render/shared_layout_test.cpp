@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "shaders/shared.h"
+#include "spirv/drape_wants_comp.h"
 #include "spirv/live_pages_comp.h"
 #include "spirv/raster_comp.h"
 #include "spirv/raster_large_comp.h"
@@ -58,6 +59,7 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
           std::span<const std::uint32_t>(raster_comp_spirv),
           std::span<const std::uint32_t>(raster_large_comp_spirv),
           std::span<const std::uint32_t>(shade_comp_spirv),
+          std::span<const std::uint32_t>(drape_wants_comp_spirv),
           std::span<const std::uint32_t>(triangles_comp_spirv)}) {
         all.merge(member_offsets(words));
     }
@@ -218,6 +220,22 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(UndulationTable, columns),
         ORO_MEMBER(UndulationTable, first),
         ORO_MEMBER(UndulationTable, per_post),
+        ORO_MEMBER(DrapeTile, name),
+        ORO_MEMBER(DrapeTile, row),
+        ORO_MEMBER(DrapeTile, column),
+        ORO_MEMBER(DrapeTile, texels),
+        ORO_MEMBER(DrapeWanted, hash),
+        ORO_MEMBER(DrapeWanted, name),
+        ORO_MEMBER(DrapeWanted, row),
+        ORO_MEMBER(DrapeWanted, column),
+        ORO_MEMBER(DrapeTable, tiles),
+        ORO_MEMBER(DrapeTable, wanted),
+        ORO_MEMBER(DrapeTable, tile_mask),
+        ORO_MEMBER(DrapeTable, wanted_seed),
+        ORO_MEMBER(DrapeTable, finest),
+        ORO_MEMBER(DrapeTable, coarsest),
+        ORO_MEMBER(DrapeTable, opacity),
+        ORO_MEMBER(DrapeTable, relief),
         ORO_MEMBER(FrameConstants, view_from_eye),
         ORO_MEMBER(FrameConstants, reference_steps),
         ORO_MEMBER(FrameConstants, projection_scale),
@@ -275,6 +293,7 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, undulation),
         ORO_MEMBER(FrameConstants, style),
         ORO_MEMBER(FrameConstants, eye_post),
+        ORO_MEMBER(FrameConstants, drape),
     };
 #undef ORO_MEMBER
     return table;

@@ -1,0 +1,169 @@
+#include "geo/drape/image_source.h"
+
+#include <cpl_string.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "core/base/checksum.h"
+#include "core/base/open_file.h"
+#include "geo/files/guarded_files.h"
+#include "geo/sources/raster_crs.h"
+#include "geo/sources/raster_library.h"
+#include "geo/sources/raster_parts.h"
+
+namespace oro {
+namespace {
+
+Error fault(const std::string& what) {
+    return Error{ErrorKind::failed, "", what};
+}
+
+// Red, green and blue by what the bands say of themselves, else the first three; of fewer the first.
+Result<void> choose_bands(ImageSource& image, GDALDatasetH dataset) {
+    const int count = GDALGetRasterCount(dataset);
+    if (count == 0)
+        return fault("holds no raster of its own (a container of several?): name the one to open");
+    const auto interpretation = [&](int band) {
+        return GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, band));
+    };
+    std::vector<int> told;
+    for (const GDALColorInterp colour : {GCI_RedBand, GCI_GreenBand, GCI_BlueBand}) {
+        for (int band = 1; band <= count; ++band) {
+            if (interpretation(band) != colour) continue;
+            told.push_back(band);
+            break;
+        }
+    }
+    if (told.size() == 3) {
+        image.bands = told;
+    } else if (count >= 3) {
+        image.bands = {1, 2, 3};
+    } else {
+        image.bands = {1};
+    }
+    const GDALRasterBandH first = GDALGetRasterBand(dataset, image.bands.front());
+    image.palette = image.bands.size() == 1 && GDALGetRasterColorTable(first) != nullptr;
+    for (const int band : image.bands) {
+        if (GDALDataTypeIsComplex(GDALGetRasterDataType(GDALGetRasterBand(dataset, band))))
+            return fault("holds complex numbers, no image");
+    }
+    return {};
+}
+
+Result<void> place(ImageSource& image, GDALDatasetH dataset) {
+    ORO_TRY(const SpatialReference crs, crs_of(dataset));
+    auto& m = image.crs_from_pixel;
+    if (GDALGetGeoTransform(dataset, m.data()) != CE_None)
+        return fault("states no georeference: where its pixels lie is unknown");
+    const double area = m[1] * m[5] - m[2] * m[4];
+    const bool finite = std::ranges::all_of(m, [](double value) { return std::isfinite(value); });
+    if (!finite || area == 0.0 || !GDALInvGeoTransform(m.data(), image.pixel_from_crs.data()))
+        return fault("its georeference is no map from pixels to places");
+    const SpatialReference horizontal = horizontal_part(crs.get());
+    image.crs = crs_name(horizontal.get());
+    image.crs_wkt = wkt_of(horizontal.get());
+    image.geographic = OSRIsGeographic(horizontal.get()) != 0;
+    return {};
+}
+
+// Of values that are no bytes: 2 in 100 of a sample are darker than black, 2 lighter than white.
+Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, const GdalMessages& messages) {
+    const auto is_byte = [&](int band) {
+        return GDALGetRasterDataType(GDALGetRasterBand(dataset, band)) == GDT_Byte;
+    };
+    if (image.palette || std::ranges::all_of(image.bands, is_byte)) return {};
+    constexpr int most = 512;
+    const int columns = std::min(image.columns, most), rows = std::min(image.rows, most);
+    const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    std::vector<float> values(count), sample;
+    std::vector<unsigned char> valid(count);
+    for (const int number : image.bands) {
+        const GDALRasterBandH band = GDALGetRasterBand(dataset, number);
+        if (GDALRasterIO(band, GF_Read, 0, 0, image.columns, image.rows, values.data(), columns, rows,
+                         GDT_Float32, 0, 0) != CE_None ||
+            GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, image.columns, image.rows, valid.data(),
+                         columns, rows, GDT_Byte, 0, 0) != CE_None)
+            return fault("cannot be read: " + messages.last("the file is damaged"));
+        for (std::size_t i = 0; i < count; ++i) {
+            if (valid[i] != 0 && std::isfinite(values[i])) sample.push_back(values[i]);
+        }
+    }
+    if (sample.empty()) return {};
+    const auto at = [&](double share) {
+        const auto place =
+            sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
+        std::ranges::nth_element(sample, place);
+        return static_cast<double>(*place);
+    };
+    image.black = at(0.02);
+    image.white = std::max(at(0.98), std::nextafter(image.black, INFINITY));
+    char text[160];
+    std::snprintf(text, sizeof text, ": its values are no bytes; %.6g is shown as black, %.6g as white",
+                  image.black, image.white);
+    image.notes.push_back(image.file + text);
+    return {};
+}
+
+Result<void> describe(ImageSource& image, const GdalMessages& messages) {
+    ORO_TRY(const RasterParts parts, parts_of_raster(image.file));
+    const Dataset dataset(GDALOpenEx(image.file.c_str(),
+                                     GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                     trusted_drivers(), nullptr, nullptr));
+    if (!dataset)
+        return fault("is no raster that GDAL can open here (" + trusted_formats() +
+                     "): " + messages.last("unknown format"));
+    image.columns = GDALGetRasterXSize(dataset.get());
+    image.rows = GDALGetRasterYSize(dataset.get());
+    ORO_CHECK(choose_bands(image, dataset.get()));
+    ORO_CHECK(place(image, dataset.get()));
+    ORO_CHECK(choose_range(image, dataset.get(), messages));
+    image.files = parts.files;
+    const CPLStringList listed(GDALGetFileList(dataset.get()));
+    for (int i = 0; i < listed.size(); ++i) {
+        const std::string file = local_file_of(listed[i]);
+        if (std::ranges::find(image.files, file) == image.files.end()) image.files.push_back(file);
+    }
+    for (const std::string& doubt : parts.doubts) image.notes.push_back(image.file + ": " + doubt);
+    return {};
+}
+
+}  // namespace
+
+Result<ImageSource> open_image(const std::string& file) {
+    start_gdal();
+    const GdalMessages messages;
+    const FileWatch watch(opening_limit_s);
+    ImageSource image;
+    image.file = file;
+    const Result<void> described = describe(image, messages);
+    if (!watch.fault().empty()) return Error{ErrorKind::failed, file, watch.fault()};
+    if (!described.ok())
+        return Error{described.error().kind,
+                     described.error().where.empty() ? file : file + ": " + described.error().where,
+                     described.error().what};
+    ORO_TRY(image.print, image_print(image.files));
+    return image;
+}
+
+Result<std::uint64_t> image_print(const std::vector<std::string>& files) {
+    constexpr std::uint64_t piece = std::uint64_t{1} << 20U, whole = 256 * piece, places = 64;
+    std::vector<std::byte> bytes(piece);
+    RunningChecksum sum;
+    for (const std::string& name : files) {
+        ORO_TRY(const OpenFile file, OpenFile::open(name, OpenFile::Use::read));
+        ORO_TRY(const std::uint64_t size, file.size());
+        sum.add(std::as_bytes(std::span(&size, 1)));
+        const std::uint64_t step = size <= whole ? piece : (size - piece) / places;
+        for (std::uint64_t at = 0; at < size; at += step) {
+            const std::span<std::byte> part = std::span(bytes).first(std::min(piece, size - at));
+            ORO_CHECK(file.read(at, part));
+            sum.add(part);
+        }
+    }
+    return sum.sum();
+}
+
+}  // namespace oro

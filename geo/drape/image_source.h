@@ -1,0 +1,44 @@
+// Images that are laid over the ground: orthophotos, satellite scenes, scanned maps, by any raster that is
+// trusted for terrain, too (raster_library.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace oro {
+
+struct ImageSource {
+    std::string file;
+    int columns{};
+    int rows{};
+    std::string crs;  // "EPSG:2056 CH1903+ / LV95"
+    std::string crs_wkt;
+    bool geographic{};
+    // Of corners of pixels: x = m[0] + m[1] column + m[2] row, y = m[3] + m[4] column + m[5] row; and back.
+    std::array<double, 6> crs_from_pixel{};
+    std::array<double, 6> pixel_from_crs{};
+    std::vector<int> bands;  // red, green, blue; or one: grey, or numbers in a palette
+    bool palette{};
+    // Stored values that become 0 and 255: those of bytes, or of most of the values where there are other
+    // numbers.
+    double black{0.0};
+    double white{255.0};
+    std::vector<std::string> files;  // that it is made of, for those who must not write over them
+    std::uint64_t print{};           // fingerprint of these files (image_print)
+    std::vector<std::string> notes;  // what a user must know, one line each
+};
+
+// Looks at an image: where it lies, and what its bands are. Errors: a file that is not there or damaged; one
+// without a CRS, or with a georeference that is no map from pixels to places; complex numbers; as
+// inspect_raster's for what a raster names and how long that takes.
+Result<ImageSource> open_image(const std::string& file);
+
+// XXH64 of the bytes of some files, each with its length; of one longer than 256 MiB its length, its ends,
+// and a MiB at each of 64 places between them. Errors: a file that cannot be read.
+Result<std::uint64_t> image_print(const std::vector<std::string>& files);
+
+}  // namespace oro

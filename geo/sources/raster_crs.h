@@ -1,0 +1,21 @@
+// What a raster says of the coordinates that it lies in.
+#pragma once
+
+#include <string>
+
+#include "core/base/result.h"
+#include "geo/sources/raster_library.h"
+
+namespace oro {
+
+// The CRS that a raster states, x (or longitude) first. Errors (a reason, without the file's name): none, one
+// that PROJ does not know, one that is tied to no place on the Earth.
+Result<SpatialReference> crs_of(GDALDatasetH dataset);
+// WKT2.
+std::string wkt_of(OGRSpatialReferenceH crs);
+// "EPSG:2056 CH1903+ / LV95"
+std::string crs_name(OGRSpatialReferenceH crs);
+// Its horizontal part, x (or longitude) first.
+SpatialReference horizontal_part(OGRSpatialReferenceH crs);
+
+}  // namespace oro

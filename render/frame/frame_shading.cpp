@@ -1,0 +1,81 @@
+// The part of FrameRenderer that turns triangle ids into colours. Which tiles of images over the ground these
+// need is known when the triangles are drawn, so a frame with images is submitted in two parts.
+#include <cstddef>
+
+#include "render/frame/frame_layout.h"
+#include "render/frame/frame_renderer.h"
+
+namespace oro {
+
+void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
+    air_.record(commands, pipelines_);
+    image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
+                  drape_.is_on() ? shader_read
+                  : compute_     ? unused
+                                 : as_colour,
+                  shader_read);
+    const bool first = plan.constants.sample_index == 0;
+    image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
+                  shader_write);
+    image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
+    const gpu::FrameStyle& style = plan.constants.style;
+    const OwnedPipeline& shade = drape_.is_on()           ? draped_shading(pipelines_, style)
+                                 : style.air.on != 0      ? pipelines_.shade_air
+                                 : is_drawn_as_map(style) ? pipelines_.shade_map
+                                                          : pipelines_.shade;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.get());
+    vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
+}
+
+void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {
+    image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, compute_ ? unused : as_colour,
+                  shader_read);
+    drape_.record(commands, pipelines_, plan.constants);
+}
+
+// The same question again. Another seed: two tiles of one hash have others now.
+Result<void> FrameRenderer::ask_again(const FramePlan& plan, std::uint32_t seed) {
+    return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+        constexpr VkDeviceSize at =
+            offsetof(gpu::FrameConstants, drape) + offsetof(gpu::DrapeTable, wanted_seed);
+        vkCmdUpdateBuffer(commands, frame_data_.handle.get(), at, sizeof(seed), &seed);
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+                       VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_UNIFORM_READ_BIT);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1,
+                                &set_, 0, nullptr);
+        drape_.record(commands, pipelines_, plan.constants);
+    });
+}
+
+// Brings the tiles that the frame is coloured from: all of them, unless there is no room or nobody waits.
+Result<bool> FrameRenderer::bring_images(const FramePlan& plan) {
+    constexpr std::uint32_t most_tries = 64;
+    DrapeStore& store = drape_.store();
+    store.begin_frame();
+    for (std::uint32_t turn = 1;; ++turn) {
+        const bool missing = drape_.is_missing_any();
+        ORO_TRY(const DrapeStore::Served served, store.serve(drape_.wanted(), options_.waits_for_images));
+        if (!missing) return true;
+        if (served.is_full || !options_.waits_for_images || turn == most_tries) return false;
+        ORO_CHECK(ask_again(plan, turn));
+    }
+}
+
+// True where the images are as fine as the frame asks for.
+Result<bool> FrameRenderer::shade_with_images(const FramePlan& plan) {
+    ORO_TRY(const bool settled, bring_images(plan));
+    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1,
+                                &set_, 0, nullptr);
+        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 4);
+        record_shade(commands, plan);
+        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 5);
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
+                       VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
+    }));
+    return settled;
+}
+
+}  // namespace oro
