@@ -7,6 +7,7 @@
 #include "apps/accuracy/verification.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/drawing/drape.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/output/overwrite_guard.h"
@@ -96,8 +97,9 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const Style style, load_style(view, region.field));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(Scene scene, create_scene(
-                             *gpu, region, view.exaggeration, options.memory,
+                             *gpu, region, view.exaggeration, memory_of_pages(view, options.memory),
                              [&](double share) { bar.show(share, "measuring levels"); }, view.heights));
+    ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(const std::optional<PictureDifference> pixels,
             check_pixels(options, view, *gpu, scene, path, style, bar));

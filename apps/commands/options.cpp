@@ -57,6 +57,15 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
         "--style", options.style, "NAME",
         "Colours of the ground and the sky: a style that comes with the program (default: default), "
         "a .json file of your own, or a .txt file: a colour table as gdaldem color-relief reads it.");
+    looks
+        .option("--drape", options.drape, "FILE",
+                "Lay an image over the ground: an orthophoto, a satellite scene or a map, any raster with a "
+                "CRS in a format that terrain is read from. Several are drawn one over the other, the last "
+                "on top.")
+        .allow_extra_args(false);  // what follows its file is elevation data
+    looks.number("--drape-opacity", options.drape_opacity, "SHARE",
+                 "How much images hide of the style's colours, " + span(view_limits::drape_opacity) +
+                     " (default 1: all). Needs --drape.");
     CLI::Option& sun = looks.option(
         "--sun", options.sun, "AZIMUTH,ELEVATION",
         "Where light comes from, in degrees: clockwise from north, and above the horizon; 315,45 is from the "
@@ -213,9 +222,10 @@ void add_data_changed(CLI::App& command, bool& data_changed) {
 void add_memory_options(CLI::App& command, MemoryOptions& options) {
     constexpr int least_mb = 16, most_mb = 1000000;
     OptionGroup detail(command, "Detail and models");
-    detail.whole_number("--gpu-memory", options.gpu_memory_mb, least_mb, most_mb, "MB",
-                        "How much of the GPU's memory terrain may take, in megabytes, 16 to 1000000. "
-                        "Default: half of it, at most 2147.");
+    detail.whole_number(
+        "--gpu-memory", options.gpu_memory_mb, least_mb, most_mb, "MB",
+        "How much of the GPU's memory terrain may take, in megabytes, 16 to 1000000. "
+        "Default: half of it, at most 2147. Images over the ground take half of what is given.");
     detail.whole_number(
         "--memory", options.memory_mb, least_mb, most_mb, "MB",
         "How much main memory terrain may take on its way to the GPU, in megabytes, 16 to 1000000 (default "

@@ -40,6 +40,8 @@ struct ViewOptions {
     std::optional<double> visibility_km;
     std::optional<std::string> sea;
     std::optional<std::string> rim;
+    std::vector<std::string> drape;  // images over the ground, the last on top
+    std::optional<double> drape_opacity;
     std::optional<std::string> time;
     std::optional<std::string> pipeline;
     std::optional<double> tau_px;

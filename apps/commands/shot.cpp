@@ -11,6 +11,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/shot_json.h"
+#include "apps/drawing/drape.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/picture_file.h"
@@ -274,7 +275,9 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
                          [&](double share) { bar.show(share, "measuring levels"); }));
     if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
     ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
-    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), options.memory, shot.view.heights));
+    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), memory_of_pages(shot.view, options.memory),
+                                      shot.view.heights));
+    ORO_CHECK(lay_images(shot.view, shot.region, options.memory, *gpu, scene, options.quiet));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
     shot.triangles_at_full_resolution = scene.pages().facts().triangles;

@@ -25,6 +25,7 @@ Result<void> spare_files(const std::vector<std::string>& written, const std::vec
 Result<void> spare_inputs(const std::vector<std::string>& written, const View& view, const Region& region) {
     std::vector<std::string> inputs{view.style};
     for (const std::string& path : view.region.paths) inputs.push_back(path);
+    inputs.insert(inputs.end(), view.drape.begin(), view.drape.end());
     for (const SourceReport& source : region.sources) {
         inputs.push_back(source.path);
         inputs.insert(inputs.end(), source.files.begin(), source.files.end());

@@ -83,6 +83,10 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
         return Error{ErrorKind::failed, "--gpu-memory",
                      "the GPU may hold " + std::to_string(scene.store().capacity()) +
                          " pages of terrain; this view needs more (a larger --tau needs fewer)"};
+    if (!report.images_settled)
+        return Error{ErrorKind::failed, "--gpu-memory",
+                     "the GPU may hold " + std::to_string(scene.drape()->capacity()) +
+                         " tiles of images; this view needs more (a smaller --size needs fewer)"};
     ORO_TRY(WholeFile file, writer->finished_file());
     if (drawn.prints) {
         drawn.prints->pixels = pixels.print();

@@ -24,6 +24,7 @@ struct Fingerprints {
     std::vector<OfSource> sources;       // to name the ones that changed; none where there are too many
     std::string geoid;                   // its name
     std::uint64_t undulation{};          // N over the region
+    std::vector<OfSource> images;        // over the ground, as the view names them
     std::optional<std::uint64_t> style;  // colours and light; of drawn pictures alone, as
     std::optional<std::uint64_t> pixels;  // what was drawn, before a JPEG's loss
     bool
@@ -32,6 +33,9 @@ struct Fingerprints {
 
 // A view's JSON must fit into a JPEG's 65,000 bytes: of more sources none is told by itself.
 inline constexpr std::size_t most_sources_with_prints = 256;
+
+// Images over the ground that a view may have.
+inline constexpr std::size_t most_images = 64;
 
 // "0.1.0 4f1d22a09c3e": the version, and twelve digits of the SHA-256 of all code between files and pixels.
 std::string program_print();

@@ -39,6 +39,31 @@ std::optional<std::uint64_t> print_if_any(const nlohmann::json& json, const char
     return print_from(json, name);
 }
 
+ordered_json sources_json(const std::vector<Fingerprints::OfSource>& sources) {
+    ordered_json json = ordered_json::array();
+    for (const Fingerprints::OfSource& source : sources) {
+        ordered_json one = ordered_json::object();
+        if (!source.name.empty()) one["name"] = path_json(source.name);
+        put(one, "posts", source.posts);
+        json.push_back(std::move(one));
+    }
+    return json;
+}
+
+std::vector<Fingerprints::OfSource> sources_from(const nlohmann::json& json, const std::string& field) {
+    const nlohmann::json& sources = json_field(json, field.c_str());
+    if (!sources.is_array() || sources.size() > most_sources_with_prints)
+        throw JsonFault{"'" + field + "' of 'fingerprints' must be a list of at most " +
+                        std::to_string(most_sources_with_prints)};
+    std::vector<Fingerprints::OfSource> all;
+    for (const nlohmann::json& source : sources) {
+        if (!source.is_object()) throw JsonFault{"'" + field + "' of 'fingerprints' must hold objects"};
+        all.push_back(
+            {source.contains("name") ? path_from(source, "name") : "", print_if_any(source, "posts")});
+    }
+    return all;
+}
+
 }  // namespace
 
 std::string pixels_field(std::uint64_t pixels) {
@@ -50,14 +75,9 @@ ordered_json prints_json(const Fingerprints& prints) {
     json["program"] = prints.program;
     json["grid"] = digits_of(prints.grid);
     put(json, "posts", prints.posts);
-    json["sources"] = ordered_json::array();
-    for (const Fingerprints::OfSource& source : prints.sources) {
-        ordered_json one = ordered_json::object();
-        if (!source.name.empty()) one["name"] = path_json(source.name);
-        put(one, "posts", source.posts);
-        json["sources"].push_back(std::move(one));
-    }
+    json["sources"] = sources_json(prints.sources);
     json["geoid"] = json_object("name", prints.geoid, "undulation", digits_of(prints.undulation));
+    if (!prints.images.empty()) json["images"] = sources_json(prints.images);
     put(json, "style", prints.style);
     put(json, "pixels", prints.pixels);
     if (prints.data_changed) json["data_changed"] = true;
@@ -69,15 +89,8 @@ Fingerprints prints_from(const nlohmann::json& json) {
     prints.program = json_string(json, "program");
     prints.grid = print_from(json, "grid");
     prints.posts = print_if_any(json, "posts");
-    const nlohmann::json& sources = json_field(json, "sources");
-    if (!sources.is_array() || sources.size() > most_sources_with_prints)
-        throw JsonFault{"'sources' of 'fingerprints' must be a list of at most " +
-                        std::to_string(most_sources_with_prints)};
-    for (const nlohmann::json& source : sources) {
-        if (!source.is_object()) throw JsonFault{"'sources' of 'fingerprints' must hold objects"};
-        prints.sources.push_back(
-            {source.contains("name") ? path_from(source, "name") : "", print_if_any(source, "posts")});
-    }
+    prints.sources = sources_from(json, "sources");
+    if (json.contains("images")) prints.images = sources_from(json, "images");
     const nlohmann::json& geoid = json_field(json, "geoid");
     prints.geoid = json_string(geoid, "name");
     prints.undulation = print_from(geoid, "undulation");

@@ -13,6 +13,7 @@
 #include "core/earth/world_model.h"
 #include "core/terrain/height_quantization.h"
 #include "core/terrain/page.h"
+#include "geo/drape/image_source.h"
 #include "geo/region/region.h"
 
 namespace oro {
@@ -43,8 +44,11 @@ struct View {
     std::string style{"default"};
     Sea sea{Sea::level};
     Rim rim{Rim::skirt};
-    std::string pipeline{"auto"};  // or "mesh", "compute": written views name the one that drew them
-    double tau_px{1.0};            // largest error of what is drawn; 0: full resolution
+    std::vector<std::string> drape;  // images over the ground, the last on top
+    double drape_opacity{1.0};
+    std::vector<ImageSource> images;  // these files, from open_view on
+    std::string pipeline{"auto"};     // or "mesh", "compute": written views name the one that drew them
+    double tau_px{1.0};               // largest error of what is drawn; 0: full resolution
     WorldModel model;
     bool has_geoid{true};  // false: N is 0 everywhere, heights are above the ellipsoid
     HeightStorage heights{HeightStorage::f32};

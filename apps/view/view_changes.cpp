@@ -89,6 +89,17 @@ void add_geoid(const Fingerprints& told, const Fingerprints& here, const std::st
     changes.push_back({ChangeOf::geoid, {ErrorKind::failed, "geoid", what}});
 }
 
+void add_images(const Fingerprints& told, const Fingerprints& here, const std::string& file,
+                std::vector<Change>& changes) {
+    for (std::size_t i = 0; i < std::min(told.images.size(), here.images.size()); ++i) {
+        const OfSource &was = told.images[i], &is = here.images[i];
+        if (was.posts == is.posts) continue;
+        changes.push_back({ChangeOf::data,
+                           {ErrorKind::failed, is.name.empty() ? was.name : is.name,
+                            "is another image than the one that " + file + " was drawn with"}});
+    }
+}
+
 // What nobody can tell any more, or nobody could ever.
 std::string unknown_of(const View& view) {
     const std::string cannot = ": whether its data are those that it was drawn from cannot be checked";
@@ -138,6 +149,7 @@ std::vector<Change> changes_of(const View& view) {
     const Fingerprints &told = *view.told->prints, &here = *view.prints;
     add_data(told, here, view.told->file, changes);
     add_geoid(told, here, view.told->file, changes);
+    add_images(told, here, view.told->file, changes);
     if (told.program != here.program)
         changes.push_back({ChangeOf::program,
                            {ErrorKind::failed, view.told->file,

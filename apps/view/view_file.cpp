@@ -96,6 +96,26 @@ void read_sources(const nlohmann::json& json, View& view) {
     view.paths_from_own_file = true;
 }
 
+// Views of before there was any have none.
+void read_drape(const nlohmann::json& json, View& view) {
+    if (!json.contains("drape")) return;
+    const nlohmann::json& drape = json_field(json, "drape");
+    const nlohmann::json& files = json_field(drape, "files");
+    if (!files.is_array() || files.empty() || files.size() > most_images)
+        throw JsonFault{"'files' of 'drape' must be a list of 1 to " + std::to_string(most_images)};
+    for (const nlohmann::json& file : files)
+        view.drape.push_back(path_from(as_field("files", file), "files"));
+    view.drape_opacity = number(drape, "opacity", limits::drape_opacity);
+}
+
+ordered_json drape_json(const View& view) {
+    ordered_json json = ordered_json::object();
+    json["files"] = ordered_json::array();
+    for (const std::string& file : view.drape) json["files"].push_back(path_json(file));
+    json["opacity"] = view.drape_opacity;
+    return json;
+}
+
 void read_camera(const nlohmann::json& json, Camera& camera) {
     const auto& eye = json_field(json, "eye");
     camera.eye = {number(eye, "lat_deg", limits::lat_deg), number(eye, "lon_deg", limits::lon_deg),
@@ -147,6 +167,7 @@ View read_fields(const nlohmann::json& json) {
     view.style = path_from(json, "style");
     read_choice(json, "sea", sea_named, view.sea);
     read_choice(json, "rim", rim_named, view.rim);
+    read_drape(json, view);
     // Views of before there was a choice have none.
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
     if (!raster_request_named(view.pipeline))
@@ -206,6 +227,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["style"] = path_json(view.style);
     json["sea"] = name_of(view.sea);
     json["rim"] = name_of(view.rim);
+    if (!view.drape.empty()) json["drape"] = drape_json(view);
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;
     json["accuracy"] = view.accuracy;

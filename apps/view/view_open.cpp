@@ -1,4 +1,5 @@
 // From options, or from a view's file, to a view and its region: what shot and view begin with.
+#include <filesystem>
 #include <utility>
 
 #include "apps/view/view.h"
@@ -28,6 +29,18 @@ Error with_way_out(Error fault, const View& view, const RegionOptions& options) 
     return fault;
 }
 
+// Opens a view's images, and puts their fingerprints into it.
+Result<void> open_images(View& view) {
+    for (const std::string& file : view.drape) {
+        ORO_TRY(const bool there, is_there(file));
+        if (!there && !file.starts_with("/vsi")) return Error{ErrorKind::failed, file, "no such image"};
+        ORO_TRY(ImageSource image, open_image(file));
+        view.prints->images.push_back({std::filesystem::path(file).filename().string(), image.print});
+        view.images.push_back(std::move(image));
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
@@ -37,7 +50,8 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         ORO_TRY(view, read_view(view_file));
         view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px,
                              !view_options.style && !view_options.visibility_km && !view_options.sun &&
-                                 !view_options.sun_time && !view_options.sea && !view_options.rim,
+                                 !view_options.sun_time && !view_options.sea && !view_options.rim &&
+                                 view_options.drape.empty() && !view_options.drape_opacity,
                              view.prints};
         ORO_CHECK(change_view(view, view_options));
         // A sun that its file told stays where the file has it: the same view, the same bytes.
@@ -51,12 +65,15 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         region = std::move(*opened);
         view.prints = prints_of(region);
         if (!view.has_geoid) leave_geoid_out(region);
-        return {};
+        // Those that somebody names instead are others on purpose.
+        if (!view_options.drape.empty() && view.told->prints) view.told->prints->images.clear();
+        return open_images(view);
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     ORO_TRY(region, open_region(view.region, progress));
     view.prints = prints_of(region);
+    ORO_CHECK(open_images(view));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
     if (placed.ok()) aim_sun(view.sun, view.camera.eye);

@@ -87,6 +87,15 @@ Result<void> apply_sun(View& view, const ViewOptions& options) {
     return {};
 }
 
+Result<void> apply_drape(View& view, const ViewOptions& options) {
+    if (!options.drape.empty()) view.drape = options.drape;
+    if (!options.drape_opacity) return {};
+    if (view.drape.empty()) return refused("--drape-opacity", "", "says nothing without --drape FILE");
+    ORO_TRY(view.drape_opacity,
+            within("--drape-opacity", *options.drape_opacity, view_limits::drape_opacity));
+    return {};
+}
+
 // The options that a view from a file can be changed by.
 Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.size) ORO_CHECK(set_size(*options.size, view.camera));
@@ -109,6 +118,7 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.rim) {
         ORO_TRY(view.rim, rim_named(*options.rim));
     }
+    ORO_CHECK(apply_drape(view, options));
     if (options.pipeline) view.pipeline = *options.pipeline;
     ORO_CHECK(apply_models(view, options));
     if (options.tau_px) {

@@ -96,7 +96,9 @@ Result<View> view_told_by(const View& view, const std::string& picture) {
         told.region.paths.clear();
         if (told.prints) {
             for (Fingerprints::OfSource& source : told.prints->sources) source.name.clear();
+            for (Fingerprints::OfSource& image : told.prints->images) image.name.clear();
         }
+        for (std::string& image : told.drape) image = fs::path(image).filename().string();
         if (is_style_path(told.style)) told.style = fs::path(told.style).filename().string();
         return told;
     }
@@ -108,6 +110,9 @@ Result<View> view_told_by(const View& view, const std::string& picture) {
     }
     for (std::string& path : told.region.paths) {
         ORO_TRY(path, from_folder(folder, path));
+    }
+    for (std::string& image : told.drape) {
+        ORO_TRY(image, from_folder(folder, image));
     }
     if (is_style_path(told.style)) {
         ORO_TRY(told.style, from_folder(folder, told.style));
@@ -127,6 +132,7 @@ Result<void> lead_from_working_folder(View& view, const std::string& file) {
         return {};
     };
     for (std::string& path : view.region.paths) ORO_CHECK(lead(path));
+    for (std::string& image : view.drape) ORO_CHECK(lead(image));
     if (is_style_path(view.style)) ORO_CHECK(lead(view.style));
     return {};
 }

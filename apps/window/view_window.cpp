@@ -6,6 +6,7 @@
 #include "apps/accuracy/beyond_data.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/drawing/drape.h"
 #include "apps/drawing/finer_levels.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
@@ -150,7 +151,9 @@ Result<void> take_finer_levels(Viewer& viewer) {
     ORO_TRY(std::unique_ptr<RegionPages> pages, viewer.finer->wait());
     viewer.finer.reset();
     ORO_TRY(Scene scene,
-            create_scene(viewer.gpu, std::move(pages), viewer.options.memory, viewer.view.heights));
+            create_scene(viewer.gpu, std::move(pages), memory_of_pages(viewer.view, viewer.options.memory),
+                         viewer.view.heights));
+    ORO_CHECK(lay_images(viewer.view, viewer.region, viewer.options.memory, viewer.gpu, scene, true));
     const Camera& camera = viewer.view.camera;
     ORO_CHECK(scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
                                  std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
@@ -276,9 +279,10 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         show_title(viewer);
     }
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field));
-    ORO_CHECK(viewer.renderer.draw(std::move(plan), viewer.style.frame));
+    ORO_TRY(const FrameReport drawn,
+            viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drape()));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
-    changed = !shown;
+    changed = !shown || !drawn.images_settled;
     if (shown && !viewer.is_shown) {
         viewer.is_shown = true;
         say_waited(viewer, viewer.finer ? "first picture, coarse," : "first picture");
@@ -346,7 +350,9 @@ Result<void> run_view(const WindowOptions& options) {
     const bool coarse_first = measures_long(region);
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             first_pages(region, view, [&](double share) { bar.show(share, "measuring levels"); }));
-    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), options.memory, view.heights));
+    ORO_TRY(Scene scene,
+            create_scene(*gpu, std::move(pages), memory_of_pages(view, options.memory), view.heights));
+    ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     bar.clear();
     say_changes(view, options.quiet);
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
@@ -356,6 +362,7 @@ Result<void> run_view(const WindowOptions& options) {
     FrameRendererOptions renderer_options;
     renderer_options.extent = window->extent();
     ORO_TRY(renderer_options.path, choose_path(view.pipeline, *gpu));
+    renderer_options.waits_for_images = false;
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
     Viewer viewer{

@@ -1,0 +1,113 @@
+// --drape as users meet it: what the view tells of images, and what is said of those that are no longer as
+// they were, or cannot lie over any ground.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using oro::test::bytes_of;
+using oro::test::expect_refusal;
+using oro::test::Outcome;
+using oro::test::run_orograph;
+using oro::test::view_in;
+using oro::test::write_bytes;
+using Words = std::vector<std::string>;
+
+constexpr int failed = 1, usage = 2;
+
+// Terrain, and the same file as an image over it: grey by its heights.
+class Drape : public testing::Test {
+  protected:
+    const fs::path folder = oro::test::scratch_folder();
+    const std::string land = (folder / "land.tif").string(), image = (folder / "image.tif").string();
+
+    Drape() {
+        fs::copy_file(oro::test::bundled_data() / "jacksboro.tif", land);
+        fs::copy_file(land, image);
+    }
+    [[nodiscard]] std::string path(const char* name) const { return (folder / name).string(); }
+    static Outcome shoot(const Words& more) {
+        Words words{"shot", "--size", "96x64", "-q", "--time", "2026-01-01T00:00:00Z"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_orograph(words);
+    }
+    static json prints_in(const std::string& png) { return json::parse(view_in(png))["fingerprints"]; }
+};
+
+TEST_F(Drape, IsInTheViewWhichDrawsItAgain) {
+    ASSERT_EQ(
+        shoot({land, "--drape", image, "--drape", land, "--drape-opacity", "0.5", "--out", path("a.png")})
+            .exit_code,
+        0);
+    const json view = json::parse(view_in(path("a.png")));
+    EXPECT_EQ(view["drape"], (json{{"files", {"image.tif", "land.tif"}}, {"opacity", 0.5}}));
+    EXPECT_EQ(view["fingerprints"]["images"].size(), 2U);
+    EXPECT_EQ(view["fingerprints"]["images"][0]["posts"], view["fingerprints"]["images"][1]["posts"]);
+    ASSERT_EQ(shoot({"--view", path("a.png"), "--out", path("b.png")}).exit_code, 0);
+    EXPECT_EQ(bytes_of(path("a.png")), bytes_of(path("b.png")));
+}
+
+TEST_F(Drape, LeavesPicturesWithoutItAsTheyWere) {
+    ASSERT_EQ(shoot({land, "--out", path("bare.png")}).exit_code, 0);
+    EXPECT_FALSE(json::parse(view_in(path("bare.png"))).contains("drape"));
+    EXPECT_FALSE(prints_in(path("bare.png")).contains("images"));
+    // Images that nothing is seen of.
+    ASSERT_EQ(shoot({land, "--drape", image, "--drape-opacity", "0", "--out", path("clear.png")}).exit_code,
+              0);
+    EXPECT_EQ(prints_in(path("bare.png"))["pixels"], prints_in(path("clear.png"))["pixels"]);
+    ASSERT_EQ(shoot({land, "--drape", image, "--out", path("draped.png")}).exit_code, 0);
+    EXPECT_NE(prints_in(path("bare.png"))["pixels"], prints_in(path("draped.png"))["pixels"]);
+}
+
+TEST_F(Drape, IsTheSameOverABakedRegion) {
+    ASSERT_EQ(run_orograph({"bake", land, "--out", path("land.oro"), "-q"}).exit_code, 0);
+    const Words eye{"--at", "36.5,-84.25", "--above", "1500", "--pitch", "-30", "--drape", image};
+    Words tile{land, "--out", path("tile.png")}, baked{path("land.oro"), "--out", path("baked.png")};
+    tile.insert(tile.end(), eye.begin(), eye.end());
+    baked.insert(baked.end(), eye.begin(), eye.end());
+    ASSERT_EQ(shoot(tile).exit_code, 0);
+    ASSERT_EQ(shoot(baked).exit_code, 0);
+    EXPECT_EQ(prints_in(path("tile.png"))["pixels"], prints_in(path("baked.png"))["pixels"]);
+}
+
+TEST_F(Drape, ThatChangedIsTold) {
+    ASSERT_EQ(shoot({land, "--drape", image, "--out", path("a.png")}).exit_code, 0);
+    write_bytes(image, bytes_of(image) + "x");
+    const Outcome changed = shoot({"--view", path("a.png"), "--out", path("b.png")});
+    expect_refusal(changed, failed, {"image.tif", "is another image", "--data-changed"});
+    EXPECT_EQ(shoot({"--view", path("a.png"), "--out", path("b.png"), "--data-changed"}).exit_code, 0);
+    fs::remove(image);
+    expect_refusal(shoot({"--view", path("a.png"), "--out", path("c.png")}), failed,
+                   {"image.tif", "no such image"});
+}
+
+TEST_F(Drape, ThatCannotLieOverGroundIsOneLine) {
+    write_bytes(path("text.tif"), "this is no image");
+    expect_refusal(shoot({land, "--drape", path("text.tif"), "--out", path("a.png")}), failed,
+                   {"text.tif", "is no raster"});
+    const auto vrt = [&](const char* crs, const char* map) {
+        write_bytes(path("image.vrt"), std::string("<VRTDataset rasterXSize=\"9\" rasterYSize=\"9\">") + crs +
+                                           "<GeoTransform>" + map +
+                                           "</GeoTransform><VRTRasterBand dataType=\"Byte\" band=\"1\"/>"
+                                           "</VRTDataset>");
+        return shoot({land, "--drape", path("image.vrt"), "--out", path("a.png")});
+    };
+    expect_refusal(vrt("", "-85, 0.1, 0, 37, 0, -0.1"), failed, {"image.vrt", "coordinate reference system"});
+    expect_refusal(vrt("<SRS>EPSG:4326</SRS>", "nan, 0.1, 0, 37, 0, -0.1"), failed,
+                   {"image.vrt", "no map from pixels to places"});
+    expect_refusal(vrt("<SRS>EPSG:4326</SRS>", "-85, 0, 0, 37, 0, 0"), failed,
+                   {"image.vrt", "no map from pixels to places"});
+    expect_refusal(shoot({land, "--drape-opacity", "1", "--out", path("a.png")}), usage, {"--drape-opacity"});
+    expect_refusal(shoot({land, "--drape", image, "--drape-opacity", "1.5", "--out", path("a.png")}), usage,
+                   {"--drape-opacity 1.5", "between 0 and 1"});
+    expect_refusal(shoot({land, "--drape", image, "--out", image, "--overwrite"}), usage, {"image.tif"});
+}
+
+}  // namespace
