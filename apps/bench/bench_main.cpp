@@ -28,6 +28,8 @@ struct BenchOptions {
     std::string path;    // of eyes
     int patches{64};     // of the formula's terrain: along each side, 8 x 8 quads each
     int frames{30};
+    bool shadows{false};
+    bool sky_openness{false};
     int width_px{1920};
     int height_px{1080};
     std::string pipeline{raster_requests.front().first};
@@ -54,7 +56,10 @@ struct BenchTimes {
 Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Camera& camera,
                                const BenchOptions& options) {
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    const gpu::FrameStyle style = bench_style();
+    gpu::FrameStyle style = bench_style();
+    style.shadows = options.shadows ? 1 : 0;
+    style.sky_openness = options.sky_openness ? 1 : 0;
+    scene.cast(cast_request(style));
     std::vector<double> choose, raster, shade, whole, planned, frame;
     BenchTimes times;
     const auto beginning = Clock::now();
@@ -105,6 +110,7 @@ Result<double> peak_triangles_per_s(const Gpu& gpu, RasterPath path, BenchOption
     ORO_TRY(Scene scene, Scene::create(gpu, pages_in_memory(field, 1.0, thread_count())));
     ORO_TRY(FrameRenderer renderer, renderer_for(gpu, path, options));
     options.tau_px = 0.0;
+    options.shadows = options.sky_openness = false;
     const Camera camera = eye_above(field, options.width_px, options.height_px);
     ORO_TRY(const BenchTimes times, time_frames(scene, renderer, camera, options));
     return times.last.counts.triangles_drawn / times.raster_s;
@@ -245,6 +251,9 @@ int main(int argc, char** argv) {
     app.add_flag("--floor", options.floor,
                  "Measure the path's peak triangle rate, too, and tell times as multiples of the least that "
                  "it allows");
+    app.add_flag("--shadows", options.shadows, "Terrain casts shadows");
+    app.add_flag("--sky-openness", options.sky_openness,
+                 "The sky's light by the part of it that a place sees");
     app.add_flag("--json", options.json, "Print one JSON object");
     try {
         app.parse(argc, argv);

@@ -85,6 +85,12 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
     looks.choice("--rim", options.rim, rim_words(),
                  "What a style with voids draws below the region's rim: skirt (default), walls down to the "
                  "ellipsoid; or none.");
+    looks.choice(
+        "--shadows", options.shadows, {"on", "off"},
+        "Whether terrain casts shadows, from beyond the picture, too. Default: as the style has it.");
+    looks.choice(
+        "--sky-openness", options.sky_openness, {"on", "off"},
+        "Whether ground that sees less of the sky gets less of its light. Default: as the style has it.");
     looks.whole_number("--samples", options.samples, static_cast<int>(view_limits::samples.low),
                        static_cast<int>(view_limits::samples.high), "N",
                        "How many samples make a pixel, " + span(view_limits::samples) +

@@ -34,6 +34,8 @@ struct ViewOptions {
     std::optional<std::string> size;
     std::optional<std::string> sun;
     std::optional<std::string> sun_time;
+    std::optional<std::string> shadows;  // on, off
+    std::optional<std::string> sky_openness;
     std::optional<double> exaggeration;
     std::optional<int> samples;
     std::optional<std::string> style;

@@ -82,6 +82,13 @@ SunDirection read_light(const json& object, gpu::FrameStyle& style) {
         refuse_unknown(own, "'sun'", {"azimuth_deg", "elevation_deg"});
     }
     if (style.light == gpu::light_sun) style.ambient = style_number(object, "ambient", 0.0, 1.0);
+    for (const auto& [name, on] :
+         {std::pair{"shadows", &style.shadows}, {"sky_openness", &style.sky_openness}}) {
+        if (!object.contains(name)) continue;
+        if (style.light != gpu::light_sun)
+            throw JsonFault{"'" + std::string(name) + "' is for 'light': 'sun'"};
+        *on = json_flag(object, name) ? 1 : 0;
+    }
     style.relief = dark ? 1.0F : positive(object, "relief");
     if (style.light != gpu::light_relief) return sun;
     const auto& light = json_field(object, "relief_light");
@@ -178,10 +185,10 @@ Style style_of_json(const json& object) {
     style.sun = read_light(object, style.frame);
     read_air(object, style.frame);
     style.contours_by_view = read_contours(object, style.frame);
-    refuse_unknown(
-        object, "a style",
-        {"name", "licence", "colour_by", "tints", "flat", "light", "sun", "ambient", "relief", "relief_light",
-         "contours", "background", "haze", "sky", "air", "no_data", "cover", "water", "voids"});
+    refuse_unknown(object, "a style",
+                   {"name",    "licence", "colour_by",    "tints",   "flat",         "light",    "sun",
+                    "ambient", "relief",  "relief_light", "shadows", "sky_openness", "contours", "background",
+                    "haze",    "sky",     "air",          "no_data", "cover",        "water",    "voids"});
     return style;
 }
 

@@ -110,6 +110,14 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     }
     style.sun = view.sun.value_or(style.sun);
     light_by(style.sun, style.frame);
+    if (view.shadows.value_or(false) && style.frame.light != gpu::light_sun)
+        return Error{ErrorKind::usage, "--shadows on",
+                     "the style '" + name + "' has no sunlight that ground could keep off"};
+    if (view.sky_openness.value_or(false) && style.frame.light != gpu::light_sun)
+        return Error{ErrorKind::usage, "--sky-openness on",
+                     "the style '" + name + "' has no light of the sky"};
+    if (view.shadows) style.frame.shadows = *view.shadows ? 1 : 0;
+    if (view.sky_openness) style.frame.sky_openness = *view.sky_openness ? 1 : 0;
     ORO_CHECK(surround(style.frame, view, field));
     ORO_CHECK(fit_to_view(style, view, field));
     return style;

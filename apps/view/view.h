@@ -42,6 +42,8 @@ struct View {
     std::optional<SunDirection> sun;      // nothing: the style's
     std::optional<double> visibility_km;  // nothing: the style's
     std::string style{"default"};
+    std::optional<bool> shadows;       // nothing: as the style has it
+    std::optional<bool> sky_openness;  // likewise
     Sea sea{Sea::level};
     Rim rim{Rim::skirt};
     std::vector<std::string> drape;  // images over the ground, the last on top

@@ -168,6 +168,9 @@ View read_fields(const nlohmann::json& json) {
     read_choice(json, "sea", sea_named, view.sea);
     read_choice(json, "rim", rim_named, view.rim);
     read_drape(json, view);
+    // Where nothing was asked for there is none.
+    if (json.contains("shadows")) view.shadows = json_flag(json, "shadows");
+    if (json.contains("sky_openness")) view.sky_openness = json_flag(json, "sky_openness");
     // Views of before there was a choice have none.
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
     if (!raster_request_named(view.pipeline))
@@ -228,6 +231,8 @@ std::string view_to_json(const View& view, bool pretty) {
     json["sea"] = name_of(view.sea);
     json["rim"] = name_of(view.rim);
     if (!view.drape.empty()) json["drape"] = drape_json(view);
+    if (view.shadows) json["shadows"] = *view.shadows;
+    if (view.sky_openness) json["sky_openness"] = *view.sky_openness;
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;
     json["accuracy"] = view.accuracy;

@@ -96,17 +96,14 @@ Result<void> apply_drape(View& view, const ViewOptions& options) {
     return {};
 }
 
-// The options that a view from a file can be changed by.
-Result<void> apply_look(View& view, const ViewOptions& options) {
-    if (options.size) ORO_CHECK(set_size(*options.size, view.camera));
-    if (options.exaggeration) {
-        ORO_TRY(view.exaggeration,
-                within("--exaggeration", *options.exaggeration, view_limits::exaggeration));
-    }
-    if (options.samples) {
-        ORO_TRY(const double samples, within("--samples", *options.samples, view_limits::samples));
-        view.samples = static_cast<int>(samples);
-    }
+Result<bool> switch_named(const std::string& option, const std::string& word) {
+    if (word != "on" && word != "off")
+        return Error{ErrorKind::usage, option, "'" + word + "' is neither on nor off"};
+    return word == "on";
+}
+
+// What the ground and the air look like.
+Result<void> apply_colours(View& view, const ViewOptions& options) {
     if (options.style) view.style = *options.style;
     if (options.visibility_km) {
         ORO_TRY(view.visibility_km,
@@ -118,7 +115,27 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.rim) {
         ORO_TRY(view.rim, rim_named(*options.rim));
     }
-    ORO_CHECK(apply_drape(view, options));
+    if (options.shadows) {
+        ORO_TRY(view.shadows, switch_named("--shadows", *options.shadows));
+    }
+    if (options.sky_openness) {
+        ORO_TRY(view.sky_openness, switch_named("--sky-openness", *options.sky_openness));
+    }
+    return apply_drape(view, options);
+}
+
+// The options that a view from a file can be changed by.
+Result<void> apply_look(View& view, const ViewOptions& options) {
+    if (options.size) ORO_CHECK(set_size(*options.size, view.camera));
+    if (options.exaggeration) {
+        ORO_TRY(view.exaggeration,
+                within("--exaggeration", *options.exaggeration, view_limits::exaggeration));
+    }
+    if (options.samples) {
+        ORO_TRY(const double samples, within("--samples", *options.samples, view_limits::samples));
+        view.samples = static_cast<int>(samples);
+    }
+    ORO_CHECK(apply_colours(view, options));
     if (options.pipeline) view.pipeline = *options.pipeline;
     ORO_CHECK(apply_models(view, options));
     if (options.tau_px) {

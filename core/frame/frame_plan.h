@@ -9,6 +9,7 @@
 
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
+#include "core/frame/casters.h"
 #include "core/frame/region_pages.h"
 #include "core/terrain/height_quantization.h"
 #include "shaders/shared.h"
@@ -29,6 +30,7 @@ struct FramePlan {
         pages_wanted{};  // those of `pages` and `missing`, and those that wait for a missing neighbour
     std::size_t pages_beyond_frustum{};
     std::size_t pages_beyond_horizon{};
+    CasterPlan casters;  // none until plan_casters()
 };
 
 // Device address of a page's block, 0 where it is not on the GPU.

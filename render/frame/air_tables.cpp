@@ -4,6 +4,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "render/frame/shading.h"
+
 namespace oro {
 namespace {
 
@@ -24,8 +26,7 @@ static_assert(gpu::air_scattered_first == gpu::air_columns_first + entry_counts[
 
 }  // namespace
 
-Result<void> AirTables::prepare(const Gpu& gpu, RasterPath path, Pipelines& pipelines,
-                                gpu::FrameConstants& constants) {
+Result<void> AirTables::prepare(const Gpu& gpu, Pipelines& pipelines, gpu::FrameConstants& constants) {
     wanted_.reset();
     constants.air = {};
     if (constants.style.air.on == 0) return {};
@@ -35,7 +36,7 @@ Result<void> AirTables::prepare(const Gpu& gpu, RasterPath path, Pipelines& pipe
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                   VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                               MemoryKind::device, "air"));
-        ORO_CHECK(add_air_pipelines(gpu, path, pipelines));
+        ORO_CHECK(add_air_pipelines(gpu, pipelines));
     }
     constants.air = address_words(entries_.address);
     wanted_ = Made{constants.style.air, constants.earth_radius_m, constants.eye_h_m, constants.style.sun_enu};

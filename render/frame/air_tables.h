@@ -14,8 +14,7 @@ class AirTables {
   public:
     // Room for a frame's tables, and where they are into its constants; the pipelines on first use. Nothing
     // happens for a style without air.
-    Result<void> prepare(const Gpu& gpu, RasterPath path, Pipelines& pipelines,
-                         gpu::FrameConstants& constants);
+    Result<void> prepare(const Gpu& gpu, Pipelines& pipelines, gpu::FrameConstants& constants);
     // Fills those of them that are not as the constants of the last prepare() ask. The frame's set is bound.
     void record(VkCommandBuffer commands, const Pipelines& pipelines);
 

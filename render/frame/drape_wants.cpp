@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "render/frame/shading.h"
+
 namespace oro {
 namespace {
 
@@ -24,7 +26,7 @@ Result<void> DrapeWants::prepare(const Gpu& gpu, RasterPath path, Pipelines& pip
         ORO_TRY(read_back_, create_buffer(gpu, wanted_bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                           MemoryKind::readback, "wanted image tiles read back"));
     }
-    ORO_CHECK(add_drape_pipelines(gpu, path, constants.style, pipelines));
+    ORO_CHECK(add_drape_pipelines(gpu, path, pipelines));
     store->describe(constants.drape);
     constants.drape.wanted = address_words(wanted_.address);
     return {};

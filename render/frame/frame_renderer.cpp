@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "render/frame/frame_layout.h"
+#include "render/frame/shading.h"
 
 namespace oro {
 namespace {
@@ -51,8 +52,7 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     FrameRenderer renderer(gpu);
     renderer.options_ = options;
     ORO_TRY(renderer.pipelines_,
-            create_pipelines(gpu, options.path,
-                             {options.record_positions, options.shades, options.keep_triangles}));
+            create_pipelines(gpu, options.path, {options.record_positions, options.keep_triangles}));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -231,7 +231,15 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = style;
     ORO_CHECK(drape_.prepare(*gpu_, options_.path, pipelines_, options_.shades ? drape : nullptr, constants));
-    if (options_.shades) ORO_CHECK(air_.prepare(*gpu_, options_.path, pipelines_, constants));
+    if (options_.shades) {
+        ORO_CHECK(air_.prepare(*gpu_, pipelines_, constants));
+        ORO_CHECK(casters_.prepare(*gpu_, pipelines_, plan, constants));
+        ShadingKind kind = shading_of(style);
+        kind.casts = casters_.casts();
+        kind.opens = casters_.opens();
+        kind.draped = drape_.is_on();
+        ORO_TRY(shade_, shading_for(*gpu_, options_.path, kind, pipelines_));
+    }
     address_choice(constants);
     if (compute_) compute_->address(constants);
     const auto copy = [&](VkDeviceSize at, const auto& values) {
@@ -351,8 +359,6 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     assert(plan.constants.width_px <= options_.extent.width &&
            plan.constants.height_px <= options_.extent.height);
     assert(sample_count == 1 || options_.several_samples);
-    if (options_.shades && is_drawn_as_map(style) && !pipelines_.shade_map)
-        ORO_CHECK(create_map_shading(*gpu_, options_.path, pipelines_));
     ORO_CHECK(upload(plan, style, sample_index, sample_count, drape));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;

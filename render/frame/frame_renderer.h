@@ -9,6 +9,7 @@
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
 #include "render/frame/air_tables.h"
+#include "render/frame/caster_buffers.h"
 #include "render/frame/compute_raster.h"
 #include "render/frame/drape_wants.h"
 #include "render/frame/pipelines.h"
@@ -111,9 +112,11 @@ class FrameRenderer {
     const Gpu* gpu_;
     FrameRendererOptions options_;
     Pipelines pipelines_;
+    VkPipeline shade_{VK_NULL_HANDLE};  // of the frame
     std::optional<ComputeRaster> compute_;
     AirTables air_;
     DrapeWants drape_;
+    CasterBuffers casters_;
     Commands commands_;
     Image ids_, depth_, sum_, picture_;
     OwnedDescriptorPool pool_;

@@ -9,6 +9,7 @@ namespace oro {
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
     air_.record(commands, pipelines_);
+    casters_.record(commands, pipelines_);
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
                   drape_.is_on() ? shader_read
                   : compute_     ? unused
@@ -18,12 +19,7 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
-    const gpu::FrameStyle& style = plan.constants.style;
-    const OwnedPipeline& shade = drape_.is_on()           ? draped_shading(pipelines_, style)
-                                 : style.air.on != 0      ? pipelines_.shade_air
-                                 : is_drawn_as_map(style) ? pipelines_.shade_map
-                                                          : pipelines_.shade;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.get());
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade_);
     vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
 }
 

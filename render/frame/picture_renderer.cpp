@@ -94,6 +94,7 @@ Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera&
     renderer_options.path = options.path;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
 
+    scene.cast(cast_request(style));
     PictureReport report;
     report.path = options.path;
     std::vector<std::uint8_t> band(std::size_t{3} * static_cast<std::size_t>(camera.width_px) *

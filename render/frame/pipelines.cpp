@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <span>
 
 #include "shaders/shared.h"
 #include "spirv/accept_comp.h"
-#include "spirv/air_tables_comp.h"
 #include "spirv/cull_comp.h"
-#include "spirv/drape_wants_comp.h"
 #include "spirv/live_pages_comp.h"
 #include "spirv/raster_clip_comp.h"
 #include "spirv/raster_comp.h"
 #include "spirv/raster_large_comp.h"
-#include "spirv/shade_comp.h"
 #include "spirv/terrain_frag.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_mesh_two.h"
@@ -169,22 +165,6 @@ Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& p
     return OwnedPipeline(gpu.device(), handle);
 }
 
-Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
-                                              std::span<const std::uint32_t> words, const char* name,
-                                              const VkSpecializationInfo* constants = nullptr,
-                                              VkPipelineCreateFlags flags = 0) {
-    ORO_TRY(const OwnedShader shader, create_shader(gpu, words, name));
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.flags = flags;
-    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, constants);
-    info.layout = pipelines.layout.get();
-    VkPipeline handle{};
-    ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
-    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, name);
-    return OwnedPipeline(gpu.device(), handle);
-}
-
 Result<void> create_mesh_path(const Gpu& gpu, bool record_positions, Pipelines& pipelines) {
     const MeshShaderLimits& limits = gpu.report().mesh;
     // A power of two that divides the meshlets of a page.
@@ -229,41 +209,22 @@ Result<void> create_compute_path(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
-// By constant_id, of the shading pass and of that for triangles.
-struct ShadingConstants {
-    VkBool32 from_compute;
-    VkBool32 as_map;
-    VkBool32 in_air;
-    VkBool32 draped;
-};
-constexpr std::array<VkSpecializationMapEntry, 4> shading_constants_map{
-    VkSpecializationMapEntry{0, offsetof(ShadingConstants, from_compute), sizeof(VkBool32)},
-    VkSpecializationMapEntry{1, offsetof(ShadingConstants, as_map), sizeof(VkBool32)},
-    VkSpecializationMapEntry{2, offsetof(ShadingConstants, in_air), sizeof(VkBool32)},
-    VkSpecializationMapEntry{6, offsetof(ShadingConstants, draped), sizeof(VkBool32)}};
-
-Result<OwnedPipeline> create_shading(const Gpu& gpu, const Pipelines& pipelines,
-                                     const ShadingConstants& values, const char* name) {
-    const VkSpecializationInfo constants{shading_constants_map.size(), shading_constants_map.data(),
-                                         sizeof(values), &values};
-    return create_compute_pipeline(gpu, pipelines, shade_comp_spirv, name, &constants);
-}
-VkBool32 from_compute(RasterPath path) {
-    return path == RasterPath::compute ? VK_TRUE : VK_FALSE;
-}
-
 }  // namespace
 
-bool is_drawn_as_map(const gpu::FrameStyle& style) {
-    return style.colour_by != gpu::colour_by_height || style.tints_as_codes != 0 ||
-           style.light != gpu::light_sun || style.is_map != 0 || style.contours.interval_m > 0.0F;
-}
-
-Result<void> create_map_shading(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
-    ORO_TRY(
-        pipelines.shade_map,
-        create_shading(gpu, pipelines, {from_compute(path), VK_TRUE, VK_FALSE, VK_FALSE}, "shade as a map"));
-    return {};
+Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
+                                              std::span<const std::uint32_t> words, const char* name,
+                                              const VkSpecializationInfo* constants,
+                                              VkPipelineCreateFlags flags) {
+    ORO_TRY(const OwnedShader shader, create_shader(gpu, words, name));
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.flags = flags;
+    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, constants);
+    info.layout = pipelines.layout.get();
+    VkPipeline handle{};
+    ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, name);
+    return OwnedPipeline(gpu.device(), handle);
 }
 
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants) {
@@ -273,60 +234,15 @@ Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const Pipeli
     ORO_CHECK(by_mesh ? create_mesh_path(gpu, wants.record_positions, pipelines)
                       : create_compute_path(gpu, pipelines));
     ORO_CHECK(create_choice(gpu, pipelines));
-    const ShadingConstants values{from_compute(path), VK_FALSE, VK_FALSE, VK_FALSE};
-    if (wants.shades) {
-        ORO_TRY(pipelines.shade, create_shading(gpu, pipelines, values, "shade"));
-    }
     if (wants.triangles) {
-        const VkSpecializationInfo one_constant{1, shading_constants_map.data(), sizeof(values), &values};
+        const VkBool32 compute = by_mesh ? VK_FALSE : VK_TRUE;
+        const VkSpecializationMapEntry entry{0, 0, sizeof(compute)};
+        const VkSpecializationInfo constants{1, &entry, sizeof(compute), &compute};
         ORO_TRY(pipelines.triangles,
-                create_compute_pipeline(gpu, pipelines, triangles_comp_spirv, "triangles", &one_constant,
+                create_compute_pipeline(gpu, pipelines, triangles_comp_spirv, "triangles", &constants,
                                         VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
     }
     return pipelines;
-}
-
-namespace {
-
-// Number in Pipelines::shade_draped.
-std::size_t shading_of(const gpu::FrameStyle& style) {
-    return style.air.on != 0 ? 2 : is_drawn_as_map(style) ? 1 : 0;
-}
-
-}  // namespace
-
-Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, const gpu::FrameStyle& style,
-                                 Pipelines& pipelines) {
-    const std::size_t which = shading_of(style);
-    const VkBool32 compute = from_compute(path), as_map = which == 1 ? VK_TRUE : VK_FALSE,
-                   in_air = which == 2 ? VK_TRUE : VK_FALSE;
-    if (!pipelines.shade_draped[which]) {
-        ORO_TRY(pipelines.shade_draped[which],
-                create_shading(gpu, pipelines, {compute, as_map, in_air, VK_TRUE}, "shade with images"));
-    }
-    if (!pipelines.drape_wants) {
-        const VkSpecializationInfo one_constant{1, shading_constants_map.data(), sizeof(compute), &compute};
-        ORO_TRY(pipelines.drape_wants, create_compute_pipeline(gpu, pipelines, drape_wants_comp_spirv,
-                                                               "wanted image tiles", &one_constant));
-    }
-    return {};
-}
-
-const OwnedPipeline& draped_shading(const Pipelines& pipelines, const gpu::FrameStyle& style) {
-    return pipelines.shade_draped[shading_of(style)];
-}
-
-Result<void> add_air_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
-    ORO_TRY(
-        pipelines.shade_air,
-        create_shading(gpu, pipelines, {from_compute(path), VK_FALSE, VK_TRUE, VK_FALSE}, "shade in air"));
-    for (std::uint32_t table = 0; table < pipelines.air.size(); ++table) {
-        const VkSpecializationMapEntry entry{0, 0, sizeof(table)};
-        const VkSpecializationInfo constants{1, &entry, sizeof(table), &table};
-        ORO_TRY(pipelines.air[table],
-                create_compute_pipeline(gpu, pipelines, air_tables_comp_spirv, "air tables", &constants));
-    }
-    return {};
 }
 
 }  // namespace oro

@@ -2,6 +2,10 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <span>
 
 #include "render/device/gpu.h"
 #include "shaders/shared.h"
@@ -13,6 +17,17 @@ inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat sum_format = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat picture_format_vk = VK_FORMAT_R8G8B8A8_UNORM;
 
+// What the shading pass has to do: each of these is code of its own, so that a picture pays for what it shows
+// alone.
+struct ShadingKind {
+    bool as_map{};  // the style is more than tints by height in sunlight and haze
+    bool in_air{};  // it has air that light goes through
+    bool casts{};   // terrain casts shadows
+    bool opens{};   // the sky's light is that of the part of the sky that is seen
+    bool draped{};  // images lie over the ground
+    auto operator<=>(const ShadingKind&) const = default;
+};
+
 struct Pipelines {
     OwnedSetLayout set;  // 0 ids, 1 sum, 2 picture: storage images of the shading pass; 3 FrameConstants
     OwnedPipelineLayout layout;        // that set alone
@@ -21,36 +36,25 @@ struct Pipelines {
     std::uint32_t meshlets_per_task{1};
     std::uint32_t meshlets_per_group{1};                    // of a mesh workgroup
     OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
-    OwnedPipeline shade;                                    // compute, 8 x 8
-    OwnedPipeline shade_map;                                // the same for maps; see create_map_shading
-    OwnedPipeline shade_air;                                // the same in air
-    std::array<OwnedPipeline, 3> shade_draped;  // shade, shade_map and shade_air with images over the ground
-    OwnedPipeline drape_wants;                  // what tiles of them are wanted, compute, 8 x 8
-    std::array<OwnedPipeline, 4> air;           // its tables, in this order, 64 entries a workgroup
-    OwnedPipeline triangles;                    // what each pixel shows, compute, 8 x 8
+    std::map<ShadingKind, OwnedPipeline> shades;            // compute, 8 x 8; see shading_for
+    OwnedPipeline drape_wants;                              // what tiles of them are wanted, compute, 8 x 8
+    std::array<OwnedPipeline, 4> air;     // its tables, in this order, 64 entries a workgroup
+    OwnedPipeline caster_tops, openness;  // of what casts shadows
+    OwnedPipeline triangles;              // what each pixel shows, compute, 8 x 8
 };
 
 // What a renderer is asked for besides triangle ids.
 struct PipelineWants {
     bool record_positions{false};  // the mesh shader writes each placed post to FrameConstants.recorded
-    bool shades{true};             // false: `shade` is left out
     bool triangles{false};         // `triangles` is there
 };
 
 // Sizes of workgroups follow the device's preferred limits.
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants);
-// `air` and `shade_air`, for styles that have it: nothing else waits for them to be compiled.
-Result<void> add_air_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines);
-
-// Those that a style with images over the ground needs, as far as they are not there.
-Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, const gpu::FrameStyle& style,
-                                 Pipelines& pipelines);
-// The one of `shade_draped` for a style.
-const OwnedPipeline& draped_shading(const Pipelines& pipelines, const gpu::FrameStyle& style);
-
-// Whether a style is drawn by `shade_map`: it is more than tints by height in sunlight and air.
-bool is_drawn_as_map(const gpu::FrameStyle& style);
-// Makes `shade_map`, once there is a style for it.
-Result<void> create_map_shading(const Gpu& gpu, RasterPath path, Pipelines& pipelines);
+// One that needs the set alone. `flags`: VK_PIPELINE_CREATE_...
+Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
+                                              std::span<const std::uint32_t> words, const char* name,
+                                              const VkSpecializationInfo* constants = nullptr,
+                                              VkPipelineCreateFlags flags = 0);
 
 }  // namespace oro

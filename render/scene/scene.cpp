@@ -43,9 +43,14 @@ Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau
                               const WorldModel& model) {
     store_.begin_frame();
     full_ = false;
-    ORO_TRY(FramePlan plan, plan_frame(
-                                *pages_, [&](const PageIndex& page) { return store_.address(page); }, camera,
-                                tile, tau_px, model, store_.coding()));
+    const Residency residency = [&](const PageIndex& page) { return store_.address(page); };
+    ORO_TRY(FramePlan plan, plan_frame(*pages_, residency, camera, tile, tau_px, model, store_.coding()));
+    if (cast_.any()) {
+        if (!top_m_) {
+            ORO_TRY(top_m_, region_top_m(*pages_));
+        }
+        ORO_CHECK(plan_casters(*pages_, residency, camera, tile, cast_, *top_m_, plan));
+    }
     plan.constants.undulation.N_m = address_words(undulation_.address);
     return plan;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -33,6 +34,8 @@ class Scene {
     static Result<Scene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
                                 const SceneMemory& memory = {}, HeightStorage heights = HeightStorage::f32);
 
+    // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h).
+    void cast(const CastRequest& request) { cast_ = request; }
     // What a frame draws with the pages that are on the GPU now.
     Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px,
                            const WorldModel& model = {});
@@ -68,6 +71,8 @@ class Scene {
     Buffer undulation_;
     std::uint64_t bytes_sent_{};
     bool full_{false};  // of the last frame's pages
+    CastRequest cast_;
+    std::optional<double> top_m_;  // of the region, once it was asked for
 };
 
 }  // namespace oro

@@ -48,10 +48,10 @@ float towards_sun(SurfacePoint point) {
 
 vec3 sunlit(vec3 colour, SurfacePoint point) {
     vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
-    float direct = (1.0 - FRAME.style.sun_hidden) * max(dot(normal, FRAME.style.sun_enu), 0.0);
+    float direct = (1.0 - FRAME.style.sun_hidden) * sun_share() * max(dot(normal, FRAME.style.sun_enu), 0.0);
     // The sky's share falls with the slope: a wall sees half of it.
     float diffuse = 0.5 + 0.5 * normal.z;
-    float light = FRAME.style.ambient * diffuse + (1.0 - FRAME.style.ambient) * direct;
+    float light = FRAME.style.ambient * diffuse * sky_share() + (1.0 - FRAME.style.ambient) * direct;
     return colour * light;
 }
 

@@ -4,13 +4,18 @@
 // A map: any FrameStyle that is not tints by height, as light, in the sun and in air. Code of its own, so that other pictures pay nothing.
 layout(constant_id = 1) const bool as_map = false;
 layout(constant_id = 2) const bool in_air = false;  // FrameStyle.air
-layout(constant_id = 6) const bool draped = false;  // FrameConstants.drape
+layout(constant_id = 3) const bool casts = false;   // FrameStyle.shadows
+layout(constant_id = 4) const bool opens = false;   // FrameStyle.sky_openness
+layout(constant_id = 5) const bool draped = false;  // FrameConstants.drape
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
 #include "shaders/shade/surface.glsl"
 #include "shaders/air/air.glsl"
 #include "shaders/air/sky.glsl"
+#include "shaders/cast/casters.glsl"
+#include "shaders/cast/shadow.glsl"
+#include "shaders/cast/shown.glsl"
 #include "shaders/shade/daylight.glsl"
 #include "shaders/shade/light.glsl"
 #include "shaders/shade/srgb.glsl"
@@ -19,6 +24,7 @@ layout(constant_id = 6) const bool draped = false;  // FrameConstants.drape
 #define ORO_DRAPE_MIXES
 #include "shaders/shade/drape.glsl"
 #include "shaders/shade/ground.glsl"
+#include "shaders/cast/cast_on.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
@@ -55,6 +61,7 @@ void main() {
     } else {
         SurfacePoint point = surface_at(id - 1u, ray);
         depth = FRAME.near_m / -point.view.z;
+        cast_on(id - 1u, point);
         colour = seen_ground(point);
     }
     // From the triangle and the pixel alone, so that both ways of drawing give the same.

@@ -117,7 +117,9 @@ TEST(Help, HidesWhatDoesNothing) {
         {"trade",
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
           "--tolerance", "--samples"}},
-        {"plan", {"--style", "--sun", "--sun-time", "--samples", "--pipeline", "--time"}},
+        {"plan",
+         {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--samples", "--pipeline",
+          "--time"}},
         {"view", {"--tolerance", "--time"}},
         {"compare", {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids"}}};
     const std::string shot = help_of({"shot"});

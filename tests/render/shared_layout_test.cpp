@@ -22,6 +22,7 @@
 #include "spirv/shade_comp.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_task.h"
+#include "spirv/tops_comp.h"
 #include "spirv/triangles_comp.h"
 #include "tests/support/test_data.h"
 
@@ -60,7 +61,8 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
           std::span<const std::uint32_t>(raster_large_comp_spirv),
           std::span<const std::uint32_t>(shade_comp_spirv),
           std::span<const std::uint32_t>(drape_wants_comp_spirv),
-          std::span<const std::uint32_t>(triangles_comp_spirv)}) {
+          std::span<const std::uint32_t>(triangles_comp_spirv),
+          std::span<const std::uint32_t>(tops_comp_spirv)}) {
         all.merge(member_offsets(words));
     }
     return all;
@@ -205,6 +207,30 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(EyePost, meridian_m),
         ORO_MEMBER(EyePost, e2),
         ORO_MEMBER(EyePost, turn),
+        ORO_MEMBER(FrameStyle, shadows),
+        ORO_MEMBER(FrameStyle, sky_openness),
+        ORO_MEMBER(CasterLevel, first_row),
+        ORO_MEMBER(CasterLevel, first_column),
+        ORO_MEMBER(CasterLevel, rows),
+        ORO_MEMBER(CasterLevel, columns),
+        ORO_MEMBER(CasterLevel, first),
+        ORO_MEMBER(CasterPage, block),
+        ORO_MEMBER(CasterPage, level),
+        ORO_MEMBER(CasterPage, row),
+        ORO_MEMBER(CasterPage, column),
+        ORO_MEMBER(Casters, levels),
+        ORO_MEMBER(Casters, level_count),
+        ORO_MEMBER(Casters, row_rad),
+        ORO_MEMBER(Casters, column_rad),
+        ORO_MEMBER(Casters, page_count),
+        ORO_MEMBER(Casters, top_m),
+        ORO_MEMBER(Casters, error_per_m),
+        ORO_MEMBER(Casters, pages),
+        ORO_MEMBER(Casters, table),
+        ORO_MEMBER(Casters, nodes),
+        ORO_MEMBER(Casters, openness),
+        ORO_MEMBER(CasterNode, top_m),
+        ORO_MEMBER(CasterNode, error_m),
         ORO_MEMBER(AirModel, on),
         ORO_MEMBER(AirModel, molecules_per_m),
         ORO_MEMBER(AirModel, molecules_scale_m),
@@ -290,6 +316,7 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, large_list),
         ORO_MEMBER(FrameConstants, task_list),
         ORO_MEMBER(FrameConstants, air),
+        ORO_MEMBER(FrameConstants, casters),
         ORO_MEMBER(FrameConstants, undulation),
         ORO_MEMBER(FrameConstants, style),
         ORO_MEMBER(FrameConstants, eye_post),

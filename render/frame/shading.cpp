@@ -1,0 +1,82 @@
+#include "render/frame/shading.h"
+
+#include <array>
+#include <cstddef>
+
+#include "spirv/air_tables_comp.h"
+#include "spirv/drape_wants_comp.h"
+#include "spirv/openness_comp.h"
+#include "spirv/shade_comp.h"
+#include "spirv/tops_comp.h"
+
+namespace oro {
+namespace {
+
+VkBool32 flag(bool on) {
+    return on ? VK_TRUE : VK_FALSE;
+}
+
+}  // namespace
+
+ShadingKind shading_of(const gpu::FrameStyle& style) {
+    ShadingKind kind;
+    kind.in_air = style.air.on != 0;
+    kind.as_map = !kind.in_air &&
+                  (style.colour_by != gpu::colour_by_height || style.tints_as_codes != 0 ||
+                   style.light != gpu::light_sun || style.is_map != 0 || style.contours.interval_m > 0.0F);
+    return kind;
+}
+
+Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKind& kind,
+                               Pipelines& pipelines) {
+    OwnedPipeline& shade = pipelines.shades[kind];
+    if (shade) return shade.get();
+    // By constant_id of shade.comp.
+    const std::array<VkBool32, 6> values{flag(path == RasterPath::compute),
+                                         flag(kind.as_map),
+                                         flag(kind.in_air),
+                                         flag(kind.casts),
+                                         flag(kind.opens),
+                                         flag(kind.draped)};
+    std::array<VkSpecializationMapEntry, values.size()> entries{};
+    for (std::uint32_t i = 0; i < entries.size(); ++i)
+        entries[i] = {i, i * std::uint32_t{sizeof(VkBool32)}, sizeof(VkBool32)};
+    const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
+    ORO_TRY(shade, create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade", &constants));
+    return shade.get();
+}
+
+Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines) {
+    for (std::uint32_t table = 0; table < pipelines.air.size(); ++table) {
+        if (pipelines.air[table]) continue;
+        const VkSpecializationMapEntry entry{0, 0, sizeof(table)};
+        const VkSpecializationInfo constants{1, &entry, sizeof(table), &table};
+        ORO_TRY(pipelines.air[table],
+                create_compute_pipeline(gpu, pipelines, air_tables_comp_spirv, "air tables", &constants));
+    }
+    return {};
+}
+
+Result<void> add_cast_pipelines(const Gpu& gpu, Pipelines& pipelines) {
+    if (!pipelines.caster_tops) {
+        ORO_TRY(pipelines.caster_tops,
+                create_compute_pipeline(gpu, pipelines, tops_comp_spirv, "caster tops"));
+    }
+    if (!pipelines.openness) {
+        ORO_TRY(pipelines.openness,
+                create_compute_pipeline(gpu, pipelines, openness_comp_spirv, "sky openness"));
+    }
+    return {};
+}
+
+Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
+    if (pipelines.drape_wants) return {};
+    const VkBool32 from_compute = flag(path == RasterPath::compute);
+    const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
+    const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};
+    ORO_TRY(pipelines.drape_wants, create_compute_pipeline(gpu, pipelines, drape_wants_comp_spirv,
+                                                           "wanted image tiles", &constants));
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,23 @@
+// The programs of the shading pass, each made when it is first asked for: nothing else waits for them to be
+// compiled.
+#pragma once
+
+#include "render/frame/pipelines.h"
+
+namespace oro {
+
+// What a style alone asks of the shading pass.
+ShadingKind shading_of(const gpu::FrameStyle& style);
+
+// The program that shades so.
+Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKind& kind,
+                               Pipelines& pipelines);
+
+// What fills the tables that it reads, as far as that is not there: of air,
+Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines);
+// ... of what casts shadows and of how open the sky is,
+Result<void> add_cast_pipelines(const Gpu& gpu, Pipelines& pipelines);
+// ... and of the image tiles that a frame wants.
+Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines);
+
+}  // namespace oro

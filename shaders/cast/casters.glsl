@@ -1,0 +1,50 @@
+// The pages that cast shadows, as shaders reach them. Needs frame.glsl and place.glsl.
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer CasterList { Casters at; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer CasterPages { CasterPage at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CasterNodes { CasterNode at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CasterShares { float at[]; };
+#define CASTERS CasterList(FRAME.casters).at
+
+// The number of the page of a level that holds a post of the region, or no_page.
+uint caster_page(uint level, ivec2 post) {
+    CasterLevel held = CASTERS.levels[level];
+    uvec2 page = uvec2(post) >> (level + 7u);
+    uvec2 within = page - uvec2(held.first_row, held.first_column);
+    if (within.x >= held.rows || within.y >= held.columns) return no_page;
+    return Words(CASTERS.table).at[held.first + within.x * held.columns + within.y];
+}
+
+// The number of its node there, page * 256 + node.
+uint caster_node(uint page, uint level, ivec2 post) {
+    uvec2 node = uvec2(post) >> (level + 3u) & 15u;
+    return page * meshlets_per_page + node.x * meshlets_per_side + node.y;
+}
+
+// A cell of a level: its north-west and south-east post by their numbers in the region, and the heights of its four, in steps.
+struct CasterCell {
+    ivec2 from;
+    ivec2 to;
+    ivec4 heights;  // north-west, north-east, south-west, south-east
+};
+CasterCell caster_cell(uint page, uint level, ivec2 post) {
+    uvec2 number = uvec2(post) >> level;
+    CasterCell cell;
+    cell.from = ivec2(number << level);
+    cell.to = min(cell.from + (1 << level), ivec2(FRAME.last_row, FRAME.last_column));
+    PageBlocks block = PageBlocks(CasterPages(CASTERS.pages).at[page].block);
+    uint place = ((number.x & 127u) + 1u) * height_stride + (number.y & 127u) + 1u;
+    cell.heights = ivec4(stored_height(block, place), stored_height(block, place + 1u), stored_height(block, place + height_stride),
+                         stored_height(block, place + height_stride + 1u));
+    return cell;
+}
+
+const float no_ground_m = -1.0e9;
+
+// Metres above a height (in steps) of a cell's triangle at a place in it, of 1; no_ground_m where it has none.
+float above_base(CasterCell cell, vec2 share, bool south_west, int base) {
+    int corner = south_west ? cell.heights.z : cell.heights.y;
+    if (cell.heights.x == void_height || cell.heights.w == void_height || corner == void_height) return no_ground_m;
+    float north_west = float(cell.heights.x - base), south_east = float(cell.heights.w - base), other = float(corner - base);
+    float along_first = south_west ? share.x : share.y, along_second = south_west ? share.y : share.x;
+    return height_step_m * (north_west + along_first * (other - north_west) + along_second * (south_east - other));
+}

@@ -1,0 +1,279 @@
+// How much of the sun's disc a place on the ground sees over the terrain: a line towards its middle is followed over the pages that cast
+// shadows, on the finest of levels that matters. Light is parallel and straight, and comes from where the sun is seen from the eye.
+// Needs casters.glsl.
+
+// A place on the ground: the post of the region north-west of it, how far it is beyond that (in posts of level 0), where in view
+// coordinates, and the terms of its row and column.
+struct CastPoint {
+    ivec2 post;
+    vec2 beyond;
+    float distance_m;
+    vec2 latitude;   // cosine, sine
+    vec2 longitude;  // ... from the eye's
+};
+
+// Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964, 4.4.42: Vulkan's own may be off by 4096 ulp.
+float small_atan(float y, float x) {
+    float v = y / x, s = v * v;
+    if (x <= 0.0 || abs(v) > 0.15) return atan(y, x);
+    return v * (1.0 - s * (1.0 / 3.0 - s * (1.0 / 5.0 - s * (1.0 / 7.0 - s / 9.0))));
+}
+
+// Of the ellipsoid at a place.
+struct CastFrame {
+    vec3 sun;  // east, north, up
+    vec2 latitude;
+    float normal_m;        // radii of curvature: across the meridian,
+    float meridian_m;      // ... along it,
+    float meridian_change; // ... and how fast that changes, metres a radian
+    float h_m;
+};
+
+CastFrame cast_frame(CastPoint point, float h_m) {
+    const float a_m = 6378137.0, e2 = 0.00669437999;
+    vec3 east = FRAME.view_from_eye * vec3(0.0, 1.0, 0.0), up = FRAME.up_view;
+    vec3 sun_view = FRAME.style.sun_enu.x * east + FRAME.style.sun_enu.y * cross(up, east) + FRAME.style.sun_enu.z * up;
+    vec3 sun = sun_view * FRAME.view_from_eye;  // in the eye's meridian frame
+    CastFrame frame;
+    frame.latitude = normalize(point.latitude);
+    vec2 turn = normalize(point.longitude);
+    vec2 level = vec2(turn.x * sun.x + turn.y * sun.y, -turn.y * sun.x + turn.x * sun.y);
+    float c = frame.latitude.x, s = frame.latitude.y;
+    frame.sun = normalize(vec3(level.y, -s * level.x + c * sun.z, c * level.x + s * sun.z));
+    float w2 = 1.0 - e2 * s * s;
+    frame.normal_m = a_m / sqrt(w2);
+    frame.meridian_m = frame.normal_m * (1.0 - e2) / w2;
+    frame.meridian_change = 3.0 * frame.meridian_m * e2 * s * c / w2;
+    frame.h_m = h_m;
+    return frame;
+}
+
+// A place so far towards the sun, from where the line begins: row, column (posts of level 0), height above there. Right to a metre in
+// 300 km: the meridian's curve to the third order.
+vec3 towards_sun_m(CastFrame at, float t_m) {
+    float c = at.latitude.x, s = at.latitude.y;
+    vec3 to = t_m * at.sun;
+    vec2 meridian = vec2(-s * to.y + c * to.z, c * to.y + s * to.z);
+    float rho = (at.normal_m + at.h_m) * c;
+    float turned = small_atan(to.x, rho + meridian.x);
+    float out_m = (meridian.x * (2.0 * rho + meridian.x) + to.x * to.x) / (length(vec2(rho + meridian.x, to.x)) + rho);
+    float north = -s * out_m + c * meridian.y, up = c * out_m + s * meridian.y, radius = at.meridian_m + at.h_m;
+    float turn = small_atan(north, radius + up);
+    float rise = (up * (2.0 * radius + up) + north * north) / (length(vec2(radius + up, north)) + radius);
+    rise -= at.meridian_change * turn * turn * turn / 6.0;
+    turn -= at.meridian_change * turn * turn / (2.0 * radius);
+    return vec3(-turn / CASTERS.row_rad, turned / CASTERS.column_rad, rise);
+}
+
+// The line: a cubic through four exact places.
+struct SunLine {
+    vec3 a1, a2, a3;  // row, column, metres; of the share of the way
+    float length_m;
+    float level;  // cosine of the sun's elevation
+    bool rises;   // above the disc's lower edge, too, and so all the way
+};
+vec3 along(SunLine line, float t_m) {
+    float share = t_m / line.length_m;
+    return share * (line.a1 + share * (line.a2 + share * line.a3));
+}
+
+SunLine sun_line(CastFrame at) {
+    // To where even the disc's lower edge is above all terrain.
+    float up = at.sun.z - 1.1 * sun_radius_rad, room = max(CASTERS.top_m - at.h_m, 1.0), radius = at.normal_m;
+    float root = sqrt(up * up + 2.0 * room / radius);
+    SunLine line;
+    line.length_m = 1.02 * (up > 0.0 ? 2.0 * room / (up + root) : radius * (root - up));
+    line.level = max(length(at.sun.xy), 0.02);
+    line.rises = up > 0.01;
+    vec3 f1 = towards_sun_m(at, line.length_m / 3.0), f2 = towards_sun_m(at, line.length_m * 2.0 / 3.0);
+    vec3 f3 = towards_sun_m(at, line.length_m);
+    line.a1 = 9.0 * f1 - 4.5 * f2 + f3;
+    line.a2 = -22.5 * f1 + 18.0 * f2 - 4.5 * f3;
+    line.a3 = 13.5 * f1 - 13.5 * f2 + 4.5 * f3;
+    return line;
+}
+
+// The coarsest page that is good enough for a place, or the finest that is there.
+uint caster_at(ivec2 post, float error_m, out uint level) {
+    uint page = no_page;
+    level = 0u;
+    for (int k = int(CASTERS.level_count) - 1; k >= 0; --k) {
+        uint finer = caster_page(uint(k), post);
+        if (finer == no_page) break;
+        page = finer;
+        level = uint(k);
+        if (CasterNodes(CASTERS.nodes).at[caster_node(page, level, post)].error_m <= error_m) break;
+    }
+    return page;
+}
+
+// Which straight piece of the line is followed: within 0.3 m of the curve.
+ORO_CONST float cast_piece_m = 4000.0;
+struct CastPiece {
+    float from_m, to_m;
+    vec2 at;     // posts from `post` where it begins
+    vec2 per_m;  // posts a metre
+};
+
+// Where a piece leaves a square of posts, metres.
+float way_out_of(CastPiece piece, vec2 low, vec2 high) {
+    vec2 rim = mix(low, high, greaterThan(piece.per_m, vec2(0.0)));
+    vec2 way = mix((rim - piece.at) / piece.per_m, vec2(1.0e9), lessThan(abs(piece.per_m), vec2(1.0e-12)));
+    return piece.from_m + min(way.x, way.y);
+}
+
+// How far the terrain's edge is from the sun's middle, seen from the place (radians, negative: above it); at most `most`.
+struct CastSearch {
+    ivec2 post;
+    int base;      // height where the line begins, steps
+    float lift_m;  // ... and so much above that
+    float least;
+    // Where the terrain was last looked at: how far away, how high, of which level.
+    float last_m;
+    float last_ground_m;
+    uint last_level;
+    // Two levels meet with a step, which must not shade what is beside it: the farther one is lowered (or raised) by so much where the line
+    // comes to it, and by nothing where it leaves the node.
+    float step_m;
+    float step_from_m;
+    float step_to_m;
+};
+
+void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, bool south_west, inout CastSearch search) {
+    if (t_m <= 0.0) return;
+    vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
+    vec2 share = clamp((at - vec2(cell.from - search.post)) / vec2(cell.to - cell.from), 0.0, 1.0);
+    float ground_m = above_base(cell, share, south_west, search.base);
+    if (ground_m == no_ground_m) return;
+    search.last_m = t_m;
+    search.last_ground_m = ground_m;
+    ground_m -= search.step_m * clamp((search.step_to_m - t_m) / (search.step_to_m - search.step_from_m), 0.0, 1.0);
+    search.least = min(search.least, (along(line, t_m).z + search.lift_m - ground_m) * line.level / t_m);
+}
+
+// Begins a node of another level than the one before it.
+void meet_level(CastPiece piece, CasterCell cell, float t_m, float to_m, bool south_west, inout CastSearch search) {
+    vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
+    vec2 share = clamp((at - vec2(cell.from - search.post)) / vec2(cell.to - cell.from), 0.0, 1.0);
+    float ground_m = above_base(cell, share, south_west, search.base);
+    if (ground_m == no_ground_m) return;
+    search.step_m = ground_m - search.last_ground_m;
+    search.step_from_m = t_m;
+    search.step_to_m = to_m;
+}
+
+// The terrain's edge as seen along the part of a piece in one node, cell by cell: its triangles are highest against the line where the
+// line crosses their sides.
+void look_at_node(SunLine line, CastPiece piece, uint page, uint level, float top_m, float from_m, float to_m, inout CastSearch search) {
+    float step_m = 1.0e-3 / max(max(abs(piece.per_m.x), abs(piece.per_m.y)), 1.0e-9);
+    float t_m = from_m;
+    bool meets = level != search.last_level && from_m - search.last_m <= 2.0 * step_m;
+    search.last_level = level;
+    search.step_m = 0.0;
+    search.step_from_m = 0.0;
+    search.step_to_m = 1.0;
+    // What is left of a node may be less than a step: the next cell is another page's.
+    for (int i = 0; i < 40 && t_m + step_m < to_m && search.least > -sun_radius_rad; ++i) {
+        vec2 at = piece.at + (t_m + step_m - piece.from_m) * piece.per_m;
+        ivec2 post = search.post + ivec2(floor(at));
+        CasterCell cell = caster_cell(page, level, post);
+        vec2 low = vec2(cell.from - search.post), high = vec2(cell.to - search.post);
+        float out_m = clamp(way_out_of(piece, low, high), t_m + step_m, to_m);
+        // Where it crosses the diagonal.
+        vec2 size = high - low, here = (piece.at + (t_m - piece.from_m) * piece.per_m - low) / size, step = piece.per_m / size;
+        float apart = here.x - here.y, change = step.x - step.y;
+        float diagonal_m = change == 0.0 ? -1.0 : t_m - apart / change;
+        bool crosses = diagonal_m > t_m && diagonal_m < out_m;
+        bool before = crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * change > 0.0;  // in the south-western triangle
+        if (meets) meet_level(piece, cell, t_m, to_m, before, search);
+        meets = false;
+        look_at_cell(line, piece, cell, t_m, before, search);
+        if (crosses) {
+            look_at_cell(line, piece, cell, diagonal_m, before, search);
+            look_at_cell(line, piece, cell, diagonal_m, !before, search);
+        }
+        look_at_cell(line, piece, cell, out_m, crosses ? !before : before, search);
+        t_m = out_m;
+        if (line.rises && along(line, t_m).z - t_m * sun_radius_rad / line.level + search.lift_m > top_m) return;
+    }
+}
+
+// Follows one piece; false when the rest of the line does not matter.
+bool look_along(SunLine line, CastPiece piece, float error_m, inout uint level, inout CastSearch search) {
+    const uint top = CASTERS.level_count - 1u;
+    float step_m = 1.0e-3 / max(max(abs(piece.per_m.x), abs(piece.per_m.y)), 1.0e-9);
+    float t_m = piece.from_m;
+    for (int i = 0; i < 4000 && t_m < piece.to_m; ++i) {
+        vec2 at = piece.at + (t_m + step_m - piece.from_m) * piece.per_m;
+        ivec2 post = search.post + ivec2(floor(at));
+        if (post.x < 0 || post.x >= int(FRAME.last_row)) return false;
+        if (post.y < 0 || post.y >= int(FRAME.last_column)) return false;
+        uint page = caster_page(level, post);
+        if (page == no_page) {
+            if (level >= top) return false;
+            ++level;
+            continue;
+        }
+        ivec2 node_from = (post >> (int(level) + 3)) << (int(level) + 3);
+        float out_m = way_out_of(piece, vec2(node_from - search.post), vec2(node_from + (8 << level) - search.post));
+        out_m = min(max(out_m, t_m + step_m), piece.to_m);
+        CasterNode node = CasterNodes(CASTERS.nodes).at[caster_node(page, level, post)];
+        float slope = sun_radius_rad / line.level;
+        float low_m = min(along(line, t_m).z - t_m * slope, along(line, out_m).z - out_m * slope) -
+                      (out_m - t_m) * (out_m - t_m) / 5.0e7;
+        if (node.top_m - float(search.base) * height_step_m < low_m + search.lift_m) {
+            t_m = out_m;
+            if (level < top) ++level;
+            continue;
+        }
+        if (level > 0u && node.error_m > error_m && caster_page(level - 1u, post) != no_page) {
+            --level;
+            continue;
+        }
+        // The coarsest that is good enough, by whatever way the search came here: so pages that other pixels need change nothing.
+        uint above = level < top ? caster_page(level + 1u, post) : no_page;
+        if (above != no_page && CasterNodes(CASTERS.nodes).at[caster_node(above, level + 1u, post)].error_m <= error_m) {
+            ++level;
+            continue;
+        }
+        look_at_node(line, piece, page, level, node.top_m - float(search.base) * height_step_m, t_m, out_m, search);
+        if (search.least <= -sun_radius_rad) return false;
+        t_m = out_m;
+    }
+    return true;
+}
+
+// Share of the sun's disc above a straight edge, `above_rad` from its middle.
+float disc_share(float above_rad) {
+    float x = clamp(above_rad / sun_radius_rad, -1.0, 1.0);
+    return 0.5 + (x * sqrt(max(1.0 - x * x, 0.0)) + asin(x)) / pi;
+}
+
+float sun_over_terrain(CastPoint point) {
+    // The sun's rise where the place is decides how much its casters may be off.
+    CastFrame at = cast_frame(point, 0.0);
+    float slope = clamp(at.sun.z / max(length(at.sun.xy), 1.0e-3), 0.02, 1.0);
+    float error_m = CASTERS.error_per_m * point.distance_m * slope;
+    uint level;
+    uint page = caster_at(point.post, error_m, level);
+    if (page == no_page) return 1.0;
+    CasterCell cell = caster_cell(page, level, point.post);
+    vec2 share = clamp((vec2(point.post - cell.from) + point.beyond) / vec2(cell.to - cell.from), 0.0, 1.0);
+    float base_m = above_base(cell, share, share.x >= share.y, 0);
+    if (base_m == no_ground_m) return 1.0;
+    at.h_m = base_m;
+    CastSearch search = CastSearch(point.post, int(round(base_m / height_step_m)), 0.02, 1.1 * sun_radius_rad, 0.0, 0.0, level, 0.0, 0.0, 1.0);
+    SunLine line = sun_line(at);
+    CastPiece piece;
+    piece.from_m = 0.0;
+    piece.at = point.beyond;
+    for (int i = 0; i < 500 && piece.from_m < line.length_m; ++i) {
+        piece.to_m = min(piece.from_m + cast_piece_m, line.length_m);
+        vec2 end = point.beyond + along(line, piece.to_m).xy;
+        piece.per_m = (end - piece.at) / (piece.to_m - piece.from_m);
+        if (!look_along(line, piece, error_m, level, search)) break;
+        piece.from_m = piece.to_m;
+        piece.at = end;
+    }
+    return disc_share(search.least);
+}
