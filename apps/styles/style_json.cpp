@@ -83,7 +83,7 @@ SunDirection read_light(const json& object, gpu::FrameStyle& style) {
     }
     if (style.light == gpu::light_sun) style.ambient = style_number(object, "ambient", 0.0, 1.0);
     for (const auto& [name, on] :
-         {std::pair{"shadows", &style.shadows}, {"sky_openness", &style.sky_openness}}) {
+         {std::pair{"shadows", &style.shadows}, std::pair{"sky_openness", &style.sky_openness}}) {
         if (!object.contains(name)) continue;
         if (style.light != gpu::light_sun)
             throw JsonFault{"'" + std::string(name) + "' is for 'light': 'sun'"};
