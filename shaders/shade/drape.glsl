@@ -46,8 +46,9 @@ mat2 drape_per_px(SurfacePoint point) {
     east = dot(east, east) < 1.0e-12 ? FRAME.view_from_eye * vec3(0.0, 1.0, 0.0) : normalize(east);
     vec3 north = cross(up, east), slope = point.drape_normal;
     vec3 normal = slope.x * east + slope.y * north + slope.z * up, ray = point.view / -point.view.z;
-    // Slopes that turn away from the eye, and those at a rim, are taken for ones that it just sees.
-    float facing = min(dot(normal, ray), -0.02 * length(ray));
+    // Slopes that turn away from the eye, and those at a rim, are taken for ones that it sees at 7 degrees: their triangles face it, and a
+    // longer footprint would reach over the ridge.
+    float facing = min(dot(normal, ray), -0.125 * length(ray));
     vec2 px = 2.0 / (vec2(FRAME.width_px, FRAME.height_px) * FRAME.projection_scale);
     mat2 per_px;
     for (int i = 0; i < 2; ++i) {
