@@ -77,6 +77,16 @@ struct MeshletBounds {
     float error_m;  // unfit_error_m (levels.glsl): cannot stand for anything
     float lod_radius;
 };
+// Means of a page's ground over squares of posts (core/lod/ground_means.h): those of level k have 2^k x 2^k
+// posts, (i, j) begins at post (i 2^k, j 2^k) of the page. Four more squares on each side, so that pixels
+// average across pages.
+ORO_CONST uint means_apron = 4u;
+ORO_CONST uint means_stride = 136u;
+ORO_CONST float means_normal_steps = 1023.0f;
+struct PageMeans {
+    uint normals[18496];  // mean unit normal in steps: east 11 bits, north 11, up 10; 0 without a post
+    uint heights[18496];  // halves: mean height above the ellipsoid without exaggeration, and its spread
+};
 // One page as the GPU holds it.
 struct PageBlock {
     MeshletBounds meshlets[256];
@@ -98,6 +108,7 @@ struct FramePage {
     vec4 planes[5];          // the frustum in the page frame, n.p + d >= 0 inside; left right bottom top near
     vec3 horizon_direction;  // scaled direction of the eye minus that of the page
     uvec2 block;             // device address of its PageBlock
+    uvec2 means;             // of its PageMeans; 0 where there are none
     uint cull;               // bits: 1 the frustum, 2 the horizon may hide some meshlets of it; 4 none of its
                              // nodes may stand for finer ones
     uint level;
@@ -117,6 +128,12 @@ struct FramePage {
 // Slopes are shaded from the coarsest page whose posts are at most so many pixels apart, whatever level the
 // triangles are of.
 ORO_CONST float shading_spacing_px = 1.5f;
+// The same where a pixel's colour is the mean of the ground that it covers: it takes four squares or more.
+ORO_CONST float means_spacing_px = 0.75f;
+// FrameStyle.footprint: what a pixel's colour is made of.
+ORO_CONST uint footprint_point = 0u;   // the ground in its middle, as shading_spacing_px says
+ORO_CONST uint footprint_mean = 1u;    // the mean of all that it covers
+ORO_CONST uint footprint_finest = 2u;  // the ground in its middle, from the finest posts: to measure with
 ORO_CONST uint no_page = 0xffffffffu;
 ORO_CONST uint no_column = 0xffffffffu;
 ORO_CONST uint pages_max = 131071u;  // of a frame: what triangle ids can number
@@ -303,6 +320,7 @@ struct FrameStyle {
     VoidHatch voids;
     uint shadows;       // 1: terrain casts shadows (FrameConstants.casters)
     uint sky_openness;  // 1: the sky's light is that of the part of the sky that a place sees
+    uint footprint;  // footprint_...
 };
 
 // What casts shadows into a frame: pages of all levels, those that are drawn and others, behind the eye, too.
@@ -459,6 +477,7 @@ struct FrameConstants {
     uint page_count;
     uint sample_index;  // samples of a pixel are drawn one after the other
     uint sample_count;
+    uint has_means;      // 1: pages have PageMeans
     uvec2 pages;         // device address of FramePage[page_count]
     uvec2 row_terms;     // RowTerms
     uvec2 column_terms;  // ColumnTerms

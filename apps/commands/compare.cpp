@@ -98,7 +98,8 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(Scene scene, create_scene(
                              *gpu, region, view.exaggeration, memory_of_pages(view, options.memory),
-                             [&](double share) { bar.show(share, "measuring levels"); }, view.heights));
+                             [&](double share) { bar.show(share, "measuring levels"); }, view.heights,
+                             style.frame.footprint != gpu::footprint_point));
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(const std::optional<PictureDifference> pixels,

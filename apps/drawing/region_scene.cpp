@@ -33,19 +33,19 @@ Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double e
 }
 
 Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
-                           const MemoryOptions& memory, const RenderProgress& progress,
-                           HeightStorage heights) {
+                           const MemoryOptions& memory, const RenderProgress& progress, HeightStorage heights,
+                           bool means) {
     ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(region, exaggeration, progress));
-    return create_scene(gpu, std::move(pages), memory, heights);
+    return create_scene(gpu, std::move(pages), memory, heights, means);
 }
 
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
-                           HeightStorage heights) {
+                           HeightStorage heights, bool means) {
     const auto bytes = [](const std::optional<int>& mb) {
         return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
     };
     return Scene::create(gpu, std::move(pages), {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb)},
-                         heights);
+                         heights, means);
 }
 
 }  // namespace oro

@@ -14,14 +14,15 @@ namespace oro {
 Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double exaggeration,
                                                   const RenderProgress& progress = {},
                                                   const std::stop_token& stop = {});
-// Makes them ready for a GPU. Errors: out of device memory. heights: how they are kept there.
+// Makes them ready for a GPU. Errors: out of device memory. heights: how they are kept there. means: as
+// Scene::create().
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
-                           HeightStorage heights = HeightStorage::f32);
+                           HeightStorage heights = HeightStorage::f32, bool means = false);
 
 // Builds the levels of a region and makes it ready for a GPU. Errors: nothing to draw in it (no_data), out of
 // device memory. heights: how they are kept on the GPU.
 Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
                            const MemoryOptions& memory, const RenderProgress& progress = {},
-                           HeightStorage heights = HeightStorage::f32);
+                           HeightStorage heights = HeightStorage::f32, bool means = false);
 
 }  // namespace oro

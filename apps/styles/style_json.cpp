@@ -185,10 +185,15 @@ Style style_of_json(const json& object) {
     style.sun = read_light(object, style.frame);
     read_air(object, style.frame);
     style.contours_by_view = read_contours(object, style.frame);
-    refuse_unknown(object, "a style",
-                   {"name",    "licence", "colour_by",    "tints",   "flat",         "light",    "sun",
-                    "ambient", "relief",  "relief_light", "shadows", "sky_openness", "contours", "background",
-                    "haze",    "sky",     "air",          "no_data", "cover",        "water",    "voids"});
+    style.frame.footprint = choice(object, "footprint",
+                                   std::array<StyleChoice, 3>{{{"point", gpu::footprint_point},
+                                                               {"mean", gpu::footprint_mean},
+                                                               {"finest", gpu::footprint_finest}}});
+    refuse_unknown(
+        object, "a style",
+        {"name",   "licence",      "colour_by", "tints",        "flat",     "light",      "sun",  "ambient",
+         "relief", "relief_light", "shadows",   "sky_openness", "contours", "background", "haze", "sky",
+         "air",    "no_data",      "cover",     "water",        "voids",    "footprint"});
     return style;
 }
 

@@ -152,7 +152,7 @@ Result<void> take_finer_levels(Viewer& viewer) {
     viewer.finer.reset();
     ORO_TRY(Scene scene,
             create_scene(viewer.gpu, std::move(pages), memory_of_pages(viewer.view, viewer.options.memory),
-                         viewer.view.heights));
+                         viewer.view.heights, viewer.style.frame.footprint != gpu::footprint_point));
     ORO_CHECK(lay_images(viewer.view, viewer.region, viewer.options.memory, viewer.gpu, scene, true));
     const Camera& camera = viewer.view.camera;
     ORO_CHECK(scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
@@ -351,8 +351,8 @@ Result<void> run_view(const WindowOptions& options) {
     const bool coarse_first = measures_long(region);
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             first_pages(region, view, [&](double share) { bar.show(share, "measuring levels"); }));
-    ORO_TRY(Scene scene,
-            create_scene(*gpu, std::move(pages), memory_of_pages(view, options.memory), view.heights));
+    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), memory_of_pages(view, options.memory),
+                                      view.heights, style.frame.footprint != gpu::footprint_point));
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     bar.clear();
     say_changes(view, options.quiet);

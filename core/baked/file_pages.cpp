@@ -9,6 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/base/parallel.h"
+#include "core/lod/ground_means.h"
+
 namespace oro {
 namespace {
 
@@ -49,10 +52,34 @@ class FilePages : public RegionPages {
         return {};
     }
 
+    // A file does not hold them, and they take all posts: 4 bytes each, read once.
+    [[nodiscard]] bool knows_means() const override {
+        constexpr std::size_t most_posts = std::size_t{1} << 28U;
+        return facts().grid.post_count() <= most_posts;
+    }
+    Result<void> load_means(const PageIndex& page, gpu::PageMeans& means) const override {
+        {
+            const std::scoped_lock lock(means_mutex_);
+            if (!means_) ORO_CHECK(make_means());
+        }
+        means_->page(page, means);
+        return {};
+    }
+
   private:
+    Result<void> make_means() const {
+        ORO_TRY(const HeightField field, field_in_memory(*file_));
+        heights_ = drawn_heights(field, facts().shape.exaggeration, thread_count());
+        means_.emplace(facts().grid, heights_, facts().shape.exaggeration, thread_count());
+        return {};
+    }
+
     std::shared_ptr<const RegionFile> file_;
     mutable std::mutex mutex_;
     mutable std::unordered_map<std::uint64_t, PageRecord> records_;
+    mutable std::mutex means_mutex_;
+    mutable DrawnHeights heights_;
+    mutable std::optional<GroundMeans> means_;
 };
 
 // Pages of level 0 by number, those asked for last in front.

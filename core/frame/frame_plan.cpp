@@ -35,7 +35,7 @@ using WantedLevel = std::map<PageCoord, WantedPage>;
 class PageChoice {
   public:
     PageChoice(const RegionPages& pages, const Residency& residency, const Camera& camera, const Tile& tile,
-               double tau_px, const ModelView& model)
+               double tau_px, double shading_spacing_px, const ModelView& model)
         : pages_(pages),
           residency_(residency),
           view_(level_view(camera, tau_px)),
@@ -44,6 +44,7 @@ class PageChoice {
           planes_(frustum_planes_view(projection_of_tile(camera, tile))),
           horizon_(model.horizon(pages.facts().shape.occluder)),
           post_spacing_m_(wgs84_a_m * radians_from_deg(pages.facts().grid.lat.spacing_deg()).rad),
+          shading_spacing_px_(shading_spacing_px),
           levels_(static_cast<std::size_t>(pages.levels())) {
         for (Plane& plane : planes_) plane.w += model.rounding_m();
     }
@@ -77,6 +78,7 @@ class PageChoice {
     std::array<Plane, 5> planes_;
     SeenHorizon horizon_;
     double post_spacing_m_;  // of level 0, along the meridian
+    double shading_spacing_px_;
     std::vector<WantedLevel> levels_;
     std::size_t beyond_frustum_{};
     std::size_t beyond_horizon_{};
@@ -98,7 +100,7 @@ bool PageChoice::fine_enough_to_shade(const PageSummary& page, const PageQuarter
     const ViewSphere seen = model_.seen(page, quarter.centre_m, quarter.lod_radius_m);
     const double distance_m = glm::length(seen.centre_m) - seen.radius_m;
     const double spacing_m = std::ldexp(post_spacing_m_, page.index.level);
-    return spacing_m * static_cast<double>(view_.pixels_per_tangent) <= gpu::shading_spacing_px * distance_m;
+    return spacing_m * static_cast<double>(view_.pixels_per_tangent) <= shading_spacing_px_ * distance_m;
 }
 
 bool PageChoice::hidden(const PageRecord& page, const ViewSphere& seen) {
@@ -294,9 +296,9 @@ void PageChoice::list_pages(FrameTables& tables, FramePlan& plan) const {
 
 Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residency, const Camera& camera,
                              const Tile& tile, double tau_px, const WorldModel& model,
-                             const HeightQuantization& coding) {
+                             const HeightQuantization& coding, double shading_spacing_px) {
     const ModelView model_view(camera, model, coding);
-    PageChoice choice(pages, residency, camera, tile, tau_px, model_view);
+    PageChoice choice(pages, residency, camera, tile, tau_px, shading_spacing_px, model_view);
     ORO_CHECK(choice.choose());
     FramePlan plan;
     choice.number_pages(plan);

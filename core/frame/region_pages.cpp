@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <mutex>
+#include <optional>
 #include <utility>
+
+#include "core/base/parallel.h"
+#include "core/lod/ground_means.h"
 
 namespace oro {
 namespace {
@@ -25,6 +30,15 @@ class PagesInMemory : public RegionPages {
         return {};
     }
 
+    [[nodiscard]] bool knows_means() const override { return true; }
+    Result<void> load_means(const PageIndex& page, gpu::PageMeans& means) const override {
+        std::call_once(means_made_, [&] {
+            means_.emplace(facts().grid, heights_, facts().shape.exaggeration, thread_count());
+        });
+        means_->page(page, means);
+        return {};
+    }
+
   private:
     [[nodiscard]] const PyramidPage& at(const PageIndex& page) const {
         return pyramid_.levels[static_cast<std::size_t>(page.level)].page(page.row, page.column);
@@ -32,12 +46,18 @@ class PagesInMemory : public RegionPages {
 
     LevelPyramid pyramid_;
     DrawnHeights heights_;
+    mutable std::once_flag means_made_;
+    mutable std::optional<GroundMeans> means_;
 };
 
 }  // namespace
 
 RegionPages::RegionPages(RegionFacts facts)
     : facts_(std::move(facts)), levels_(level_count(facts_.grid)), goes_round_(facts_.grid.goes_round()) {}
+
+Result<void> RegionPages::load_means(const PageIndex&, gpu::PageMeans&) const {
+    return Error{ErrorKind::failed, "pages", "no means are known of these"};
+}
 
 std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,
                                              const std::function<void(double share)>& progress,

@@ -83,7 +83,8 @@ Result<void> FrameRenderer::create_images() {
     const VkExtent2D extent = options_.extent;
     // The compute path keeps ids and depths in a buffer of its own.
     const VkExtent2D raster_extent = compute_ ? VkExtent2D{1, 1} : extent;
-    const VkExtent2D sum_extent = options_.several_samples ? extent : VkExtent2D{1, 1};
+    const VkExtent2D sum_extent =
+        options_.several_samples || options_.smooth_edges ? extent : VkExtent2D{1, 1};
     constexpr VkImageUsageFlags read_back = VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     ORO_TRY(ids_, create_image(*gpu_, id_format, raster_extent,
                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | read_back,
@@ -175,7 +176,7 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
         page_capacity_ = capacity;
     }
     const VkDeviceSize pixels = VkDeviceSize{4} * options_.extent.width * options_.extent.height;
-    if (options_.keep_depths && depths_.size < pixels) {
+    if (needs_depths() && depths_.size < pixels) {
         ORO_TRY(depths_, create_buffer(*gpu_, pixels,
                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
@@ -222,7 +223,7 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     constants.row_terms = address_words(frame_data_.address + layout.rows);
     constants.column_terms = address_words(frame_data_.address + layout.columns);
     constants.counts = address_words(counts_.address);
-    if (options_.keep_depths) constants.depths = address_words(depths_.address);
+    if (needs_depths()) constants.depths = address_words(depths_.address);
     if (options_.keep_triangles) {
         constants.triangles = address_words(triangles_.address);
         constants.triangle_rows = triangle_rows();
@@ -238,7 +239,12 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
         kind.casts = casters_.casts();
         kind.opens = casters_.opens();
         kind.draped = drape_.is_on();
+        kind.by_means = plan.constants.has_means != 0 && style.footprint != gpu::footprint_point;
+        kind.edges_follow = options_.smooth_edges;
         ORO_TRY(shade_, shading_for(*gpu_, options_.path, kind, pipelines_));
+        if (options_.smooth_edges) {
+            ORO_TRY(edges_, edges_for(*gpu_, kind, pipelines_));
+        }
     }
     address_choice(constants);
     if (compute_) compute_->address(constants);
@@ -358,7 +364,7 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
                                         DrapeStore* drape) {
     assert(plan.constants.width_px <= options_.extent.width &&
            plan.constants.height_px <= options_.extent.height);
-    assert(sample_count == 1 || options_.several_samples);
+    assert(sample_count == 1 || (options_.several_samples && !options_.smooth_edges));
     ORO_CHECK(upload(plan, style, sample_index, sample_count, drape));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;

@@ -33,6 +33,7 @@ struct FrameRendererOptions {
     bool several_samples{false};   // will be asked for sample_count > 1
     bool record_positions{false};  // mesh path only
     bool record_view{false};       // with record_positions: positions in view coordinates, as they are drawn
+    bool smooth_edges{false};      // of pictures of one sample, see shaders/shade/edges.comp
     bool keep_depths{false};       // for read_depths()
     bool keep_triangles{false};    // for read_triangles()
     bool shades{true};             // false: for times alone, there is nothing to be read
@@ -83,6 +84,7 @@ class FrameRenderer {
     // posts, and of posts that are not drawn, mean nothing). The first `most` of them.
     [[nodiscard]] std::vector<gpu::vec3> recorded(std::size_t most = SIZE_MAX) const;
 
+    [[nodiscard]] bool needs_depths() const { return options_.keep_depths || options_.smooth_edges; }
     [[nodiscard]] const Image& picture() const { return picture_; }
     [[nodiscard]] VkExtent2D extent() const { return options_.extent; }
 
@@ -112,7 +114,7 @@ class FrameRenderer {
     const Gpu* gpu_;
     FrameRendererOptions options_;
     Pipelines pipelines_;
-    VkPipeline shade_{VK_NULL_HANDLE};  // of the frame
+    VkPipeline shade_{VK_NULL_HANDLE}, edges_{VK_NULL_HANDLE};  // of the frame
     std::optional<ComputeRaster> compute_;
     AirTables air_;
     DrapeWants drape_;

@@ -20,7 +20,14 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade_);
-    vkCmdDispatch(commands, (plan.constants.width_px + 7) / 8, (plan.constants.height_px + 7) / 8, 1);
+    const std::uint32_t columns = (plan.constants.width_px + 7) / 8,
+                        rows = (plan.constants.height_px + 7) / 8;
+    vkCmdDispatch(commands, columns, rows, 1);
+    if (!options_.smooth_edges) return;
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, edges_);
+    vkCmdDispatch(commands, columns, rows, 1);
 }
 
 void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {

@@ -8,6 +8,7 @@ namespace oro {
 namespace {
 
 constexpr int preferred_tile_px = 4096;
+constexpr int edge_margin_px = 20;  // around a tile: what its edges may depend on (shaders/shade/edges.comp)
 
 // What a tile draws: counted once, not for each sample.
 void add_counts(PictureReport& sum, const FrameReport& part) {
@@ -63,6 +64,32 @@ void copy_rgb(const std::vector<std::uint8_t>& rgba, const Tile& tile, int pictu
     }
 }
 
+// The part of a tile's pixels that is its own, without the margin around it.
+std::vector<std::uint8_t> inner_pixels(const std::vector<std::uint8_t>& rgba, const Tile& drawn,
+                                       const Tile& own) {
+    if (drawn.width_px == own.width_px && drawn.height_px == own.height_px) return rgba;
+    std::vector<std::uint8_t> inner;
+    inner.reserve(std::size_t{4} * static_cast<std::size_t>(own.width_px) *
+                  static_cast<std::size_t>(own.height_px));
+    for (int y = 0; y < own.height_px; ++y) {
+        const auto from =
+            rgba.begin() + std::ptrdiff_t{4} * ((own.y_px - drawn.y_px + y) * std::ptrdiff_t{drawn.width_px} +
+                                                own.x_px - drawn.x_px);
+        inner.insert(inner.end(), from, from + std::ptrdiff_t{4} * own.width_px);
+    }
+    return inner;
+}
+
+// A tile with its margin, as far as the picture goes.
+Tile with_margin(const Tile& own, int margin_px, const Camera& camera) {
+    Tile drawn = own;
+    drawn.x_px = std::max(0, own.x_px - margin_px);
+    drawn.y_px = std::max(0, own.y_px - margin_px);
+    drawn.width_px = std::min(camera.width_px, own.x_px + own.width_px + margin_px) - drawn.x_px;
+    drawn.height_px = std::min(camera.height_px, own.y_px + own.height_px + margin_px) - drawn.y_px;
+    return drawn;
+}
+
 }  // namespace
 
 VkExtent2D tile_extent(const Gpu& gpu, const Camera& camera, int largest_tile_px) {
@@ -88,9 +115,13 @@ Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera&
     assert(camera.width_px > 0 && camera.height_px > 0 && options.samples > 0);
     FrameRendererOptions renderer_options;
     renderer_options.extent = tile_extent(gpu, camera, options.largest_tile_px);
-    const int tile_width = static_cast<int>(renderer_options.extent.width);
-    const int tile_height = static_cast<int>(renderer_options.extent.height);
+    int tile_width = static_cast<int>(renderer_options.extent.width);
+    int tile_height = static_cast<int>(renderer_options.extent.height);
     renderer_options.several_samples = options.samples > 1;
+    renderer_options.smooth_edges = options.samples == 1 && style.footprint == gpu::footprint_mean;
+    const int margin_px = renderer_options.smooth_edges ? edge_margin_px : 0;
+    if (tile_width < camera.width_px) tile_width = std::max(1, tile_width - 2 * margin_px);
+    if (tile_height < camera.height_px) tile_height = std::max(1, tile_height - 2 * margin_px);
     renderer_options.path = options.path;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
 
@@ -107,10 +138,12 @@ Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera&
             tile.y_px = y;
             tile.width_px = std::min(tile_width, camera.width_px - x);
             tile.height_px = rows;
-            ORO_CHECK(draw_tile(scene, camera, style, options, tile, renderer, report));
-            ORO_TRY(const std::vector<std::uint8_t> rgba,
-                    renderer.read_picture(static_cast<std::uint32_t>(tile.width_px),
-                                          static_cast<std::uint32_t>(rows)));
+            const Tile drawn = with_margin(tile, margin_px, camera);
+            ORO_CHECK(draw_tile(scene, camera, style, options, drawn, renderer, report));
+            ORO_TRY(const std::vector<std::uint8_t> pixels,
+                    renderer.read_picture(static_cast<std::uint32_t>(drawn.width_px),
+                                          static_cast<std::uint32_t>(drawn.height_px)));
+            const std::vector<std::uint8_t> rgba = inner_pixels(pixels, drawn, tile);
             report.ground_px += ground_pixels(rgba);
             copy_rgb(rgba, tile, camera.width_px, band);
         }

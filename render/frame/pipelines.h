@@ -20,11 +20,13 @@ inline constexpr VkFormat picture_format_vk = VK_FORMAT_R8G8B8A8_UNORM;
 // What the shading pass has to do: each of these is code of its own, so that a picture pays for what it shows
 // alone.
 struct ShadingKind {
-    bool as_map{};  // the style is more than tints by height in sunlight and haze
-    bool in_air{};  // it has air that light goes through
-    bool casts{};   // terrain casts shadows
-    bool opens{};   // the sky's light is that of the part of the sky that is seen
-    bool draped{};  // images lie over the ground
+    bool as_map{};        // the style is more than tints by height in sunlight and haze
+    bool in_air{};        // it has air that light goes through
+    bool casts{};         // terrain casts shadows
+    bool opens{};         // the sky's light is that of the part of the sky that is seen
+    bool draped{};        // images lie over the ground
+    bool by_means{};      // pixels are coloured by what FrameStyle.footprint says
+    bool edges_follow{};  // the picture is left to `edges`
     auto operator<=>(const ShadingKind&) const = default;
 };
 
@@ -37,6 +39,7 @@ struct Pipelines {
     std::uint32_t meshlets_per_group{1};                    // of a mesh workgroup
     OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
     std::map<ShadingKind, OwnedPipeline> shades;            // compute, 8 x 8; see shading_for
+    std::array<OwnedPipeline, 2> edges;                     // without and with air, 8 x 8; see edges_for
     OwnedPipeline drape_wants;                              // what tiles of them are wanted, compute, 8 x 8
     std::array<OwnedPipeline, 4> air;     // its tables, in this order, 64 entries a workgroup
     OwnedPipeline caster_tops, openness;  // of what casts shadows

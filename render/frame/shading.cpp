@@ -5,6 +5,7 @@
 
 #include "spirv/air_tables_comp.h"
 #include "spirv/drape_wants_comp.h"
+#include "spirv/edges_comp.h"
 #include "spirv/openness_comp.h"
 #include "spirv/shade_comp.h"
 #include "spirv/tops_comp.h"
@@ -32,18 +33,30 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
     OwnedPipeline& shade = pipelines.shades[kind];
     if (shade) return shade.get();
     // By constant_id of shade.comp.
-    const std::array<VkBool32, 6> values{flag(path == RasterPath::compute),
+    const std::array<VkBool32, 8> values{flag(path == RasterPath::compute),
                                          flag(kind.as_map),
                                          flag(kind.in_air),
                                          flag(kind.casts),
                                          flag(kind.opens),
-                                         flag(kind.draped)};
+                                         flag(kind.draped),
+                                         flag(kind.by_means),
+                                         flag(kind.edges_follow)};
     std::array<VkSpecializationMapEntry, values.size()> entries{};
     for (std::uint32_t i = 0; i < entries.size(); ++i)
         entries[i] = {i, i * std::uint32_t{sizeof(VkBool32)}, sizeof(VkBool32)};
     const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
     ORO_TRY(shade, create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade", &constants));
     return shade.get();
+}
+
+Result<VkPipeline> edges_for(const Gpu& gpu, const ShadingKind& kind, Pipelines& pipelines) {
+    OwnedPipeline& edges = pipelines.edges[kind.in_air ? 1 : 0];
+    if (edges) return edges.get();
+    const VkBool32 in_air = flag(kind.in_air);
+    const VkSpecializationMapEntry entry{2, 0, sizeof(in_air)};
+    const VkSpecializationInfo constants{1, &entry, sizeof(in_air), &in_air};
+    ORO_TRY(edges, create_compute_pipeline(gpu, pipelines, edges_comp_spirv, "smooth edges", &constants));
+    return edges.get();
 }
 
 Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines) {

@@ -14,15 +14,19 @@ constexpr std::size_t pages_in_staging = 64;
 
 }  // namespace
 
-std::size_t page_bytes(const HeightQuantization& coding) {
-    if (!coding.sixteen) return sizeof(gpu::PageBlock);
-    return offsetof(gpu::PageBlock, heights) + sizeof(std::uint32_t) * ((gpu::page_heights + 1) / 2);
+std::size_t page_bytes(const HeightQuantization& coding, bool means) {
+    const std::size_t block = coding.sixteen ? offsetof(gpu::PageBlock, heights) +
+                                                   sizeof(std::uint32_t) * ((gpu::page_heights + 1) / 2)
+                                             : sizeof(gpu::PageBlock);
+    return means ? (block + 15) / 16 * 16 + sizeof(gpu::PageMeans) : block;
 }
 
-Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity, const HeightQuantization& coding) {
+Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity, const HeightQuantization& coding,
+                                    bool means) {
     PageStore store(gpu);
     store.coding_ = coding;
-    store.page_bytes_ = page_bytes(coding);
+    store.page_bytes_ = page_bytes(coding, means);
+    if (means) store.means_offset_ = store.page_bytes_ - sizeof(gpu::PageMeans);
     store.capacity_ = std::max<std::size_t>(1, capacity);
     ORO_TRY(store.commands_, Commands::create(gpu, "page upload"));
     ORO_TRY(store.staging_,
@@ -95,7 +99,9 @@ bool PageStore::reuse_slot(std::size_t& slot) {
 }
 
 // A page as it lies on the GPU.
-void PageStore::stage(const gpu::PageBlock& block, std::byte* to) const {
+void PageStore::stage(const LoadedPage& page, std::byte* to) const {
+    const gpu::PageBlock& block = *page.block;
+    if (means_offset_ > 0) std::memcpy(to + means_offset_, page.means.get(), sizeof(gpu::PageMeans));
     if (!coding_.sixteen) {
         std::memcpy(to, &block, sizeof(block));
         return;
@@ -130,7 +136,7 @@ Result<std::size_t> PageStore::send_by_batches(std::span<const LoadedPage> pages
         if (!found) break;
         slots_[slot] = {key, frame_};
         slots_of_[key] = slot;
-        stage(*page.block, staging_.mapped + batch.size() * page_bytes_);
+        stage(page, staging_.mapped + batch.size() * page_bytes_);
         batch.push_back(slot);
         ++sent;
         if (batch.size() == pages_in_staging) {

@@ -18,21 +18,25 @@ namespace oro {
 struct LoadedPage {
     PageIndex index;
     std::unique_ptr<gpu::PageBlock> block;
+    std::unique_ptr<gpu::PageMeans> means;  // where the store keeps them
 };
 
 // Bytes that a page takes on the GPU.
-std::size_t page_bytes(const HeightQuantization& coding);
+std::size_t page_bytes(const HeightQuantization& coding, bool means = false);
 
 // The pages of one region that are on the GPU. What has not been used for longest makes room for what comes.
 class PageStore {
   public:
     // At most `capacity` pages, at least 1, and fewer where the device has no room for them; their heights
-    // lie there as `coding` says. Buffers are made when they are needed.
+    // lie there as `coding` says, with their means behind them where these are wanted. Buffers are made when
+    // they are needed.
     static Result<PageStore> create(const Gpu& gpu, std::size_t capacity,
-                                    const HeightQuantization& coding = {});
+                                    const HeightQuantization& coding = {}, bool means = false);
 
     // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame.
     std::uint64_t address(const PageIndex& page);
+    // From a page's block to its means, bytes; 0 where none are kept.
+    [[nodiscard]] std::uint64_t means_offset() const { return means_offset_; }
     // From here on pages count as used by another frame: those of earlier ones may make room.
     void begin_frame() { ++frame_; }
 
@@ -57,11 +61,12 @@ class PageStore {
     Result<void> add_chunk(std::size_t first);
     Result<std::size_t> send_by_batches(std::span<const LoadedPage> pages, std::vector<std::size_t>& batch);
     Result<void> copy(std::span<const std::size_t> slots);
-    void stage(const gpu::PageBlock& block, std::byte* to) const;
+    void stage(const LoadedPage& page, std::byte* to) const;
 
     const Gpu* gpu_;
     HeightQuantization coding_;
     std::size_t page_bytes_{sizeof(gpu::PageBlock)};
+    std::size_t means_offset_{};
     Commands commands_;
     Buffer staging_;
     std::vector<Buffer> chunks_;

@@ -7,8 +7,8 @@
 
 namespace oro {
 
-PageStream::PageStream(const RegionPages& pages, int threads, std::size_t capacity)
-    : pages_(pages), capacity_(std::max<std::size_t>(1, capacity)) {
+PageStream::PageStream(const RegionPages& pages, int threads, std::size_t capacity, bool means)
+    : pages_(pages), capacity_(std::max<std::size_t>(1, capacity)), means_(means) {
     start_threads(threads_, std::max(1, threads), [this](const std::stop_token& stop) { work(stop); });
 }
 
@@ -70,8 +70,12 @@ void PageStream::load_next(std::unique_lock<std::mutex>& lock) {
     try {
         under_way_.insert(key(page));
         lock.unlock();
-        LoadedPage loaded{page, std::make_unique<gpu::PageBlock>()};
-        const Result<void> done = pages_.load(page, *loaded.block);
+        LoadedPage loaded{page, std::make_unique<gpu::PageBlock>(), nullptr};
+        Result<void> done = pages_.load(page, *loaded.block);
+        if (means_ && done.ok()) {
+            loaded.means = std::make_unique<gpu::PageMeans>();
+            done = pages_.load_means(page, *loaded.means);
+        }
         lock.lock();
         if (done.ok()) {
             ready_.push_back(std::move(loaded));

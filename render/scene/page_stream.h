@@ -23,7 +23,8 @@ class PageStream {
     // `capacity`: pages that may be under way or ready at a time, at least 1; 80 KB each. `pages` outlives
     // the stream. Where fewer threads are to be had, or none, it does with those: without any, take() loads
     // pages itself.
-    PageStream(const RegionPages& pages, int threads, std::size_t capacity);
+    // means: pages come with theirs, 145 KB more.
+    PageStream(const RegionPages& pages, int threads, std::size_t capacity, bool means = false);
     ~PageStream();
     PageStream(const PageStream&) = delete;
     PageStream& operator=(const PageStream&) = delete;
@@ -46,6 +47,7 @@ class PageStream {
 
     const RegionPages& pages_;
     std::size_t capacity_;
+    bool means_;
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;
     std::deque<PageIndex> wanted_;

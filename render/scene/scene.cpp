@@ -23,15 +23,16 @@ Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
 }  // namespace
 
 Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
-                            HeightStorage heights) {
+                            HeightStorage heights, bool means) {
+    means = means && pages->knows_means();
     constexpr std::uint64_t most = std::uint64_t{2} << 30U;
     const std::uint64_t bytes = memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most);
     ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
-    ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding), coding));
+    ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding, means), coding, means));
     Scene scene(std::move(pages), std::move(store));
     const std::uint64_t under_way = memory.main > 0 ? memory.main : default_main_bytes;
-    scene.stream_ =
-        std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / sizeof(gpu::PageBlock));
+    const std::size_t page_size = sizeof(gpu::PageBlock) + (means ? sizeof(gpu::PageMeans) : 0);
+    scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, means);
     const UndulationField& undulation = scene.pages_->facts().undulation;
     if (!undulation.N_m.empty()) {
         ORO_TRY(scene.undulation_, create_undulation(gpu, undulation));
@@ -44,12 +45,20 @@ Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau
     store_.begin_frame();
     full_ = false;
     const Residency residency = [&](const PageIndex& page) { return store_.address(page); };
-    ORO_TRY(FramePlan plan, plan_frame(*pages_, residency, camera, tile, tau_px, model, store_.coding()));
+    ORO_TRY(FramePlan plan,
+            plan_frame(*pages_, residency, camera, tile, tau_px, model, store_.coding(),
+                       store_.means_offset() > 0 ? gpu::means_spacing_px : gpu::shading_spacing_px));
     if (cast_.any()) {
         if (!top_m_) {
             ORO_TRY(top_m_, region_top_m(*pages_));
         }
         ORO_CHECK(plan_casters(*pages_, residency, camera, tile, cast_, *top_m_, plan));
+    }
+    if (store_.means_offset() > 0) {
+        plan.constants.has_means = 1;
+        for (gpu::FramePage& page : plan.pages)
+            page.means =
+                address_words((std::uint64_t{page.block.y} << 32U | page.block.x) + store_.means_offset());
     }
     plan.constants.undulation.N_m = address_words(undulation_.address);
     return plan;

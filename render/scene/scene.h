@@ -30,9 +30,11 @@ struct SceneMemory {
 //     ORO_TRY(FramePlan plan, scene.settled_plan(camera, {0, 0, 320, 240, {0.5, 0.5}}, 1.0));  // tau 1 px
 class Scene {
   public:
-    // heights: how they are kept on the GPU. Errors: out of memory; a file that cannot be read.
+    // heights: how they are kept on the GPU. means: for styles whose pixels are means of the ground. Errors:
+    // out of memory; a file that cannot be read.
     static Result<Scene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
-                                const SceneMemory& memory = {}, HeightStorage heights = HeightStorage::f32);
+                                const SceneMemory& memory = {}, HeightStorage heights = HeightStorage::f32,
+                                bool means = false);
 
     // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h).
     void cast(const CastRequest& request) { cast_ = request; }

@@ -13,7 +13,7 @@ vec3 ground_cover(SurfacePoint point) {
     float slope = slope_deg(point), steepness = min(sin(radians(slope)) * 2.0, 1.0);
     float lean = length(point.normal.xy);
     float to_pole = lean > 0.0 ? point.normal.y / lean * (point.lat_deg < 0.0 ? -1.0 : 1.0) : 0.0;
-    float above_m = point.H_m - snow_line_m(point.lat_deg) + FRAME.style.cover.shade_m * steepness * to_pole;
+    float above_m = point.mean_H_m - snow_line_m(point.lat_deg) + FRAME.style.cover.shade_m * steepness * to_pole;
     // Level ground high up is most often ice, which snow feeds from above.
     float high = smoothstep(-2.0, -1.0, above_m / max(FRAME.style.cover.level_m, 1.0));
     above_m += FRAME.style.cover.level_m * high * (1.0 - smoothstep(7.0, 15.0, slope));

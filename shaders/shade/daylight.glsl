@@ -15,7 +15,7 @@ vec3 ground_radiance(vec3 albedo, vec3 normal, float h_m, vec3 sun) {
     // Of slopes, the part that does not see the sky sees other ground.
     vec3 from_ground = AIR.ground_albedo * (from_sun * max(sun.z, 0.0) + from_sky);
     float open = 0.5 + 0.5 * normal.z;
-    return albedo / pi * (from_sun * sun_share() * max(dot(normal, sun), 0.0) + mix(from_ground, from_sky, open * sky_share()));
+    return albedo / pi * (from_sun * sun_share() * facing(normal, sun) + mix(from_ground, from_sky, open * sky_share()));
 }
 
 // As a place is seen through the air from the eye.

@@ -21,8 +21,20 @@ vec3 tint(float value) {
     return mix(FRAME.style.tints[above - 1u].colour, FRAME.style.tints[above].colour, clamp((value - low) / (high - low), 0.0, 1.0));
 }
 
+// By height, at the place or over the pixel.
+vec3 height_tint(SurfacePoint point) {
+    if (!by_means || point.H_spread_m < 1.0) return tint(point.mean_H_m);
+    return 0.5 * (tint(point.mean_H_m - point.H_spread_m) + tint(point.mean_H_m + point.H_spread_m));
+}
+
 // Of the ground as it is: not exaggerated.
-float slope_deg(SurfacePoint point) { return degrees(atan(length(point.normal.xy), FRAME.exaggeration * point.normal.z)); }
+float slope_deg(SurfacePoint point) {
+    if (by_means && is_spread(point.normal)) {
+        vec3 normal = steeper(point.normal, 1.0 / FRAME.exaggeration), up = vec3(0.0, 0.0, 1.0);
+        return degrees(acos(clamp(normal.z + point.aside * spread_along(normal, up), 0.0, 1.0)));
+    }
+    return degrees(atan(length(point.normal.xy), FRAME.exaggeration * point.normal.z));
+}
 
 // Where the ground falls to, clockwise from true north, 0 to 360.
 float aspect_deg(SurfacePoint point) {
@@ -36,19 +48,20 @@ float aspect_deg(SurfacePoint point) {
 vec3 ground_tint(SurfacePoint point) {
     if (FRAME.style.colour_by == colour_by_cover) return ground_cover(point);
     if (FRAME.style.colour_by == colour_by_slope) return tint(slope_deg(point));
-    if (FRAME.style.colour_by == colour_by_height) return tint(point.H_m);
+    if (FRAME.style.colour_by == colour_by_height) return height_tint(point);
     return point.normal.xy == vec2(0.0) ? FRAME.style.flat_colour : tint(aspect_deg(point));
 }
 
 // Cosine of the angle between the sun and the slope, which is drawn `relief` times as steep.
 float towards_sun(SurfacePoint point) {
-    vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
-    return dot(normal, FRAME.style.sun_enu);
+    vec3 normal = steeper(point.normal, FRAME.style.relief);
+    float cosine = dot(normal, FRAME.style.sun_enu);
+    return by_means ? cosine + point.aside * spread_along(normal, FRAME.style.sun_enu) : cosine;
 }
 
 vec3 sunlit(vec3 colour, SurfacePoint point) {
-    vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
-    float direct = (1.0 - FRAME.style.sun_hidden) * sun_share() * max(dot(normal, FRAME.style.sun_enu), 0.0);
+    vec3 normal = steeper(point.normal, FRAME.style.relief);
+    float direct = (1.0 - FRAME.style.sun_hidden) * sun_share() * facing(normal, FRAME.style.sun_enu);
     // The sky's share falls with the slope: a wall sees half of it.
     float diffuse = 0.5 + 0.5 * normal.z;
     float light = FRAME.style.ambient * diffuse * sky_share() + (1.0 - FRAME.style.ambient) * direct;
@@ -70,7 +83,7 @@ vec3 in_relief_light(vec3 codes, SurfacePoint point) {
     vec3 warm = mix(codes, light.lit, light.lit_share * contrast * lit);
     vec3 shaded = warm * mix(vec3(1.0), light.shadow, contrast * turned_away);
     // Steep ground is darker whichever way it faces: relief is seen in the light, too.
-    float steep = 1.0 - normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z)).z;
+    float steep = 1.0 - steeper(point.normal, FRAME.style.relief).z;
     return mix(shaded * (1.0 - 0.35 * contrast * steep), light.veil, light.low_veil * (1.0 - up));
 }
 
@@ -89,23 +102,33 @@ vec3 with_contours(vec3 colour, SurfacePoint point) {
 }
 
 // In linear light, before any air.
-vec3 ground_colour(SurfacePoint point) {
-    if (!as_map) {
-        vec3 light = with_drape(tint(point.H_m), point, false);
-        return sunlit(light, point);
-    }
+vec3 map_colour(SurfacePoint point) {
     vec3 colour = with_drape(ground_tint(point), point, FRAME.style.tints_as_codes == 1u);
     if (FRAME.style.light == light_hillshade) colour = hillshaded(colour, point);
     if (FRAME.style.light == light_relief) colour = in_relief_light(colour, point);
-    if (FRAME.style.tints_as_codes == 1u) colour = linear_from_srgb(colour);
+    return FRAME.style.tints_as_codes == 1u ? linear_from_srgb(colour) : colour;
+}
+
+vec3 ground_colour(SurfacePoint point) {
+    if (!as_map) return sunlit(with_drape(height_tint(point), point, false), point);
+    vec3 colour = map_colour(point);
+    if (by_means && shows_angles() && is_spread(point.normal)) {
+        // Of the angles in a pixel, a quarter each of a normal distribution: colours do not follow them evenly.
+        const float quarters[4] = {-1.27, -0.325, 0.325, 1.27};
+        colour = vec3(0.0);
+        for (int i = 0; i < 4; ++i) {
+            point.aside = quarters[i];
+            colour += 0.25 * map_colour(point);
+        }
+    }
     if (FRAME.style.light == light_sun) colour = sunlit(colour, point);
     return with_contours(colour, point);
 }
 
 // By the light of the sun in the air, as a camera shows it.
 vec3 daylit_ground(SurfacePoint point) {
-    point.H_m = land_H_m(point);
-    vec3 normal = normalize(vec3(point.normal.xy * FRAME.style.relief, point.normal.z));
+    point.mean_H_m = land_H_m(point.mean_H_m);
+    vec3 normal = steeper(point.normal, FRAME.style.relief);
     vec3 sun = sun_at(point.view), ground = ground_radiance(with_drape(ground_tint(point), point, false), normal, point.h_m, sun);
     if (point.water > 0.0) ground = mix(ground, water_radiance(point.view, point.h_m, sun), point.water);
     return shown(through_air(ground, point.view));

@@ -7,6 +7,7 @@ layout(constant_id = 2) const bool in_air = false;  // FrameStyle.air
 layout(constant_id = 3) const bool casts = false;   // FrameStyle.shadows
 layout(constant_id = 4) const bool opens = false;   // FrameStyle.sky_openness
 layout(constant_id = 5) const bool draped = false;  // FrameConstants.drape
+layout(constant_id = 6) const bool by_means = false;  // FrameStyle.footprint
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
@@ -27,20 +28,13 @@ layout(constant_id = 5) const bool draped = false;  // FrameConstants.drape
 #include "shaders/cast/cast_on.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 7) const bool edges_follow = false;  // edges.comp makes the picture of `sum`
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
 // Written by a function: glslang 12.0 does not end on such an assignment in main().
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Depths { float at[]; };
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 layout(binding = 1, rgba32f) uniform image2D sum;  // of the samples so far, linear light; alpha: those with ground
 layout(binding = 2, rgba8) uniform writeonly image2D picture;  // sRGB-encoded; alpha: the share of samples with ground
-
-// Half a step of 8 bits up or down by the place in the picture: gradients of light get no bands.
-// Source: J. Jimenez, Next generation post processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014, interleaved gradient noise.
-vec3 dithered(vec3 encoded, ivec2 pixel) {
-    if (!in_air) return encoded;
-    vec2 place = vec2(pixel + ivec2(FRAME.first_x_px, FRAME.first_y_px));
-    return encoded + (fract(52.9829189 * fract(dot(place, vec2(0.06711056, 0.00583715)))) - 0.5) / 255.0;
-}
 
 void keep_depth(ivec2 pixel, float depth) {
     if (FRAME.depths != uvec2(0u)) Depths(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)] = depth;
@@ -66,6 +60,10 @@ void main() {
     }
     // From the triangle and the pixel alone, so that both ways of drawing give the same.
     keep_depth(pixel, depth);
+    if (edges_follow) {
+        imageStore(sum, pixel, vec4(colour, ground));
+        return;
+    }
     if (FRAME.sample_count > 1u) {
         vec4 total = vec4(colour, ground) + (FRAME.sample_index == 0u ? vec4(0.0) : imageLoad(sum, pixel));
         imageStore(sum, pixel, total);

@@ -5,8 +5,11 @@ struct SurfacePoint {
     vec2 post;      // (row, column) within the page, fractional
     float H_m;      // orthometric, not exaggerated
     float h_m;      // above the ellipsoid, as drawn
-    vec3 normal;    // east, north, up at the place
+    vec3 normal;    // east, north, up at the place; a mean of unit normals (shorter than 1) where the style has a footprint
     float lat_deg;  // where the style asks for it
+    float mean_H_m;    // as H_m, of the pixel's footprint, and its spread; H_m and 0 without one
+    float H_spread_m;
+    float aside;    // from the mean normal, of its spread: maps draw several of a pixel's angles
     float H_per_px; // how fast H changes on the picture; 0 where no contours are asked for
     float water;    // share of water; 0 where none is looked for
     ivec2 drape_post;  // for images over the ground: (row, column) in the region, whole posts ...
@@ -101,13 +104,16 @@ float undulation_at(vec2 post) {
 #include "shaders/shade/slopes.glsl"
 
 // A map's angle is that of Horn's formula; light alone takes the sharper one.
+bool shows_angles() {
+    return FRAME.style.colour_by != colour_by_height || FRAME.style.light == light_hillshade || FRAME.style.light == light_relief;
+}
 vec3 shading_normal_at(PageBlocks block, FramePage page, vec2 post) {
-    bool is_angle = FRAME.style.colour_by != colour_by_height || FRAME.style.light == light_hillshade || FRAME.style.light == light_relief;
-    if (as_map && is_angle) return horn_normal_at(block, page, post);
+    if (as_map && shows_angles()) return horn_normal_at(block, page, post);
     return normal_at(block, page, post);
 }
 
 #include "shaders/shade/water_share.glsl"
+#include "shaders/shade/footprint.glsl"
 
 vec3 across(vec3 along, vec3 v) { return v - dot(v, along) * along; }
 // Shares of a triangle's second and third post at the point of its rim that is nearest to a ray from the eye: for pixels at a rim, whose
@@ -181,9 +187,12 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     point.h_m = share_a * heights_m[0] + share_b * heights_m[1] + share_c * heights_m[2];
     point.H_m = (point.h_m - undulation_at(region_post(page, point.post))) / FRAME.exaggeration;
     if (draped) drape_place(page, point.post, point.drape_post, point.drape_part);
+    point.mean_H_m = point.H_m;
+    point.H_spread_m = point.aside = 0.0;
+    if (by_means) average_over_pixel(id / (meshlet_triangles * meshlets_per_page), region_post(page, point.post), point);
     vec2 post = point.post;
-    descend(page, post, length(point.view));
-    point.normal = shading_normal_at(PageBlocks(page.block), page, post);
+    if (!by_means || in_air || draped) descend(page, post, length(point.view));
+    if (!by_means) point.normal = shading_normal_at(PageBlocks(page.block), page, post);
     point.lat_deg = 0.0;
     if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
         RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + uint(clamp(post.x, 0.0, float(page_quads)))];

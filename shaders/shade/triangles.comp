@@ -4,6 +4,7 @@
 const bool as_map = false;
 const bool in_air = false;
 const bool draped = false;
+const bool by_means = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

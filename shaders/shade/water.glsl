@@ -1,9 +1,9 @@
 // How water looks. Needs surface.glsl, air.glsl and sky.glsl.
 
 // Land below the sea has no colour of water.
-float land_H_m(SurfacePoint point) {
+float land_H_m(float H_m) {
     bool has_depths = FRAME.style.water.sea_low_H_m < -1.0e5;
-    return FRAME.style.water.on == 1u && !has_depths ? max(point.H_m, 0.5) : point.H_m;
+    return FRAME.style.water.on == 1u && !has_depths ? max(H_m, 0.5) : H_m;
 }
 
 // What water sends to the eye, before the air between: the sky and the sun on its waves, and what comes out of the deep. `view`: where

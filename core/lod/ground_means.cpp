@@ -1,0 +1,131 @@
+#include "core/lod/ground_means.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/packing.hpp>
+
+#include "core/base/parallel.h"
+#include "core/earth/ellipsoid.h"
+#include "core/terrain/level_grid.h"
+
+namespace oro {
+
+// Sums over the posts of a square.
+struct GroundMeans::Sums {
+    float x{}, y{}, z{};  // of unit normals: east, north, up
+    float h_m{};
+    float hh_m2{};
+    float posts{};
+
+    void add(const Sums& other) {
+        x += other.x;
+        y += other.y;
+        z += other.z;
+        h_m += other.h_m;
+        hh_m2 += other.hh_m2;
+        posts += other.posts;
+    }
+};
+
+GroundMeans::GroundMeans(const PostGrid& grid, const DrawnHeights& heights, double exaggeration, int threads)
+    : grid_(grid),
+      heights_(heights),
+      exaggeration_(static_cast<float>(exaggeration)),
+      goes_round_(grid.goes_round()) {
+    for (int row = 0; row < grid.rows(); ++row) {
+        const double lat_deg = row_lat_deg(grid, row);
+        const double down_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
+        const double right_m = prime_vertical_radius_m(lat_deg) * std::abs(sine_cosine_deg(lat_deg).cosine) *
+                               radians_from_deg(grid.lon.spacing_deg()).rad;
+        rows_.push_back({static_cast<float>(height_step_m / down_m),
+                         static_cast<float>(height_step_m / std::max(right_m, 1.0e-3))});
+    }
+    levels_.push_back({grid.rows(), goes_round_ ? grid.columns() - 1 : grid.columns(), {}});
+    std::vector<Sums> below;
+    for (int level = 1; level < level_count(grid); ++level) add_level(below, threads);
+}
+
+std::int32_t GroundMeans::steps(int row, int column) const {
+    if (row < 0 || row >= grid_.rows()) return void_height_steps;
+    if (goes_round_) column = (column + grid_.columns() - 1) % (grid_.columns() - 1);
+    if (column < 0 || column >= grid_.columns()) return void_height_steps;
+    return heights_.at(row, column);
+}
+
+GroundMeans::Sums GroundMeans::post(int row, int column) const {
+    const std::int32_t here = steps(row, column);
+    if (here == void_height_steps) return {};
+    const auto rise = [&](std::int32_t before, std::int32_t after) {
+        const bool no_before = before == void_height_steps, no_after = after == void_height_steps;
+        const float whole = static_cast<float>((no_after ? here : after) - (no_before ? here : before));
+        return no_before == no_after ? 0.5F * whole : whole;
+    };
+    const RowScale& scale = rows_[static_cast<std::size_t>(row)];
+    const float down = rise(steps(row - 1, column), steps(row + 1, column)) * scale.down_per_m;
+    const float right = rise(steps(row, column - 1), steps(row, column + 1)) * scale.right_per_m;
+    const float length = std::sqrt(down * down + right * right + 1.0F);
+    const float h_m = static_cast<float>(here) * static_cast<float>(height_step_m) / exaggeration_;
+    return {-right / length, down / length, 1.0F / length, h_m, h_m * h_m, 1.0F};
+}
+
+// Four squares of the level below make one.
+void GroundMeans::add_level(std::vector<Sums>& below, int threads) {
+    const Level& finer = levels_.back();
+    Level level{(finer.rows + 1) / 2, (finer.columns + 1) / 2, {}};
+    const std::size_t count = static_cast<std::size_t>(level.rows) * static_cast<std::size_t>(level.columns);
+    std::vector<Sums> sums(count);
+    level.squares.resize(count);
+    const auto finer_at = [&](int row, int column) {
+        if (row >= finer.rows || column >= finer.columns) return Sums{};
+        if (finer.squares.empty()) return post(row, column);
+        return below[static_cast<std::size_t>(row) * static_cast<std::size_t>(finer.columns) +
+                     static_cast<std::size_t>(column)];
+    };
+    in_parallel(level.rows, threads, [&](int row) {
+        for (int column = 0; column < level.columns; ++column) {
+            const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
+                                   static_cast<std::size_t>(column);
+            for (int part = 0; part < 4; ++part)
+                sums[at].add(finer_at(2 * row + part / 2, 2 * column + part % 2));
+            level.squares[at] = packed(sums[at]);
+        }
+    });
+    below = std::move(sums);
+    levels_.push_back(std::move(level));
+}
+
+// See shaders/shared.h, PageMeans.
+GroundMeans::Packed GroundMeans::packed(const Sums& sums) {
+    if (sums.posts == 0.0F) return {0, 0};
+    const auto part = [&](float sum) {
+        return static_cast<std::int32_t>(std::lround(sum / sums.posts * gpu::means_normal_steps));
+    };
+    const auto x = static_cast<std::uint32_t>(part(sums.x)), y = static_cast<std::uint32_t>(part(sums.y));
+    const auto z = static_cast<std::uint32_t>(std::max(part(sums.z), 1));
+    const float h_m = sums.h_m / sums.posts;
+    const float spread_m = std::sqrt(std::max(0.0F, sums.hh_m2 / sums.posts - h_m * h_m));
+    constexpr float most_m = 65000.0F;  // of a half
+    return {(x & 0x7ffU) | (y & 0x7ffU) << 11U | z << 22U,
+            glm::packHalf2x16({std::clamp(h_m, -most_m, most_m), std::min(spread_m, most_m)})};
+}
+
+void GroundMeans::page(const PageIndex& index, gpu::PageMeans& means) const {
+    constexpr int apron = static_cast<int>(gpu::means_apron), stride = static_cast<int>(gpu::means_stride);
+    const Level& level = levels_[static_cast<std::size_t>(index.level)];
+    for (int i = 0; i < stride * stride; ++i) {
+        const int row = index.row * static_cast<int>(gpu::page_quads) + i / stride - apron;
+        int column = index.column * static_cast<int>(gpu::page_quads) + i % stride - apron;
+        if (goes_round_) column = (column + level.columns) % level.columns;
+        Packed square{};
+        if (row >= 0 && row < level.rows && column >= 0 && column < level.columns)
+            square =
+                index.level == 0
+                    ? packed(post(row, column))
+                    : level.squares[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
+                                    static_cast<std::size_t>(column)];
+        means.normals[i] = square.normal;
+        means.heights[i] = square.height;
+    }
+}
+
+}  // namespace oro

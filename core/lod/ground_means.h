@@ -1,0 +1,56 @@
+// Means of the ground over squares of posts: what a pixel that covers many posts is coloured from, instead of
+// the few that happen to lie under it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/terrain/drawn_heights.h"
+#include "core/terrain/page.h"
+#include "shaders/shared.h"
+
+namespace oro {
+
+// Normals of the drawn surface at its posts (slopes from the posts around, one-sided beside a void), and
+// heights above the ellipsoid without the exaggeration. A square of level k has 2^k x 2^k posts, those that
+// are void left out; the mean normal is shorter than 1 the more its normals differ, which says how rough the
+// ground is. Source: M. Toksvig, Mipmapping normal maps, J. Graphics Tools 10(3), 2005.
+class GroundMeans {
+  public:
+    // The work is shared between `threads` (at least 1), with one result for any number. Keeps 2.7 bytes a
+    // post, takes 8 more while it works, and some 10 ns of processor time each. `grid` and `heights` must
+    // outlive it.
+    GroundMeans(const PostGrid& grid, const DrawnHeights& heights, double exaggeration, int threads);
+
+    // Those of a page; squares without a post have 0.
+    void page(const PageIndex& index, gpu::PageMeans& means) const;
+
+  private:
+    struct Sums;
+    struct Packed {
+        std::uint32_t normal;
+        std::uint32_t height;
+    };
+    struct Level {
+        int rows{};
+        int columns{};
+        std::vector<Packed> squares;  // none of level 0: its squares are the posts
+    };
+    static Packed packed(const Sums& sums);
+    [[nodiscard]] Sums post(int row, int column) const;
+    [[nodiscard]] std::int32_t steps(int row, int column) const;
+    void add_level(std::vector<Sums>& below, int threads);
+
+    const PostGrid& grid_;
+    const DrawnHeights& heights_;
+    float exaggeration_;
+    bool goes_round_;
+    struct RowScale {
+        float down_per_m;   // 1 / metres from a post to the next one south, times the height step
+        float right_per_m;  // ... east
+    };
+    std::vector<RowScale> rows_;
+    std::vector<Level> levels_;
+};
+
+}  // namespace oro

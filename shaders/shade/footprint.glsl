@@ -1,0 +1,226 @@
+// What a pixel's colour is made of, averaged over the ground that the pixel covers: FrameStyle.footprint. The squares that it averages
+// (PageMeans) are the same whatever level the triangles have, and pass into each other from level to level and across pages. Needs
+// surface.glsl's readers of posts.
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer MeansOfPages { PageMeans at[]; };
+
+struct GroundSum {
+    vec3 normal;
+    float h_m;  // those of heights are from an origin near by, so that their squares keep their digits
+    float hh_m2;
+    float share;  // without voids
+};
+
+// A square of a page of this frame, (row, column); beyond the four around the page the nearest of them.
+void add_square(inout GroundSum sum, uvec2 means, ivec2 square, float share, float origin_m) {
+    uvec2 at = uvec2(clamp(square + int(means_apron), ivec2(0), ivec2(int(means_stride) - 1)));
+    uint place = at.x * means_stride + at.y;
+    uint normal = MeansOfPages(means).at[0].normals[place];
+    if (normal == 0u) return;
+    vec2 height = unpackHalf2x16(MeansOfPages(means).at[0].heights[place]);
+    vec3 steps = vec3(bitfieldExtract(int(normal), 0, 11), bitfieldExtract(int(normal), 11, 11), int(normal >> 22));
+    float h_m = height.x - origin_m;
+    sum.normal += share / means_normal_steps * steps;
+    sum.h_m += share * h_m;
+    sum.hh_m2 += share * (h_m * h_m + height.y * height.y);
+    sum.share += share;
+}
+
+// Bilinear between the squares' middles.
+void add_squares(inout GroundSum sum, uvec2 means, vec2 place, float share, float origin_m) {
+    vec2 low = floor(place), on = place - low;
+    ivec2 first = ivec2(low);
+    add_square(sum, means, first, share * (1.0 - on.x) * (1.0 - on.y), origin_m);
+    add_square(sum, means, first + ivec2(0, 1), share * (1.0 - on.x) * on.y, origin_m);
+    add_square(sum, means, first + ivec2(1, 0), share * on.x * (1.0 - on.y), origin_m);
+    add_square(sum, means, first + ivec2(1, 1), share * on.x * on.y, origin_m);
+}
+
+// Where posts are larger than pixels: quadratic B-splines of the posts' normals, whose slopes have no edge anywhere.
+void add_smooth(inout GroundSum sum, uvec2 means, vec2 place, float share, float origin_m) {
+    vec2 middle = floor(place + 0.5), off = place - middle;
+    vec2 weights[3] = {0.5 * (0.5 - off) * (0.5 - off), 0.75 - off * off, 0.5 * (0.5 + off) * (0.5 + off)};
+    for (int i = 0; i < 9; ++i)
+        add_square(sum, means, ivec2(middle) + ivec2(i / 3 - 1, i % 3 - 1), share * weights[i / 3].x * weights[i % 3].y, origin_m);
+}
+
+// The page of that level over a place of the region, of those in this frame: the nearest level below and above that is here.
+uint page_over(uint number, uint level, vec2 region) {
+    while (frame_pages().at[number].level < level && frame_pages().at[number].parent != no_page) number = frame_pages().at[number].parent;
+    while (frame_pages().at[number].level > level) {
+        vec2 first = vec2(frame_pages().at[number].first_row, frame_pages().at[number].first_column);
+        float half_page = float(page_quads / 2u << frame_pages().at[number].level);
+        uvec2 part = uvec2(greaterThanEqual(region + 0.5 - first, vec2(half_page)));
+        uint child = frame_pages().at[number].children[part.x * 2u + part.y];
+        if (child == no_page) break;
+        number = child;
+    }
+    return number;
+}
+
+// Where a place of the region is among a page's squares.
+vec2 among_squares(uint number, vec2 region) {
+    vec2 first = vec2(frame_pages().at[number].first_row, frame_pages().at[number].first_column);
+    return (region - first + 0.5) / float(1u << frame_pages().at[number].level) - 0.5;
+}
+
+// The ground under a pixel: a parallelogram of posts (row, column).
+struct Footprint {
+    vec2 region;     // its middle
+    vec2 along;      // its longer side
+    vec2 across;     // at a right angle to that
+    float across_posts;
+    float round_posts;  // its width on ground that faces the eye
+};
+
+// East, north and up at a place, as columns, in view coordinates.
+mat3 axes_at(vec3 view) {
+    vec3 up = normalize(view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
+    vec3 east = cross(FRAME.view_from_eye * vec3(0.0, 0.0, 1.0), up);
+    if (dot(east, east) < 1.0e-12) east = FRAME.view_from_eye * vec3(0.0, 1.0, 0.0);
+    east = normalize(east);
+    return mat3(east, cross(up, east), up);
+}
+
+// From the mean slope there, not the triangle's: triangles smaller than a pixel have any.
+Footprint footprint_at(vec3 view, vec2 region, vec3 normal, mat3 axes, vec2 post_m) {
+    vec3 ray = view / -view.z, across = axes * normal;
+    float facing = dot(across, ray), least = -0.12 * length(ray) * length(across);
+    facing = min(facing, least);
+    vec2 pixel = 2.0 / (vec2(FRAME.width_px, FRAME.height_px) * FRAME.projection_scale);
+    vec3 x = vec3(pixel.x, 0.0, 0.0), y = vec3(0.0, pixel.y, 0.0);
+    x = -view.z * (x - ray * (dot(across, x) / facing));
+    y = -view.z * (y - ray * (dot(across, y) / facing));
+    vec2 to_x = vec2(-dot(x, axes[1]), dot(x, axes[0])) / post_m, to_y = vec2(-dot(y, axes[1]), dot(y, axes[0])) / post_m;
+    float area = abs(to_x.x * to_y.y - to_x.y * to_y.x);
+    Footprint foot;
+    foot.region = region;
+    foot.round_posts = length(view) / (FRAME.pixels_per_tangent * post_m.x);
+    foot.along = dot(to_x, to_x) > dot(to_y, to_y) ? to_x : to_y;
+    float long_posts = max(length(foot.along), 1.0e-6);
+    vec2 direction = foot.along / long_posts;
+    foot.across_posts = max(area / long_posts, foot.round_posts);
+    foot.along = direction * max(long_posts, foot.round_posts);
+    foot.across = vec2(-direction.y, direction.x) * foot.across_posts;
+    return foot;
+}
+
+// How far apart `count` samples of squares lie that together weigh a length of ground as a box of that length does, by the square of its
+// spread (a bilinear sample of squares of a length c has c * c / 4).
+float samples_apart(float posts, float square, int count) {
+    float n = float(count);
+    return count == 1 ? 0.0 : sqrt(max(posts * posts - 3.0 * square * square, 0.0) / (n * n - 1.0));
+}
+
+// The mean over a footprint, from the squares of one level. Ground that is turned away from the eye is seen less.
+GroundSum mean_over(Footprint foot, uint number, uint level, vec3 to_eye, bool smooth_posts, float origin_m) {
+    GroundSum sum = GroundSum(vec3(0.0), 0.0, 0.0, 0.0);
+    uint page = page_over(number, level, foot.region);
+    uvec2 means = frame_pages().at[page].means;
+    float square = float(1u << frame_pages().at[page].level), long_posts = length(foot.along);
+    int rows = smooth_posts || samples_apart(foot.across_posts, square, 2) < 0.1 * square ? 1 : 2;
+    int steps = clamp(int(ceil(long_posts / square - 0.8)), rows, 8);
+    vec2 along = foot.along * (samples_apart(long_posts, square, steps) / long_posts);
+    vec2 across = foot.across * (samples_apart(foot.across_posts, square, rows) / foot.across_posts);
+    for (int i = 0; i < steps * rows; ++i) {
+        float on = float(i / rows) - 0.5 * float(steps - 1), off = float(i % rows) - 0.5 * float(rows - 1);
+        vec2 region = foot.region + on * along + off * across;
+        GroundSum part = GroundSum(vec3(0.0), 0.0, 0.0, 0.0);
+        if (smooth_posts) add_smooth(part, means, among_squares(page, region), 1.0, origin_m);
+        else add_squares(part, means, among_squares(page, region), 1.0, origin_m);
+        float share = max(dot(part.normal, to_eye), 0.02);
+        sum.normal += share * part.normal;
+        sum.h_m += share * part.h_m;
+        sum.hh_m2 += share * part.hh_m2;
+        sum.share += share * part.share;
+    }
+    float scale = sum.share > 0.0 ? 1.0 / sum.share : 0.0;
+    return GroundSum(sum.normal * scale, sum.h_m * scale, sum.hh_m2 * scale, sum.share > 0.0 ? 1.0 : 0.0);
+}
+
+// Of the finest posts that are here: a map's angles by Horn's formula, and light without edges between posts.
+vec3 finest_normal(uint number, vec2 region, float origin_m) {
+    uint finest = page_over(number, 0u, region);
+    if (as_map && shows_angles()) {
+        FramePage page = frame_pages().at[finest];
+        return horn_normal_at(PageBlocks(page.block), page, clamp(page_post(page, region), vec2(0.0), vec2(float(page_quads))));
+    }
+    GroundSum here = GroundSum(vec3(0.0), 0.0, 0.0, 0.0);
+    add_smooth(here, frame_pages().at[finest].means, among_squares(finest, region), 1.0, origin_m);
+    return here.share > 0.0 ? normalize(here.normal) : vec3(0.0, 0.0, 1.0);
+}
+
+// Takes what the pixel's triangle says of its middle and puts the mean of its footprint in its place. number: of the triangle's page.
+void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
+    float H_ex = FRAME.exaggeration, undulation_m = undulation_at(region), origin_m = (point.h_m) / H_ex;
+    uvec2 block = frame_pages().at[number].block;
+    uint row = min(uint(max(point.post.x, 0.0)), page_posts - 1u);
+    float cosine = abs(RowTable(FRAME.row_terms).at[frame_pages().at[number].row_terms + row].cosine);
+    vec2 post_m = vec2(PageBlocks(block).at[0].row_spacing_m, max(cosine * PageBlocks(block).at[0].column_spacing_m, 1.0e-3));
+    if (FRAME.style.footprint == footprint_finest) {
+        point.normal = finest_normal(number, region, origin_m);
+        return;
+    }
+    mat3 axes = axes_at(point.view);
+    vec3 to_eye = normalize(-point.view) * axes;
+    float round_posts = length(point.view) / (FRAME.pixels_per_tangent * post_m.x);
+    uint slope_level = uint(max(ceil(log2(max(round_posts, 1.0))), 0.0));
+    uint slope_page = page_over(number, slope_level, region);
+    GroundSum slope = GroundSum(vec3(0.0), 0.0, 0.0, 0.0);
+    add_squares(slope, frame_pages().at[slope_page].means, among_squares(slope_page, region), 1.0, origin_m);
+    if (slope.share <= 0.0) {
+        point.normal = vec3(0.0, 0.0, 1.0);
+        return;
+    }
+    Footprint foot = footprint_at(point.view, region, slope.normal, axes, post_m);
+    float level = log2(means_spacing_px * foot.across_posts);
+    bool smooth_posts = level < 0.0;
+    if (as_map && smooth_posts && shows_angles()) {
+        point.normal = finest_normal(number, region, origin_m);
+        return;
+    }
+    float whole = max(floor(level), 0.0), on = smooth_posts ? 0.0 : smoothstep(0.75, 1.0, level - whole);
+    GroundSum mean = mean_over(foot, slope_page, uint(whole), to_eye, smooth_posts, origin_m);
+    if (on > 0.0) {
+        GroundSum coarser = mean_over(foot, slope_page, uint(whole) + 1u, to_eye, false, origin_m);
+        mean.normal = mix(mean.normal, coarser.normal, on);
+        mean.h_m = mix(mean.h_m, coarser.h_m, on);
+        mean.hh_m2 = mix(mean.hh_m2, coarser.hh_m2, on);
+    }
+    if (mean.share <= 0.0) mean.normal = slope.normal / slope.share;
+    point.normal = mean.normal;
+    if (smooth_posts) {
+        point.normal = normalize(mean.normal);
+        return;
+    }
+    point.mean_H_m = mean.h_m + origin_m - undulation_m / H_ex;
+    point.H_spread_m = sqrt(max(mean.hh_m2 - mean.h_m * mean.h_m, 0.0));
+}
+
+// Is a normal the mean of several?
+bool is_spread(vec3 normal) { return by_means && dot(normal, normal) < 0.9999; }
+
+// The mean normal of the ground, drawn `relief` times as steep. Of a mean it is as long as the mean of such normals would be, by the
+// spread that its length tells (Toksvig), the same in all directions.
+vec3 steeper(vec3 normal, float relief) {
+    vec3 steep = vec3(normal.xy * relief, normal.z);
+    if (!is_spread(normal)) return normalize(steep);
+    float squared = clamp(dot(normal, normal), 1.0e-6, 1.0);
+    float up2 = normal.z * normal.z, spread = 0.5 * (1.0 - squared) * (1.0 - up2 / squared);
+    return steep / sqrt(max(mix(relief * relief, 1.0, up2 + spread), 1.0e-6));
+}
+
+// How far the cosines between a direction and normals around a mean are spread (Toksvig).
+float spread_along(vec3 normal, vec3 direction) {
+    float cosine = dot(normal, direction), squared = clamp(dot(normal, normal), 1.0e-6, 1.0);
+    return sqrt(max(0.5 * (1.0 - squared) * (1.0 - cosine * cosine / squared), 0.0));
+}
+
+// Mean cosine between a direction and the ground, 0 where it is turned away: of normals spread around their mean, as long as steeper()
+// made it. The mean of the positive part of a logistic distribution, within 1 % of the spread from the normal one's.
+float facing(vec3 normal, vec3 direction) {
+    float cosine = dot(normal, direction);
+    if (!by_means) return max(cosine, 0.0);
+    float spread = 0.5755 * spread_along(normal, direction);
+    if (spread < 1.0e-4 || abs(cosine) > 12.0 * spread) return max(cosine, 0.0);
+    return spread * log(1.0 + exp(cosine / spread));
+}

@@ -1,0 +1,120 @@
+// Means of the ground over squares of posts, against sums over all of their posts.
+#include "core/lod/ground_means.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/packing.hpp>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "core/terrain/drawn_heights.h"
+#include "tests/support/made_terrain.h"
+#include "tests/support/rough_terrain.h"
+
+namespace oro {
+namespace {
+
+struct Square {
+    glm::dvec3 normal;
+    double h_m;
+    double spread_m;
+};
+
+std::optional<Square> square_of(const gpu::PageMeans& means, int row, int column) {
+    const auto at = static_cast<std::size_t>((row + static_cast<int>(gpu::means_apron)) *
+                                                 static_cast<int>(gpu::means_stride) +
+                                             column + static_cast<int>(gpu::means_apron));
+    const std::uint32_t word = means.normals[at];
+    if (word == 0) return std::nullopt;
+    const auto part = [&](unsigned shift) { return static_cast<std::int32_t>(word << (21U - shift)) >> 21; };
+    const glm::vec2 height = glm::unpackHalf2x16(means.heights[at]);
+    return Square{glm::dvec3(part(0), part(11), static_cast<int>(word >> 22U)) / 1023.0,
+                  static_cast<double>(height.x), static_cast<double>(height.y)};
+}
+
+// Rises of 0.3 to the east and 0.2 to the north are that on each level, and heights are those of the middles.
+TEST(GroundMeans, OfAPlaneIsThePlane) {
+    constexpr double per_deg = 3600.0, lat_deg = 46.05;
+    const double north_m = 6367449.0 * std::numbers::pi / 180.0 / per_deg;  // mean radius of the meridian
+    const double east_m =
+        6388837.0 * std::cos(lat_deg * std::numbers::pi / 180.0) * std::numbers::pi / 180.0 / per_deg;
+    const HeightField field = test::made_field(46.1, 8.0, per_deg, 301, 301, [&](double lat, double lon) {
+        return static_cast<float>(1000.0 + 0.3 * (lon - 8.0) * per_deg * east_m +
+                                  0.2 * (lat - 46.1) * per_deg * north_m);
+    });
+    const DrawnHeights heights = drawn_heights(field, 1.0, 1);
+    const GroundMeans means(field.grid, heights, 1.0, 2);
+    const double length = std::sqrt(1.0 + 0.3 * 0.3 + 0.2 * 0.2);
+    const auto page = std::make_unique<gpu::PageMeans>();
+    for (int level = 0; level < 2; ++level) {
+        means.page({0, 0, level}, *page);
+        for (const int at : {-1, 40, 100}) {
+            const auto square = square_of(*page, at, 60);
+            ASSERT_EQ(square.has_value(), at >= 0);
+            if (!square) continue;
+            EXPECT_NEAR(square->normal.x, -0.3 / length,
+                        0.003);  // the radii are for one latitude; steps of 0.001
+            EXPECT_NEAR(square->normal.y, -0.2 / length, 0.003);
+            EXPECT_NEAR(square->normal.z, 1.0 / length, 0.002);
+            const double middle = std::ldexp(at + 0.5, level) - 0.5;
+            const double H_m = static_cast<double>(field.H_at_post_m(0, 0)) +
+                               0.3 * (std::ldexp(60.5, level) - 0.5) * east_m - 0.2 * middle * north_m;
+            EXPECT_NEAR(square->h_m, H_m, 0.002 * std::abs(H_m) + 0.5);  // a half has 11 digits
+        }
+    }
+}
+
+// On rough ground with holes: each square of each level is the mean of its posts as level 0 tells them.
+TEST(GroundMeans, AreThoseOfAllPosts) {
+    HeightField field = test::rough_field(46.9, 8.1, 300, 420);
+    for (std::size_t i = 0; i < field.H_m.size(); i += 37) field.H_m[i] = void_height_m;
+    const DrawnHeights heights = drawn_heights(field, 1.0, 1);
+    const GroundMeans means(field.grid, heights, 1.0, 2);
+    const auto finest = std::make_unique<gpu::PageMeans>(), page = std::make_unique<gpu::PageMeans>();
+    means.page({0, 0, 0}, *finest);
+    for (const int level : {1, 2}) {
+        means.page({0, 0, level}, *page);
+        for (int row = 0; row < 30; row += 7) {
+            for (int column = 0; column < 30; column += 3) {
+                glm::dvec3 normal(0.0);
+                double h_m = 0.0, posts = 0.0;
+                for (int i = 0; i < 1 << (2 * level); ++i) {
+                    const auto post = square_of(*finest, (row << level) + (i >> level),
+                                                (column << level) + (i & ((1 << level) - 1)));
+                    if (!post) continue;
+                    normal += post->normal;
+                    h_m += post->h_m;
+                    posts += 1.0;
+                }
+                const auto square = square_of(*page, row, column);
+                ASSERT_EQ(square.has_value(), posts > 0.0);
+                if (!square) continue;
+                EXPECT_LE(glm::length(square->normal - normal / posts), 0.002);  // steps of 0.001
+                EXPECT_NEAR(square->h_m, h_m / posts, 0.001 * std::abs(h_m / posts) + 0.01);
+                EXPECT_LE(glm::length(square->normal), 1.001);
+            }
+        }
+    }
+}
+
+// Squares beyond a page's rim are those of the page beside it.
+TEST(GroundMeans, PagesAgreeBesideEachOther) {
+    const HeightField field = test::rough_field(46.9, 8.1, 300, 420);
+    const DrawnHeights heights = drawn_heights(field, 1.0, 1);
+    const GroundMeans means(field.grid, heights, 1.0, 1);
+    const auto west = std::make_unique<gpu::PageMeans>(), east = std::make_unique<gpu::PageMeans>();
+    means.page({0, 0, 0}, *west);
+    means.page({0, 1, 0}, *east);
+    constexpr int stride = static_cast<int>(gpu::means_stride), quads = static_cast<int>(gpu::page_quads);
+    for (int row = 0; row < stride; ++row) {
+        for (int column = 0; column < stride - quads; ++column) {
+            EXPECT_EQ(west->normals[row * stride + column + quads], east->normals[row * stride + column]);
+            EXPECT_EQ(west->heights[row * stride + column + quads], east->heights[row * stride + column]);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace oro

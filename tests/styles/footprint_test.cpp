@@ -1,0 +1,160 @@
+// What a pixel is coloured from: the mean of the ground that it covers, against 64 samples of the finest
+// posts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "apps/drawing/region_scene.h"
+#include "apps/view/style.h"
+#include "geo/region/region.h"
+#include "render/frame/picture_renderer.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/test_data.h"
+
+namespace oro {
+namespace {
+
+constexpr int width_px = 96, height_px = 72, samples = 64;
+
+class Footprint : public test::GpuTest {
+  protected:
+    void SetUp() override {
+        const auto alps = test::real_data("alps");
+        if (!alps) GTEST_SKIP() << "needs alps";
+        GpuTest::SetUp();
+        RegionRequest request;
+        request.paths = {(*alps / "N46E007.SRTMGL3.hgt.zip").string()};
+        auto region = open_region(request);
+        ASSERT_TRUE(region.ok()) << region.error().line();
+        region_ = std::move(*region);
+        auto scene = create_scene(*gpu_, region_, 1.0, {}, {}, HeightStorage::f32, true);
+        ASSERT_TRUE(scene.ok()) << scene.error().line();
+        scene_.emplace(std::move(*scene));
+        FrameRendererOptions options;
+        options.extent = {width_px, height_px};
+        options.several_samples = true;
+        options.path = RasterPath::compute;
+        auto renderer = FrameRenderer::create(*gpu_, options);
+        ASSERT_TRUE(renderer.ok()) << renderer.error().line();
+        renderer_.emplace(std::move(*renderer));
+    }
+    void TearDown() override {
+        renderer_.reset();
+        scene_.reset();
+        GpuTest::TearDown();
+    }
+
+    gpu::FrameStyle style(const char* name, double azimuth_deg, double elevation_deg) {
+        View view;
+        view.style = name;
+        view.sun = SunDirection{azimuth_deg, elevation_deg};
+        auto style = load_style(view, region_.field);
+        EXPECT_TRUE(style.ok()) << style.error().line();
+        return style->frame;
+    }
+
+    std::vector<std::uint8_t> picture(const Camera& camera, gpu::FrameStyle style, gpu::uint footprint,
+                                      double tau_px, int count) {
+        style.footprint = footprint;
+        for (int i = 0; i < count; ++i) {
+            auto plan =
+                scene_->settled_plan(camera, {0, 0, width_px, height_px, sample_place(i, count)}, tau_px);
+            EXPECT_TRUE(plan.ok()) << plan.error().line();
+            const auto drawn = renderer_->draw(std::move(*plan), style, static_cast<std::uint32_t>(i),
+                                               static_cast<std::uint32_t>(count));
+            EXPECT_TRUE(drawn.ok()) << drawn.error().line();
+        }
+        auto rgba = renderer_->read_picture(width_px, height_px);
+        EXPECT_TRUE(rgba.ok());
+        return std::move(*rgba);
+    }
+
+    // Mean difference of pixels that are all ground, 8-bit codes.
+    static double difference(const std::vector<std::uint8_t>& one, const std::vector<std::uint8_t>& truth) {
+        double sum = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < truth.size(); i += 4) {
+            if (truth[i + 3] != 255 || one[i + 3] != 255) continue;
+            for (std::size_t k = i; k < i + 3; ++k) sum += std::abs(one[k] - truth[k]);
+            count += 3.0;
+        }
+        EXPECT_GT(count, 3000.0);
+        return sum / count;
+    }
+
+    // At tau 1 and 0; beside them what the ground in each pixel's middle gives.
+    double hold(const char* what, const Camera& camera, const gpu::FrameStyle& style, double bound) {
+        const auto truth = picture(camera, style, gpu::footprint_finest, 0.0, samples);
+        const double point = difference(picture(camera, style, gpu::footprint_point, 1.0, 1), truth);
+        for (const double tau_px : {1.0, 0.0}) {
+            const double mean = difference(picture(camera, style, gpu::footprint_mean, tau_px, 1), truth);
+            EXPECT_LE(mean, bound) << what << ", tau " << tau_px;
+            std::printf("%-28s tau %.0f: %.2f codes (the middle alone %.2f)\n", what, tau_px, mean, point);
+        }
+        return point;
+    }
+
+    static Camera over(double lat_deg, double lon_deg, double h_m, double heading_deg, double pitch_deg,
+                       double fov_deg) {
+        return Camera{{lat_deg, lon_deg, h_m}, {heading_deg, pitch_deg, 0.0}, fov_deg, width_px, height_px};
+    }
+
+    Region region_;
+    std::optional<Scene> scene_;
+    std::optional<FrameRenderer> renderer_;
+};
+
+// 60 km up a pixel has 8 x 6 posts.
+TEST_F(Footprint, IsTheMeanOfSixtyFourSamples) {
+    const gpu::FrameStyle natural = style("natural", 315.0, 38.0);
+    const double point =
+        hold("natural, straight down", over(46.5, 7.5, 60000.0, 0.0, -90.0, 45.0), natural, 2.0);
+    EXPECT_GT(point, 3.0) << "what is held here is no trouble";
+    hold("natural, oblique", over(46.2, 7.5, 20000.0, 0.0, -30.0, 30.0), natural, 2.0);
+    hold("natural, low", over(46.1, 7.5, 4500.0, 0.0, -6.0, 30.0), natural, 2.0);
+    // Not yet within 2 codes: the spread of normals is taken for the same in all directions.
+    hold("natural, low sun", over(46.4, 7.5, 40000.0, 0.0, -70.0, 45.0), style("natural", 270.0, 15.0), 2.4);
+}
+
+TEST_F(Footprint, HoldsForMaps) {
+    const Camera down = over(46.5, 7.5, 60000.0, 0.0, -90.0, 45.0);
+    for (const char* name : {"default", "hypsometric", "plain"})
+        hold(name, down, style(name, 315.0, 45.0), 2.0);
+    // Not yet within 2 codes: strong contrasts, of angles whose spread is taken for the same in all
+    // directions.
+    hold("relief", down, style("relief", 315.0, 45.0), 3.2);
+    hold("hillshade", down, style("hillshade", 315.0, 45.0), 5.0);
+    hold("slope", down, style("slope", 315.0, 45.0), 8.0);
+}
+
+// Where posts are larger than pixels a map has the angle of its posts, as gdaldem gives it.
+TEST_F(Footprint, LeavesAnglesOfLargePosts) {
+    const Camera near = over(46.5, 7.5, 8000.0, 0.0, -90.0, 20.0);
+    for (const char* name : {"hillshade", "slope", "aspect"}) {
+        const gpu::FrameStyle one = style(name, 315.0, 45.0);
+        const auto mean = picture(near, one, gpu::footprint_mean, 1.0, 1);
+        // Posts are found by another way; the last bit may round otherwise.
+        EXPECT_LE(difference(mean, picture(near, one, gpu::footprint_point, 1.0, 1)), 0.03) << name;
+    }
+}
+
+TEST_F(Footprint, HoldsForRandomViews) {
+    const unsigned seed = std::random_device{}();
+    std::printf("seed %u\n", seed);
+    std::mt19937 random(seed);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    for (int i = 0; i < 3; ++i) {
+        const double h_m = between(7000.0, 22000.0), pitch_deg = between(-90.0, -40.0);
+        const Camera camera =
+            over(between(46.4, 46.6), between(7.4, 7.6), h_m, between(0.0, 360.0), pitch_deg, 25.0);
+        char what[80];
+        std::snprintf(what, sizeof what, "%.0f m up, pitch %.0f", h_m, pitch_deg);
+        hold(what, camera, style("natural", between(0.0, 360.0), between(15.0, 60.0)), 2.0);
+    }
+}
+
+}  // namespace
+}  // namespace oro
