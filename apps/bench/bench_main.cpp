@@ -3,18 +3,23 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "apps/bench/bench_path.h"
 #include "apps/bench/bench_style.h"
 #include "apps/bench/bench_terrain.h"
+#include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/option_words.h"
+#include "apps/styles/style_json.h"
 #include "core/baked/file_pages.h"
 #include "core/base/elapsed.h"
 #include "core/base/median.h"
 #include "core/base/parallel.h"
+#include "core/light/sun_position.h"
 #include "render/device/raster_request.h"
 #include "render/frame/picture_renderer.h"
 
@@ -28,8 +33,10 @@ struct BenchOptions {
     std::string path;    // of eyes
     int patches{64};     // of the formula's terrain: along each side, 8 x 8 quads each
     int frames{30};
-    bool shadows{false};
-    bool sky_openness{false};
+    std::string style_file;  // "": bench_style()
+    gpu::FrameStyle style{bench_style()};
+    double sun_azimuth_deg{315.0};
+    double sun_elevation_deg{45.0};
     int width_px{1920};
     int height_px{1080};
     std::string pipeline{raster_requests.front().first};
@@ -56,9 +63,7 @@ struct BenchTimes {
 Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Camera& camera,
                                const BenchOptions& options) {
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    gpu::FrameStyle style = bench_style();
-    style.shadows = options.shadows ? 1 : 0;
-    style.sky_openness = options.sky_openness ? 1 : 0;
+    const gpu::FrameStyle& style = options.style;
     scene.cast(cast_request(style));
     std::vector<double> choose, raster, shade, whole, planned, frame;
     BenchTimes times;
@@ -96,6 +101,23 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
     return times;
 }
 
+Result<void> read_style(BenchOptions& options) {
+    if (options.style_file.empty()) return {};
+    std::ifstream file(options.style_file);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    if (!file) return Error{ErrorKind::failed, options.style_file, "cannot be read"};
+    try {
+        options.style = style_of_json(nlohmann::json::parse(text)).frame;
+    } catch (const JsonFault& fault) {
+        return Error{ErrorKind::failed, options.style_file, fault.what};
+    } catch (const nlohmann::json::exception& e) {
+        return Error{ErrorKind::failed, options.style_file, e.what()};
+    }
+    options.style.sun_enu = gpu::vec3(enu_towards(options.sun_azimuth_deg, options.sun_elevation_deg));
+    options.style.sun_hidden = options.sun_elevation_deg < 0.0 ? 1.0F : 0.0F;
+    return {};
+}
+
 Result<FrameRenderer> renderer_for(const Gpu& gpu, RasterPath path, const BenchOptions& options) {
     FrameRendererOptions renderer_options;
     renderer_options.extent = {static_cast<std::uint32_t>(options.width_px),
@@ -110,7 +132,7 @@ Result<double> peak_triangles_per_s(const Gpu& gpu, RasterPath path, BenchOption
     ORO_TRY(Scene scene, Scene::create(gpu, pages_in_memory(field, 1.0, thread_count())));
     ORO_TRY(FrameRenderer renderer, renderer_for(gpu, path, options));
     options.tau_px = 0.0;
-    options.shadows = options.sky_openness = false;
+    options.style = bench_style();
     const Camera camera = eye_above(field, options.width_px, options.height_px);
     ORO_TRY(const BenchTimes times, time_frames(scene, renderer, camera, options));
     return times.last.counts.triangles_drawn / times.raster_s;
@@ -180,7 +202,8 @@ Result<void> run_bench(const BenchOptions& options) {
     const double open_s = seconds_since(opening);
     ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, *pages, made));
     ORO_TRY(Scene scene, Scene::create(*gpu, std::move(pages),
-                                       {static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0}));
+                                       {static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0},
+                                       HeightStorage::f32, options.style.footprint != gpu::footprint_point));
     ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, path, options));
     ordered_json json = ordered_json::object();
     json["device"] = gpu->report().name;
@@ -251,9 +274,11 @@ int main(int argc, char** argv) {
     app.add_flag("--floor", options.floor,
                  "Measure the path's peak triangle rate, too, and tell times as multiples of the least that "
                  "it allows");
-    app.add_flag("--shadows", options.shadows, "Terrain casts shadows");
-    app.add_flag("--sky-openness", options.sky_openness,
-                 "The sky's light by the part of it that a place sees");
+    app.add_option("--style", options.style_file, "A style: a .json file like those in data/styles");
+    app.add_option("--sun-azimuth", options.sun_azimuth_deg, "Of that style, degrees clockwise from north")
+        ->check(CLI::Range(-360.0, 360.0));
+    app.add_option("--sun-elevation", options.sun_elevation_deg, "Of that style, degrees above level")
+        ->check(CLI::Range(-90.0, 90.0));
     app.add_flag("--json", options.json, "Print one JSON object");
     try {
         app.parse(argc, argv);
@@ -263,6 +288,7 @@ int main(int argc, char** argv) {
         return static_cast<int>(oro::ErrorKind::usage);
     }
     oro::Result<void> done = oro::set_size(size, options);
+    if (done.ok()) done = oro::read_style(options);
     if (done.ok()) done = oro::run_bench(options);
     if (done.ok()) return 0;
     std::fprintf(stderr, "orograph-bench: %s\n", done.error().line().c_str());

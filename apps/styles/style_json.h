@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/view/style.h"
+#include "apps/styles/style.h"
 
 namespace oro {
 

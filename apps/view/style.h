@@ -3,17 +3,10 @@
 
 #include <string>
 
+#include "apps/styles/style.h"
 #include "apps/view/view.h"
-#include "shaders/shared.h"
 
 namespace oro {
-
-// A style ready for the GPU, and the sun it is lit by.
-struct Style {
-    gpu::FrameStyle frame;
-    SunDirection sun;
-    bool contours_by_view{false};  // their interval follows from the view (apps/styles/contour_interval.h)
-};
 
 // True for a path (ending in .json or .txt, or with a folder), false for a name in the data folder.
 bool is_style_path(const std::string& style);

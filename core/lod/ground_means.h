@@ -18,7 +18,7 @@ namespace oro {
 class GroundMeans {
   public:
     // The work is shared between `threads` (at least 1), with one result for any number. Keeps 2.7 bytes a
-    // post, takes 8 more while it works, and some 10 ns of processor time each. `grid` and `heights` must
+    // post, takes 8 more while it works. `grid` and `heights` must
     // outlive it.
     GroundMeans(const PostGrid& grid, const DrawnHeights& heights, double exaggeration, int threads);
 

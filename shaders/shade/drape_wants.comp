@@ -2,7 +2,9 @@
 // Tells which tiles of images a frame's pixels are coloured from: each is put once into the table FrameConstants.drape.wanted.
 #extension GL_GOOGLE_include_directive : require
 const bool as_map = false;
+const bool in_air = false;
 const bool draped = true;
+const bool by_means = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

@@ -1,0 +1,15 @@
+// A style ready for the GPU, and the sun it is lit by.
+#pragma once
+
+#include "apps/light/sun.h"
+#include "shaders/shared.h"
+
+namespace oro {
+
+struct Style {
+    gpu::FrameStyle frame;
+    SunDirection sun;
+    bool contours_by_view{false};  // their interval follows from the view (apps/styles/contour_interval.h)
+};
+
+}  // namespace oro
