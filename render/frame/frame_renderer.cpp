@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "render/frame/frame_layout.h"
-#include "render/frame/shading.h"
+#include "render/shading/shading.h"
 
 namespace oro {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
-#include "render/frame/air_tables.h"
-#include "render/frame/caster_buffers.h"
 #include "render/frame/compute_raster.h"
-#include "render/frame/drape_wants.h"
 #include "render/frame/pipelines.h"
+#include "render/shading/air_tables.h"
+#include "render/shading/caster_buffers.h"
+#include "render/shading/drape_wants.h"
 
 namespace oro {
 

@@ -1,9 +1,9 @@
-#include "render/frame/caster_buffers.h"
+#include "render/shading/caster_buffers.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "render/frame/shading.h"
+#include "render/shading/shading.h"
 
 namespace oro {
 namespace {

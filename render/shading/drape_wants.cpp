@@ -1,8 +1,8 @@
-#include "render/frame/drape_wants.h"
+#include "render/shading/drape_wants.h"
 
 #include <cstring>
 
-#include "render/frame/shading.h"
+#include "render/shading/shading.h"
 
 namespace oro {
 namespace {

@@ -1,10 +1,10 @@
-#include "render/frame/air_tables.h"
+#include "render/shading/air_tables.h"
 
 #include <array>
 #include <cstring>
 #include <type_traits>
 
-#include "render/frame/shading.h"
+#include "render/shading/shading.h"
 
 namespace oro {
 namespace {

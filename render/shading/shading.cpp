@@ -1,4 +1,4 @@
-#include "render/frame/shading.h"
+#include "render/shading/shading.h"
 
 #include <array>
 #include <cstddef>

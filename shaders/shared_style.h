@@ -1,0 +1,138 @@
+// Part of shared.h, which includes it: how a frame is coloured. Not for anybody else.
+#ifndef OROGRAPH_SHADERS_SHARED_STYLE_H
+#define OROGRAPH_SHADERS_SHARED_STYLE_H
+
+struct TintStop {
+    float at;     // H in metres, or degrees: as FrameStyle.colour_by
+    vec3 colour;  // linear light; with tints_as_codes sRGB-encoded, 0 to 1
+};
+ORO_CONST uint tint_stops_max = 256u;
+
+// FrameStyle.colour_by: what of the ground its tints are of.
+ORO_CONST uint colour_by_height = 0u;
+ORO_CONST uint colour_by_slope = 1u;   // degrees, 0 level
+ORO_CONST uint colour_by_aspect = 2u;  // degrees clockwise from true north: where the ground falls to
+ORO_CONST uint colour_by_cover = 3u;   // metres above the snow line, see GroundCover
+// FrameStyle.light: what lies over the tints.
+ORO_CONST uint light_sun = 0u;        // the sun and ambient light
+ORO_CONST uint light_none = 1u;       // the tints are what is seen
+ORO_CONST uint light_hillshade = 2u;  // the tints times a hillshade's grey
+ORO_CONST uint light_relief = 3u;     // warm light and cool shadow, stronger with height
+
+// Light of two colours, as on Swiss relief maps: more of it the higher the ground.
+struct ReliefLight {
+    vec3 lit;         // what slopes towards the sun turn to; codes, 0 to 1, as those below
+    float lit_share;  // ... by so much, 0 to 1
+    vec3 shadow;      // what slopes away from the sun are multiplied with
+    vec3 veil;        // the air in the valleys
+    float low_H_m;
+    float high_H_m;      // from here on no veil, and all of the contrast
+    float low_contrast;  // at low_H_m and below, of 1
+    float low_veil;      // the veil's share there
+};
+struct ContourLines {
+    float interval_m;  // 0: none
+    float width_px;    // of a line; every fifth is twice as wide
+    vec3 colour;       // linear light
+};
+
+// The air, in spherical shells around the Earth: molecules and dust, thinning out by e in each scale height,
+// and ozone between 10 and 40 km. Per metre, for red, green and blue; 0 in `on`: no air but FrameStyle's haze
+// and sky. Source: S. Hillaire, A scalable and production ready sky and atmosphere rendering technique,
+// Computer Graphics Forum 39(4), 2020, table 1.
+struct AirModel {
+    uint on;
+    vec3 molecules_per_m;  // scattered by them, at height 0
+    float molecules_scale_m;
+    float dust_scattering_per_m;
+    float dust_extinction_per_m;  // scattered or taken
+    float dust_scale_m;
+    float dust_forward;   // mean cosine of the angle that dust scatters by
+    vec3 ozone_per_m;     // taken, where it is densest
+    float ground_albedo;  // for light that the ground sends back into the air
+    float exposure;       // 1: as a camera would choose it for the light at the eye
+};
+// Its tables, one vec3 an entry: what a line to space meets of molecules, dust and ozone (metres at full
+// density); logarithms of light scattered more than once and of light from the whole sky on level ground; and
+// the sky as the eye sees it, logarithms, three entries each (shaders/air/air_tables.comp).
+ORO_CONST uint air_column_heights = 64u;
+ORO_CONST uint air_column_angles = 128u;
+ORO_CONST uint air_light_heights = 32u;
+ORO_CONST uint air_light_suns = 64u;
+ORO_CONST uint air_sky_rises = 128u;
+ORO_CONST uint air_sky_turns = 96u;
+ORO_CONST uint air_columns_first = 0u;
+ORO_CONST uint air_scattered_first = 8192u;
+ORO_CONST uint air_skylight_first = 10240u;
+ORO_CONST uint air_sky_first = 12288u;
+ORO_CONST uint air_entries = 49152u;
+
+// What covers the ground by nature: FrameStyle's tints by metres above the snow line of the latitude, and
+// rock where it is steep.
+struct SnowLineStop {
+    float lat_deg;
+    float H_m;
+};
+ORO_CONST uint snow_line_stops_max = 32u;
+struct GroundCover {
+    SnowLineStop snow_line[32];  // ascending; linear between
+    uint snow_line_count;
+    vec3 rock;  // linear light, or codes, as the tints
+    float rock_from_deg;
+    float rock_to_deg;
+    float forest_m;  // above the snow line (so below 0): from here down trees hold on to steeper slopes
+    float shade_m;   // so much lower is the snow line on a slope of 30 degrees that faces the pole
+    float level_m;   // ... and on level ground, where ice flows down to
+};
+
+// Water in the ground's heights, in air. 0 in `on`: none is looked for. Level areas are water: see
+// shaders/shade/water.glsl.
+struct WaterModel {
+    uint on;
+    uint voids_are_sea;   // 1: what has no height inside the region is the sea
+    float sea_low_H_m;    // posts between these two heights are the sea's, level or not; none where the
+    float sea_high_H_m;   // ... second is below the first
+    vec3 deep;            // share of light that comes out of deep water again
+    float wave_variance;  // mean square of the slopes of its waves
+};
+// What is drawn where the region has no height and nothing hides it; no ground, for whoever asks what a pixel
+// shows. 0 in `on`: all of it is coloured as what lies outside the region.
+ORO_CONST uint voids_hatched = 1u;     // quiet lines on the bare ellipsoid
+ORO_CONST uint voids_with_skirt = 2u;  // the region's rim stands on walls
+struct VoidHatch {
+    uint on;      // voids_... together
+    vec3 colour;  // linear light
+    vec3 lines;
+};
+
+// How a frame is coloured. Colours are linear light, Rec. 709 primaries. All zero where nothing is said:
+// coloured by height, in sunlight, through air.
+struct FrameStyle {
+    TintStop tints[256];
+    uint tint_count;
+    uint colour_by;       // colour_by_...
+    uint tints_as_codes;  // 1: tints are mixed as sRGB codes, as GIS programs do; 0: as light
+    uint light;           // light_...
+    uint is_map;          // 1: there is no air, and no_data_colour wherever there is no ground
+    vec3 sun_enu;         // unit vector towards the sun in the local frame of every place (a map's light)
+    float sun_hidden;     // share of its light that does not come: 0 by day, 1 when it has set
+    float ambient;        // share of the light that has no direction
+    float relief;         // slopes are shaded as if they were this much steeper (1: as they are)
+    vec3 haze_colour;
+    float haze_distance_m;  // distance at which haze has taken 63 % of the colour
+    vec3 zenith_colour;
+    vec3 no_data_colour;  // the bare ellipsoid
+    float sky_scale_height_m;
+    vec3 flat_colour;  // of ground that falls nowhere, by aspect
+    ReliefLight relief_light;
+    ContourLines contours;
+    AirModel air;
+    GroundCover cover;
+    WaterModel water;
+    VoidHatch voids;
+    uint shadows;       // 1: terrain casts shadows (FrameConstants.casters)
+    uint sky_openness;  // 1: the sky's light is that of the part of the sky that a place sees
+    uint footprint;     // footprint_...
+};
+
+#endif
