@@ -3,8 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -20,6 +18,7 @@
 #include "core/base/median.h"
 #include "core/base/parallel.h"
 #include "core/light/sun_position.h"
+#include "core/lod/ground_means.h"
 #include "render/device/raster_request.h"
 #include "render/frame/picture_renderer.h"
 
@@ -103,16 +102,9 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
 
 Result<void> read_style(BenchOptions& options) {
     if (options.style_file.empty()) return {};
-    std::ifstream file(options.style_file);
-    const std::string text((std::istreambuf_iterator<char>(file)), {});
-    if (!file) return Error{ErrorKind::failed, options.style_file, "cannot be read"};
-    try {
-        options.style = style_of_json(nlohmann::json::parse(text)).frame;
-    } catch (const JsonFault& fault) {
-        return Error{ErrorKind::failed, options.style_file, fault.what};
-    } catch (const nlohmann::json::exception& e) {
-        return Error{ErrorKind::failed, options.style_file, e.what()};
-    }
+    ORO_TRY(const std::string text, read_text_file(options.style_file));
+    ORO_TRY(const Style style, style_of_text(text, options.style_file));
+    options.style = style.frame;
     options.style.sun_enu = gpu::vec3(enu_towards(options.sun_azimuth_deg, options.sun_elevation_deg));
     options.style.sun_hidden = options.sun_elevation_deg < 0.0 ? 1.0F : 0.0F;
     return {};
@@ -203,7 +195,7 @@ Result<void> run_bench(const BenchOptions& options) {
     ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, *pages, made));
     ORO_TRY(Scene scene, Scene::create(*gpu, std::move(pages),
                                        {static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0},
-                                       HeightStorage::f32, options.style.footprint != gpu::footprint_point));
+                                       HeightStorage::f32, asks_for_means(options.style)));
     ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, path, options));
     ordered_json json = ordered_json::object();
     json["device"] = gpu->report().name;

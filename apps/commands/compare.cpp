@@ -17,6 +17,7 @@
 #include "apps/view/model_names.h"
 #include "apps/view/style.h"
 #include "apps/view/view_changes.h"
+#include "core/lod/ground_means.h"
 #include "geo/files/whole_file.h"
 #include "geo/pictures/picture.h"
 
@@ -99,7 +100,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(Scene scene, create_scene(
                              *gpu, region, view.exaggeration, memory_of_pages(view, options.memory),
                              [&](double share) { bar.show(share, "measuring levels"); }, view.heights,
-                             style.frame.footprint != gpu::footprint_point));
+                             asks_for_means(style.frame)));
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(const std::optional<PictureDifference> pixels,

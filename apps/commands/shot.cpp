@@ -25,6 +25,7 @@
 #include "core/base/elapsed.h"
 #include "core/base/file_there.h"
 #include "core/base/open_file.h"
+#include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
 #include "geo/files/whole_file.h"
 
@@ -276,7 +277,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
     ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), memory_of_pages(shot.view, options.memory),
-                                      shot.view.heights, style.frame.footprint != gpu::footprint_point));
+                                      shot.view.heights, asks_for_means(style.frame)));
     ORO_CHECK(lay_images(shot.view, shot.region, options.memory, *gpu, scene, options.quiet));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);

@@ -197,4 +197,14 @@ Style style_of_json(const json& object) {
     return style;
 }
 
+Result<Style> style_of_text(const std::string& text, const std::string& path) {
+    try {
+        return style_of_json(parsed_json(text));
+    } catch (const JsonFault& fault) {
+        return Error{ErrorKind::failed, path, fault.what};
+    } catch (const nlohmann::json::exception& e) {
+        return Error{ErrorKind::failed, path, e.what()};
+    }
+}
+
 }  // namespace oro

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -48,13 +47,7 @@ Result<Style> read_style(const std::string& text, const std::string& path, const
         style.sun = {0.0, 90.0};
         return style;
     }
-    try {
-        return style_of_json(parsed_json(text));
-    } catch (const JsonFault& fault) {
-        return Error{ErrorKind::failed, path, fault.what};
-    } catch (const nlohmann::json::exception& e) {
-        return Error{ErrorKind::failed, path, e.what()};
-    }
+    return style_of_text(text, path);
 }
 
 // What the view says of the sea and of the rim. No dry land lies as low as 500 m below the sea: a region that

@@ -20,6 +20,7 @@
 #include "apps/window/picking.h"
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
+#include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
 #include "core/truth/true_surface.h"
 #include "geo/places/place.h"
@@ -152,7 +153,7 @@ Result<void> take_finer_levels(Viewer& viewer) {
     viewer.finer.reset();
     ORO_TRY(Scene scene,
             create_scene(viewer.gpu, std::move(pages), memory_of_pages(viewer.view, viewer.options.memory),
-                         viewer.view.heights, viewer.style.frame.footprint != gpu::footprint_point));
+                         viewer.view.heights, asks_for_means(viewer.style.frame)));
     ORO_CHECK(lay_images(viewer.view, viewer.region, viewer.options.memory, viewer.gpu, scene, true));
     const Camera& camera = viewer.view.camera;
     ORO_CHECK(scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
@@ -352,7 +353,7 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             first_pages(region, view, [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), memory_of_pages(view, options.memory),
-                                      view.heights, style.frame.footprint != gpu::footprint_point));
+                                      view.heights, asks_for_means(style.frame)));
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     bar.clear();
     say_changes(view, options.quiet);

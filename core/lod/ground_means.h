@@ -53,4 +53,9 @@ class GroundMeans {
     std::vector<Level> levels_;
 };
 
+// Whether a style colours pixels by these.
+inline bool asks_for_means(const gpu::FrameStyle& style) {
+    return style.footprint != gpu::footprint_point;
+}
+
 }  // namespace oro

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/lod/ground_means.h"
 #include "render/frame/frame_layout.h"
 #include "render/shading/shading.h"
 
@@ -239,7 +240,7 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
         kind.casts = casters_.casts();
         kind.opens = casters_.opens();
         kind.draped = drape_.is_on();
-        kind.by_means = plan.constants.has_means != 0 && style.footprint != gpu::footprint_point;
+        kind.by_means = plan.constants.has_means != 0 && asks_for_means(style);
         kind.edges_follow = options_.smooth_edges;
         ORO_TRY(shade_, shading_for(*gpu_, options_.path, kind, pipelines_));
         if (options_.smooth_edges) {

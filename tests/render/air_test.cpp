@@ -10,10 +10,8 @@
 #include <random>
 
 #include "core/terrain/ground.h"
-#include "render/frame/frame_renderer.h"
-#include "render/frame/picture_renderer.h"
 #include "tests/support/air_reference.h"
-#include "tests/support/gpu_fixture.h"
+#include "tests/support/drawn_scene.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {
@@ -53,18 +51,9 @@ class AirTables : public test::GpuTest {
     void SetUp() override {
         GpuTest::SetUp();
         field_ = test::rough_field(46.9, 8.1, 200, 200);
-        auto scene = Scene::create(*gpu_, pages_in_memory(field_, 1.0, 2));
-        ASSERT_TRUE(scene.ok()) << scene.error().line();
-        scene_.emplace(std::move(scene).value());
-        FrameRendererOptions options;
-        options.extent = {16, 16};
-        options.path = RasterPath::compute;
-        auto renderer = FrameRenderer::create(*gpu_, options);
-        ASSERT_TRUE(renderer.ok()) << renderer.error().line();
-        renderer_.emplace(std::move(renderer).value());
+        scene_.emplace(*gpu_, pages_in_memory(field_, 1.0, 2), RasterPath::compute, 16, 16);
     }
     void TearDown() override {
-        renderer_.reset();
         scene_.reset();
         GpuTest::TearDown();
     }
@@ -74,18 +63,15 @@ class AirTables : public test::GpuTest {
         Camera camera;
         camera.width_px = camera.height_px = 16;
         camera.eye = {46.85, 8.15, eye_h_m};
-        auto plan = scene_->settled_plan(camera, {0, 0, 16, 16, {0.5, 0.5}}, 1.0, {});
-        EXPECT_TRUE(plan.ok());
-        radius_m_ = static_cast<double>(plan->constants.earth_radius_m);
-        EXPECT_TRUE(renderer_->draw(std::move(plan).value(), lit_style(sun_elevation_deg)).ok());
-        auto air = renderer_->read_air();
+        const test::DrawnFrame frame = scene_->draw(camera, 1.0, lit_style(sun_elevation_deg));
+        radius_m_ = static_cast<double>(frame.plan.constants.earth_radius_m);
+        auto air = scene_->renderer().read_air();
         EXPECT_TRUE(air.ok());
         return std::move(air).value();
     }
 
     HeightField field_;
-    std::optional<Scene> scene_;
-    std::optional<FrameRenderer> renderer_;
+    std::optional<test::DrawnScene> scene_;
     double radius_m_{};
 };
 
