@@ -266,7 +266,11 @@ int main(int argc, char** argv) {
     app.add_flag("--floor", options.floor,
                  "Measure the path's peak triangle rate, too, and tell times as multiples of the least that "
                  "it allows");
-    app.add_option("--style", options.style_file, "A style: a .json file like those in data/styles");
+    app.add_option(
+        "--style", options.style_file,
+        "A style: a .json file like those in data/styles. Without it: plain colours of the benchmark's own, "
+        "without "
+        "shadows, air or means of the ground; orograph's default, natural, is data/styles/natural.json");
     app.add_option("--sun-azimuth", options.sun_azimuth_deg, "Of that style, degrees clockwise from north")
         ->check(CLI::Range(-360.0, 360.0));
     app.add_option("--sun-elevation", options.sun_elevation_deg, "Of that style, degrees above level")

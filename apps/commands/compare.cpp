@@ -101,6 +101,8 @@ Result<void> run_compare(const CompareOptions& options) {
                              *gpu, region, view.exaggeration, memory_of_pages(view, options.memory),
                              [&](double share) { bar.show(share, "measuring levels"); }, view.heights,
                              asks_for_means(style.frame)));
+    if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
+        say(options.quiet, note);
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(const std::optional<PictureDifference> pixels,

@@ -55,7 +55,7 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
     OptionGroup looks(command, "Looks");
     looks.option(
         "--style", options.style, "NAME",
-        "Colours of the ground and the sky: a style that comes with the program (default: default), "
+        "Colours of the ground and the sky: a style that comes with the program (default: natural), "
         "a .json file of your own, or a .txt file: a colour table as gdaldem color-relief reads it.");
     looks
         .option("--drape", options.drape, "FILE",

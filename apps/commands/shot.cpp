@@ -278,6 +278,9 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), memory_of_pages(shot.view, options.memory),
                                       shot.view.heights, asks_for_means(style.frame)));
+    if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
+        say(options.quiet, note);
+    shot.has_means = asks_for_means(style.frame) && scene.pages().knows_means();
     ORO_CHECK(lay_images(shot.view, shot.region, options.memory, *gpu, scene, options.quiet));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);

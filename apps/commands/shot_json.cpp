@@ -105,6 +105,9 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["sun"] = json_object("azimuth_deg", style.sun.azimuth_deg, "elevation_deg", style.sun.elevation_deg,
                               "direct_light", direct_light(style.sun), "time", nullptr);
     if (style.sun.time) json["sun"]["time"] = style.sun.time->text;
+    json["footprint"] = !shot.has_means                                  ? "point"
+                        : style.frame.footprint == gpu::footprint_finest ? "finest"
+                                                                         : "mean";
     json["time"] = time_text(shot.view.time_utc_s);
     json["destination"] = destination_json(shot.middle);
     json["attribution"] = tags.attribution;

@@ -35,6 +35,7 @@ struct ShotResult {
     std::uint64_t pages_on_gpu{};
     std::uint64_t page_bytes{};
     double height_step_m{};
+    bool has_means{};  // pixels have the colour of the mean of the ground that they cover
     std::uint64_t triangles_at_full_resolution{};
     UnseenGround unseen;
     std::optional<Verification> verification;

@@ -11,6 +11,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/drawing/pipeline_choice.h"
+#include "apps/drawing/region_scene.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -176,6 +177,8 @@ Result<void> run_trade(const TradeOptions& options) {
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     Trade trade(view, region, *gpu, path, style.frame, options.repeats, options.memory);
     ORO_CHECK(trade.prepare());
+    if (const std::string note = note_of_means(style.frame, trade.pages()); !note.empty())
+        say(options.quiet, note);
     const std::vector<Camera> cameras = cameras_of(options, view, region, trade.surface());
     TradeReport report;
     describe(options, view, *gpu, path, report);

@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "apps/report/figures.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
+#include "core/lod/ground_means.h"
 
 namespace oro {
 namespace {
@@ -46,6 +48,13 @@ Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, c
     };
     return Scene::create(gpu, std::move(pages), {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb)},
                          heights, means);
+}
+
+std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages) {
+    if (!asks_for_means(style) || pages.knows_means()) return "";
+    return "note: the region has " + grouped(pages.facts().grid.post_count()) +
+           " posts, too many to colour pixels by the mean of the ground that they cover: each has the colour "
+           "of the ground in its middle";
 }
 
 }  // namespace oro

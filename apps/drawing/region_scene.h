@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stop_token>
+#include <string>
 
 #include "apps/commands/options.h"
 #include "geo/region/region.h"
@@ -18,6 +19,10 @@ Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double e
 // Scene::create().
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
                            HeightStorage heights = HeightStorage::f32, bool means = false);
+
+// What to tell of a style that asks for means of the ground over pages that have none, being of too many
+// posts: each pixel then has the colour of the ground in its middle. "" where nothing of that is so.
+std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages);
 
 // Builds the levels of a region and makes it ready for a GPU. Errors: nothing to draw in it (no_data), out of
 // device memory. heights: how they are kept on the GPU.

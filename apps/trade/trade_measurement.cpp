@@ -5,6 +5,7 @@
 #include "apps/drawing/region_scene.h"
 #include "core/base/median.h"
 #include "core/base/parallel.h"
+#include "core/lod/ground_means.h"
 #include "geo/pictures/png_bytes.h"
 
 namespace oro {
@@ -84,7 +85,8 @@ Result<Scene*> Trade::scene_of(const TradeCase& one) {
     }
     const Region& region = one.has_geoid ? region_ : *without_geoid_;
     ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(region, view_.exaggeration));
-    ORO_TRY(Scene scene, create_scene(gpu_, std::move(pages), share_of_memory(), one.heights));
+    ORO_TRY(Scene scene,
+            create_scene(gpu_, std::move(pages), share_of_memory(), one.heights, asks_for_means(style_)));
     return &scenes_.emplace(key, std::move(scene)).first->second;
 }
 

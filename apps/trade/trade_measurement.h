@@ -33,6 +33,7 @@ class Trade {
     // Reads the truth. Errors: damage in a baked region; nothing to draw.
     Result<void> prepare();
     [[nodiscard]] const TrueSurface& surface() const { return truth_->surface(); }
+    [[nodiscard]] const RegionPages& pages() const { return *pages_; }
     // Adds a view's shots and effects to the report. camera: the true eye. `pictures`: put pictures of it in,
     // too. Errors: those of the device; terrain that it cannot hold.
     Result<void> measure(const Camera& camera, const std::string& name, bool pictures, TradeReport& report);

@@ -21,7 +21,7 @@
 namespace oro {
 namespace {
 
-// "default, aspect, grey": of the styles that come with the program; "" where there are none.
+// "natural, aspect, grey": of the styles that come with the program; "" where there are none.
 std::string style_names() {
     std::vector<std::string> names;
     std::error_code failed;
@@ -29,7 +29,7 @@ std::string style_names() {
     for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
         if (entry->path().extension() == ".json") names.push_back(entry->path().stem().string());
     }
-    std::ranges::sort(names, {}, [](const std::string& name) { return std::pair(name != "default", name); });
+    std::ranges::sort(names, {}, [](const std::string& name) { return std::pair(name != "natural", name); });
     std::string all;
     for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
     return all;

@@ -41,7 +41,7 @@ struct View {
     int samples{1};
     std::optional<SunDirection> sun;      // nothing: the style's
     std::optional<double> visibility_km;  // nothing: the style's
-    std::string style{"default"};
+    std::string style{"natural"};
     std::optional<bool> shadows;       // nothing: as the style has it
     std::optional<bool> sky_openness;  // likewise
     Sea sea{Sea::level};

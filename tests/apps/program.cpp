@@ -54,6 +54,13 @@ std::string cache_folder() {
     return (fs::path(TEST_CACHE) / std::to_string(built)).string();
 }
 
+// Whether a command draws in the style that a view has when nothing is said of it.
+bool draws_as_it_likes(const std::vector<std::string>& words) {
+    const auto has = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
+    return !words.empty() && (words[0] == "shot" || words[0] == "trade" || words[0] == "view") &&
+           !has("--style") && !has("--view");
+}
+
 }  // namespace
 
 std::vector<std::string> Outcome::err_lines() const {
@@ -95,6 +102,8 @@ Outcome run_program(const std::vector<std::string>& words, const Circumstances& 
 }
 
 Outcome run_orograph(std::vector<std::string> words, const Circumstances& circumstances) {
+    if (!circumstances.natural && draws_as_it_likes(words))
+        words.insert(words.begin() + 1, {"--style", "default"});
     words.insert(words.begin(), OROGRAPH_PROGRAM);
     return run_program(words, circumstances);
 }

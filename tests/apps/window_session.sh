@@ -2,7 +2,7 @@
 # A person at the window, as xdotool plays one: window_session.sh PROGRAM DATA, in an empty folder, on a display.
 # Prints the window's title at each stop, keeps what the program prints in picked.txt; ends with the program's own exit code.
 program=$1 data=$2
-"$program" view "$data" --size 320x240 --at 36.6,-84.2 --above 500 --heading 30 \
+"$program" view "$data" --style default --size 320x240 --at 36.6,-84.2 --above 500 --heading 30 \
   --sun-time 2026-06-21T16:00-04:00 -q >picked.txt &
 viewer=$!
 

@@ -183,7 +183,7 @@ TEST(Window, ShowsACoarsePictureWhileLevelsAreMeasured) {
     oro::test::Circumstances there;
     there.environment = {"WAYLAND_DISPLAY"};
     const std::string session =
-        "\"$1\" view \"$2\" --size 320x200 --at 11,21 --above 3000 2>said.txt & viewer=$!; "
+        "\"$1\" view \"$2\" --style default --size 320x200 --at 11,21 --above 3000 2>said.txt & viewer=$!; "
         "for try in $(seq 600); do grep -q 'full detail' said.txt && break; sleep 0.1; done; "
         "kill $viewer; wait $viewer; cat said.txt";
     const auto outcome = oro::test::run_program(

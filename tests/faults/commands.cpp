@@ -70,8 +70,8 @@ const std::string& baked() {
 }
 
 Command shot_of(const std::string& name, const std::string& bytes) {
-    const std::vector<std::string> words{"shot", name,     "-q",    "--overwrite", "--pipeline",
-                                         "mesh", "--size", "64x48", "--out",       "p.png"};
+    const std::vector<std::string> words{"shot",   name,    "-q",    "--overwrite", "--pipeline", "mesh",
+                                         "--size", "64x48", "--out", "p.png",       "--style",    "default"};
     std::vector<std::string> other = words;
     other[7] = "32x24";
     return {"shot " + name, words, {{name, bytes}}, made(other, name, bytes), false};

@@ -17,7 +17,8 @@ TEST(Mutated, ViewsAndPictures) {
     for (const std::string name : {"v.png", "v.jpg", "v.tif", "v.json"}) {
         Sample sample{"view-" + name.substr(2), scratch_folder(), name, {name}, false};
         const std::string picture = name == "v.json" ? "other.png" : name;
-        const std::string command = std::string(OROGRAPH_PROGRAM) + " shot -q --size 32x24 --samples 1 '" +
+        const std::string command = std::string(OROGRAPH_PROGRAM) +
+                                    " shot -q --style default --size 32x24 --samples 1 '" +
                                     (bundled_data() / "jacksboro.tif").string() + "' --out '" +
                                     (sample.folder / picture).string() + "' 2>/dev/null";
         ASSERT_EQ(std::system(command.c_str()), 0);

@@ -169,7 +169,7 @@ TEST_F(BadInput, CommandLines) {
 
 TEST_F(BadInput, NamesOfStyles) {
     expect_refusal(shoot(bundled(), {"--style", "pretty"}), usage,
-                   {"--style pretty: no style is called 'pretty'; there is: default"});
+                   {"--style pretty: no style is called 'pretty'; there is: natural"});
 }
 
 TEST_F(BadInput, Styles) {
@@ -245,7 +245,7 @@ TEST_F(BadInput, FullDisk) {
         if (geteuid() != 0)
             words.emplace_back("--map-root-user");  // root can do without, and may be refused it
         for (const std::string& word : Words{"sh", "-c", session, "sh", disk, kept, name, OROGRAPH_PROGRAM,
-                                             "shot", bundled(), "--size", "640x480"})
+                                             "shot", bundled(), "--style", "default", "--size", "640x480"})
             words.push_back(word);
         const Outcome outcome = oro::test::run_program(words);
         if (outcome.exit_code == 99 || outcome.err.rfind("unshare:", 0) == 0)

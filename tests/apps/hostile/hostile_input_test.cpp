@@ -74,7 +74,7 @@ TEST_F(HostileInput, ClosedStandardError) {
         {"shot", bundled(), "--size", "64x48", "--time", "2026-11-21T09:00:00Z", "--out", folder / "a.png"});
     ASSERT_EQ(open.exit_code, 0) << open.err;
     const Outcome closed = run_program({"sh", "-c", "exec \"$@\" <&- >&- 2>&-", "sh", OROGRAPH_PROGRAM,
-                                        "shot", bundled(), "--size", "64x48", "--time",
+                                        "shot", bundled(), "--style", "default", "--size", "64x48", "--time",
                                         "2026-11-21T09:00:00Z", "--out", (folder / "b.png").string()});
     EXPECT_EQ(closed.exit_code, 0);
     EXPECT_EQ(bytes_of(folder / "b.png"), bytes_of(folder / "a.png"));
@@ -99,9 +99,9 @@ TEST_F(HostileInput, AnInterruptedPictureLeavesNothing) {
                     sleep 0.1
                 done
                 sleep 0.3; kill -s $signal $child; wait $child; exit $?)";
-        const Outcome outcome =
-            run_program({"bash", "-c", session, "bash", signal, there, OROGRAPH_PROGRAM, "shot", bundled(),
-                         "--size", "30000x30000", "--overwrite", "-q", "--out", there / name});
+        const Outcome outcome = run_program({"bash", "-c", session, "bash", signal, there, OROGRAPH_PROGRAM,
+                                             "shot", bundled(), "--style", "default", "--size", "30000x30000",
+                                             "--overwrite", "-q", "--out", there / name});
         EXPECT_GT(outcome.exit_code, 128) << outcome.err;
         EXPECT_EQ(bytes_of(there / name), "mine");
         EXPECT_EQ(bytes_of(there / "p.json"), "mine, too");

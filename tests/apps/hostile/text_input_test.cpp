@@ -128,8 +128,8 @@ TEST_F(TextInput, PipesDevicesAndEndlessFilesAreRefused) {
     }
     Circumstances own_cache;
     own_cache.environment = {"OROGRAPH_CACHE=" + folder.string()};
-    const Outcome outcome = run_program({"timeout", "60", OROGRAPH_PROGRAM, "shot", bundled(), "--size",
-                                         "64x48", "-q", "--out", drawn / "p.png"},
+    const Outcome outcome = run_program({"timeout", "60", OROGRAPH_PROGRAM, "shot", bundled(), "--style",
+                                         "default", "--size", "64x48", "-q", "--out", drawn / "p.png"},
                                         own_cache);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }

@@ -230,9 +230,9 @@ TEST_F(ToldView, PictureAndErrorsAreOneStep) {
         mv "$there/p.png" "$there/old"; mkdir "$there/p.png"
         wait $child; code=$?
         rmdir "$there/p.png"; mv "$there/old" "$there/p.png"; exit $code)";
-    const Outcome outcome = oro::test::run_program({"bash", "-c", session, "bash", pictures, OROGRAPH_PROGRAM,
-                                                    "shot", data / "land.tif", "--verify", "--overwrite",
-                                                    "-q", "--size", "1200x900", "--out", pictures / "p.png"});
+    const Outcome outcome = oro::test::run_program(
+        {"bash", "-c", session, "bash", pictures, OROGRAPH_PROGRAM, "shot", data / "land.tif", "--style",
+         "default", "--verify", "--overwrite", "-q", "--size", "1200x900", "--out", pictures / "p.png"});
     expect_refusal(outcome, failed, {pictures / "p.png", "cannot be written"});
     EXPECT_TRUE(bytes_of(pictures / "p.png") == picture);
     EXPECT_TRUE(bytes_of(pictures / "p.error.png") == errors);

@@ -40,14 +40,14 @@ std::string corner() {
 
 // A picture of 36 pages of terrain at most; 124: it hung.
 Words shot(const Words& more) {
-    Words words{"timeout", "60", OROGRAPH_PROGRAM, "shot", corner(), "--size",
-                "64x48",   "-q", "--out",          "p.png"};
+    Words words{"timeout", "60",     OROGRAPH_PROGRAM, "shot", corner(), "--style",
+                "default", "--size", "64x48",          "-q",   "--out",  "p.png"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }
 Words window() {
-    return {OROGRAPH_ON_DISPLAY, "timeout", "60", OROGRAPH_PROGRAM, "view", bundled(), "--size",
-            "160x120",           "-q"};
+    return {OROGRAPH_ON_DISPLAY, "timeout", "60",     OROGRAPH_PROGRAM, "view", bundled(),
+            "--style",           "default", "--size", "160x120",        "-q"};
 }
 
 // The device that draws where the machine has these.
@@ -170,8 +170,9 @@ INSTANTIATE_TEST_SUITE_P(Pipelines, EachCallOfVulkan, testing::Values("mesh", "c
 // The budget is a wish: a GPU with less room holds fewer pages, and draws the same picture, or says that it
 // cannot.
 TEST(GpuMemory, FewerPagesAreEnoughWhereTheyAre) {
-    const Words words{"timeout", "60", OROGRAPH_PROGRAM, "shot",  bundled(), "--size", "320x240", "--tau",
-                      "0",       "-q", "--out",          "p.png", "--json"};
+    const Words words{"timeout", "60",      OROGRAPH_PROGRAM, "shot",    bundled(),
+                      "--style", "default", "--size",         "320x240", "--tau",
+                      "0",       "-q",      "--out",          "p.png",   "--json"};
     const FaultyRun good = run_with_faults(words, "");
     ASSERT_EQ(good.outcome.exit_code, 0) << good.outcome.err;
     const int pages = json::parse(good.outcome.out)["pages"]["on_gpu"];
