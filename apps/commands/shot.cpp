@@ -62,6 +62,7 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
     for (const std::string& note : shot.region.notes) say(options.quiet, "note: " + note);
     if (const std::string holes = note_of_voids(shot.region); !holes.empty())
         say(options.quiet, "note: " + holes);
+    if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
     const Geodetic& eye = shot.view.camera.eye;
     const auto ground = ground_h_m(shot.region.field, eye.lat_deg, eye.lon_deg, shot.view.exaggeration);
     if (ground && eye.h_m < *ground) {

@@ -7,6 +7,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sun_text.h"
+#include "apps/light/sun.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
@@ -134,6 +135,7 @@ Result<void> run_sun(const SunOptions& options) {
         report.zone = *options.zone;
     }
     ORO_TRY(report.from_utc_s, day_begin(options, place->lon_deg, report.east_s));
+    if (const std::string note = note_of_year(report.from_utc_s); !note.empty()) say(options.quiet, note);
     if (options.region.paths.empty()) {
         ORO_CHECK(leave_terrain_out(options));
     } else {

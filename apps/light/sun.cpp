@@ -39,6 +39,16 @@ void aim_sun(std::optional<SunDirection>& sun, const Geodetic& eye) {
     sun->elevation_deg = seen_elevation_deg(position.airless_elevation_deg, eye.h_m);
 }
 
+std::string note_of_year(std::int64_t time_utc_s) {
+    constexpr std::int64_t year_1900_s = -2208988800, year_2101_s = 4133980800;
+    if (time_utc_s >= year_1900_s && time_utc_s < year_2101_s) return "";
+    return "note: the sun is less exact before 1900 and after 2100; between them it is within 0.01 degree";
+}
+
+std::string note_of_year(const std::optional<SunDirection>& sun) {
+    return sun && sun->time ? note_of_year(sun->time->utc_s) : "";
+}
+
 double direct_light(const SunDirection& sun) {
     if (sun.time) return share_of_disc(sun.elevation_deg);
     return sun.elevation_deg >= 0.0 ? 1.0 : 0.0;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/styles/colours.h"
+#include "geo/files/foreign_text.h"
 
 namespace oro {
 namespace {
@@ -75,6 +76,16 @@ struct Entry {
     ColourCodes colour;
 };
 
+// A word of the file in quotes, as it can be shown: of foreign bytes and control characters marks alone, and
+// no more than fits into a line.
+std::string quoted(const std::string& word) {
+    constexpr std::size_t longest = 60;
+    if (word.size() <= longest) return "'" + foreign_text(word) + "'";
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0U) == 0x80U) --end;  // between characters
+    return "'" + foreign_text(word.substr(0, end)) + "...'";
+}
+
 // The reason, where a line cannot be read.
 std::string read_colour(const std::vector<std::string>& words, ColourCodes& colour) {
     if (words.size() >= 4) {
@@ -82,7 +93,7 @@ std::string read_colour(const std::vector<std::string>& words, ColourCodes& colo
         for (std::size_t i = 0; i < 3; ++i) {
             const auto code = number_in(words[i + 1]);
             if (!code || *code < 0.0 || *code > 255.0)
-                return "'" + words[i + 1] + "' is no number from 0 to 255";
+                return quoted(words[i + 1]) + " is no number from 0 to 255";
             codes[i] = static_cast<int>(*code);
         }
         colour = {codes[0], codes[1], codes[2]};
@@ -91,7 +102,7 @@ std::string read_colour(const std::vector<std::string>& words, ColourCodes& colo
     if (words.size() < 2) return "there is no colour";
     const std::string name = lower(words[1]);
     const auto* const found = std::ranges::find(named_colours, name, &NamedColour::name);
-    if (found == named_colours.end()) return "no colour is called '" + words[1] + "'";
+    if (found == named_colours.end()) return "no colour is called " + quoted(words[1]);
     colour = found->colour;
     return "";
 }
@@ -103,11 +114,12 @@ std::string read_entry(const std::vector<std::string>& words, Entry& entry) {
     } else if (first.size() > 1 && first.ends_with('%')) {
         entry.kind = Entry::Kind::percentage;
         const auto value = number_in(std::string_view(first).substr(0, first.size() - 1));
-        if (!value || *value < 0.0 || *value > 100.0) return "'" + first + "' is no percentage from 0 to 100";
+        if (!value || *value < 0.0 || *value > 100.0)
+            return quoted(first) + " is no percentage from 0 to 100";
         entry.value = *value;
     } else {
         const auto value = number_in(first);
-        if (!value || std::abs(*value) > largest_m) return "'" + first + "' is no height in metres";
+        if (!value || std::abs(*value) > largest_m) return quoted(first) + " is no height in metres";
         entry.value = *value;
     }
     return read_colour(words, entry.colour);

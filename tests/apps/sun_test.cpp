@@ -93,6 +93,22 @@ TEST(SunCommand, OverTerrain) {
                   .out);
 }
 
+// Held against an ephemeris from 1900 to 2100 (tests/core/light).
+TEST(SunCommand, YearsThatAreLessExactAreToldInOneLine) {
+    for (const auto& [date, less_exact] : {std::pair{"1899-12-30", true},
+                                           {"1900-01-02", false},
+                                           {"2100-12-30", false},
+                                           {"2101-01-02", true}}) {
+        const Outcome outcome = run_orograph({"sun", "--at", "46,8", "--date", date});
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err_lines().size(), less_exact ? 1U : 0U) << date << outcome.err;
+        EXPECT_EQ(
+            outcome.err.find("note: the sun is less exact before 1900 and after 2100") != std::string::npos,
+            less_exact)
+            << date << outcome.err;
+    }
+}
+
 TEST(SunCommand, WhatIsWrongIsSaidInOneLine) {
     expect_refusal(run_orograph({"sun"}), 2, {"--at: is missing: name the place"});
     expect_refusal(run_orograph({"sun", "--at", "nowhere"}), 2, {"--at nowhere: "});

@@ -31,6 +31,18 @@ TEST(Sun, DirectionsStayWhereTheyAre) {
     EXPECT_FALSE(none.has_value());
 }
 
+TEST(Sun, OfYearsThatAreLessExactThatIsTold) {
+    const auto note_at = [](const char* time) {
+        return oro::note_of_year(oro::SunDirection{0.0, 0.0, *oro::parse_time("--sun-time", time)});
+    };
+    EXPECT_EQ(note_at("1900-01-01T00:00Z"), "");
+    EXPECT_EQ(note_at("2100-12-31T23:59:59Z"), "");
+    EXPECT_NE(note_at("1899-12-31T23:59:59Z"), "");
+    EXPECT_EQ(note_at("2101-01-01T00:00Z"), note_at("1066-10-14T12:00Z"));
+    EXPECT_EQ(oro::note_of_year(oro::SunDirection{90.0, 20.0}), "");
+    EXPECT_EQ(oro::note_of_year(std::optional<oro::SunDirection>()), "");
+}
+
 // Found: a sun 3 degrees below the horizon lit mountains fully.
 TEST(Sun, BelowTheHorizonItGivesNoDirectLight) {
     EXPECT_EQ(oro::direct_light({270.0, 30.0}), 1.0);

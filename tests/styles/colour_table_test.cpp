@@ -101,6 +101,13 @@ TEST(ColourTableText, FaultsAreToldWithTheirLine) {
                          Bad{"# nothing\nnv red\n", "t.txt: no line holds a height and a colour"},
                          Bad{"nan red\n", "'nan' is no height in metres"},
                          Bad{"# COLOR_MODEL = RGB\n", "a palette of GMT"},
+                         // Latin-1, which no terminal shows; a bell and an escape; a file that is no text.
+                         Bad{"0 gr\xfcn\n", "no colour is called 'gr\uFFFDn'"},
+                         Bad{"5\x1b[2J\a red\n", "'5\uFFFD[2J\uFFFD' is no height in metres"},
+                         Bad{std::string("0 ") + std::string(5000, 'x') + "\n",
+                             "no colour is called '" + std::string(60, 'x') + "...'"},
+                         Bad{"0 " + std::string(59, 'x') + "\u00e9\u00e9\n",
+                             "no colour is called '" + std::string(59, 'x') + "...'"},
                          Bad{long_table, "257 heights; a style has room for 256"}};
     for (const Bad& one : bad) {
         const auto style = style_of_colour_table(one.text, "t.txt", [] { return HeightRange{}; });
