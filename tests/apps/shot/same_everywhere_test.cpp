@@ -1,0 +1,160 @@
+// A real view with all that the style `natural` has draws the same pixels by both ways of drawing, from tiles
+// and from a baked region, and each time. That effects which a style does not have change nothing is held by
+// the golden pictures (golden_test.cpp): they are of the style `default`, which has none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/apps/picture_pixels.h"
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using oro::test::Outcome;
+using oro::test::Pixels;
+using oro::test::run_orograph;
+using Words = std::vector<std::string>;
+
+// Over Interlaken towards the lake of Brienz, in the light of an afternoon.
+const Words lake{"--at",    "46.655,7.80", "--altitude", "3200", "--heading", "60",
+                 "--pitch", "-16",         "--fov",      "50",   "--sun",     "250,28"};
+// Up the valley of the Rhone, with a satellite's image of it.
+const Words valley{"--at",    "46.12,7.05", "--altitude", "5200", "--heading", "55",
+                   "--pitch", "-12",        "--fov",      "50",   "--sun",     "150,50"};
+
+// Pixels, from the left and from the top.
+using Places = std::vector<std::pair<int, int>>;
+
+Places differing(const Pixels& one, const Pixels& other) {
+    Places places;
+    if (one.width != other.width || one.rgb.size() != other.rgb.size()) return {{-1, -1}};
+    for (std::size_t i = 0; i < one.rgb.size() / 3; ++i) {
+        if (!std::equal(&one.rgb[3 * i], &one.rgb[3 * i] + 3, &other.rgb[3 * i]))
+            places.emplace_back(static_cast<int>(i % one.width), static_cast<int>(i / one.width));
+    }
+    return places;
+}
+
+class SameEverywhere : public testing::Test {
+  protected:
+    const fs::path folder = oro::test::scratch_folder();
+    Words tiles;
+
+    void SetUp() override {
+        for (const char* name : {"alps/N46E007.SRTMGL3.hgt.zip", "alps/N46E008.SRTMGL3.hgt.zip"}) {
+            const auto tile = oro::test::real_data(name);
+            if (!tile) GTEST_SKIP() << "needs " << name;
+            tiles.push_back(tile->string());
+        }
+    }
+
+    static Words joined(Words all, const Words& more) {
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
+    // Width 0 when nothing was drawn.
+    Pixels draw(const Words& sources, const Words& view, const std::string& style = "natural") const {
+        const fs::path picture = folder / "p.png";
+        const Words how{"--size",      "256x144", "--style", style, "-q", "--time", "2026-01-01T00:00:00Z",
+                        "--overwrite", "--out",   picture};
+        const Outcome outcome = run_orograph(joined(joined(joined({"shot"}, sources), view), how));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return outcome.exit_code == 0 ? oro::test::pixels_of(picture) : Pixels{};
+    }
+
+    // natural.json with other values in some fields; null: without the field. Its path.
+    [[nodiscard]] std::string changed(const std::string& name, const json& fields) const {
+        std::ifstream file(oro::test::bundled_data() / "styles" / "natural.json");
+        json style = json::parse(file);
+        for (const auto& [field, value] : fields.items()) {
+            style.erase(field);
+            if (!value.is_null()) style[field] = value;
+        }
+        const fs::path path = folder / (name + ".json");
+        oro::test::write_bytes(path, style.dump());
+        return path;
+    }
+
+    // Four pictures, from tiles and from a baked region, each twice: one.
+    Pixels hold_one_way(const Words& view) const {
+        const fs::path baked = folder / "region.oro";
+        if (!fs::exists(baked)) {
+            const Outcome bake = run_orograph(joined({"bake"}, joined(tiles, {"--out", baked, "-q"})));
+            EXPECT_EQ(bake.exit_code, 0) << bake.err;
+        }
+        const Pixels first = draw(tiles, view);
+        EXPECT_GT(first.width, 0U);
+        EXPECT_EQ(differing(first, draw(tiles, view)), Places{}) << "drawn again";
+        for (int time = 1; time <= 2; ++time)
+            EXPECT_EQ(differing(first, draw({baked}, view)), Places{}) << "baked, time " << time;
+        return first;
+    }
+
+    // Both ways of drawing show the same but where a pixel's middle lies on the edge of two triangles and
+    // they show it of one and of the other, as they do without any effect; smooth edges carry that on along
+    // an edge.
+    void hold_by_all_doors(const Words& view) const {
+        const Words compute = joined(view, {"--pipeline", "compute"}),
+                    mesh = joined(view, {"--pipeline", "mesh"});
+        const Places apart = differing(hold_one_way(compute), hold_one_way(mesh));
+        const std::string bare = changed("bare", {{"shadows", false},
+                                                  {"sky_openness", false},
+                                                  {"footprint", "point"},
+                                                  {"water", nullptr},
+                                                  {"voids", nullptr}});
+        const Places ties = differing(draw(tiles, compute, bare), draw(tiles, mesh, bare));
+        std::printf("%zu pixels differ between the two ways of drawing, %zu without effects\n", apart.size(),
+                    ties.size());
+        EXPECT_LE(ties.size(), std::size_t{8});
+        constexpr int reach_px = 2;
+        for (const auto& [x, y] : apart) {
+            EXPECT_TRUE(std::ranges::any_of(ties,
+                                            [&, x = x, y = y](const auto& tie) {
+                                                return std::abs(tie.first - x) <= reach_px &&
+                                                       std::abs(tie.second - y) <= reach_px;
+                                            }))
+                << "pixel " << x << "," << y;
+        }
+    }
+};
+
+TEST_F(SameEverywhere, AViewWithEveryEffect) {
+    hold_by_all_doors(lake);
+}
+
+TEST_F(SameEverywhere, AViewUnderAnImage) {
+    const auto image = oro::test::real_data("drape/S2B_T32TLS_20220618_R60m_B01.jp2");
+    if (!image) GTEST_SKIP() << "needs drape/S2B_T32TLS_20220618_R60m_B01.jp2";
+    const Words under = joined(valley, {"--drape", image->string()});
+    hold_by_all_doors(under);
+    EXPECT_NE(differing(draw(tiles, under), draw(tiles, valley)), Places{}) << "no image is seen";
+}
+
+// The control of the first: each effect is in that view. What an option switches off is off as in a style
+// without it.
+TEST_F(SameEverywhere, EachEffectIsInTheView) {
+    const Pixels all = draw(tiles, lake);
+    const auto without = [&](const char* effect, const json& off) {
+        Pixels drawn = draw(tiles, lake, changed(effect, {{effect, off}}));
+        EXPECT_NE(differing(all, drawn), Places{}) << effect << " is not in the view";
+        return drawn;
+    };
+    const Pixels no_shadows = without("shadows", false), no_openness = without("sky_openness", false);
+    EXPECT_EQ(differing(no_shadows, draw(tiles, joined(lake, {"--shadows", "off"}))), Places{});
+    EXPECT_EQ(differing(no_openness, draw(tiles, joined(lake, {"--sky-openness", "off"}))), Places{});
+    without("footprint", "point");
+    without("water", nullptr);
+}
+
+}  // namespace
