@@ -196,6 +196,8 @@ Result<void> run_bench(const BenchOptions& options) {
     ORO_TRY(Scene scene, Scene::create(*gpu, std::move(pages),
                                        {static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0},
                                        HeightStorage::f32, asks_for_means(options.style)));
+    if (asks_for_means(options.style) && !scene.pages().knows_means())
+        std::fputs("orograph-bench: note: the region has too many posts for means of the ground\n", stderr);
     ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, path, options));
     ordered_json json = ordered_json::object();
     json["device"] = gpu->report().name;
