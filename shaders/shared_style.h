@@ -54,7 +54,8 @@ struct AirModel {
 };
 // Its tables, one vec3 an entry: what a line to space meets of molecules, dust and ozone (metres at full
 // density); logarithms of light scattered more than once and of light from the whole sky on level ground; and
-// the sky as the eye sees it, logarithms, three entries each (shaders/air/air_tables.comp).
+// the sky as the eye sees it, logarithms, three entries each; last what light is multiplied with to be shown
+// (shaders/air/air_tables.comp).
 ORO_CONST uint air_column_heights = 64u;
 ORO_CONST uint air_column_angles = 128u;
 ORO_CONST uint air_light_heights = 32u;
@@ -65,7 +66,14 @@ ORO_CONST uint air_columns_first = 0u;
 ORO_CONST uint air_scattered_first = 8192u;
 ORO_CONST uint air_skylight_first = 10240u;
 ORO_CONST uint air_sky_first = 12288u;
-ORO_CONST uint air_entries = 49152u;
+ORO_CONST uint air_exposure_at = 49152u;
+ORO_CONST uint air_entries = 49156u;  // a multiple of 4: what follows are vec4s, three for each
+// ... slice of each line of sight from the eye: what it gathers as far as there (shaders/air/aerial.glsl).
+ORO_CONST uint aerial_rises = 64u;  // of lines that meet the ground, and of the others
+ORO_CONST uint aerial_turns = 24u;
+ORO_CONST uint aerial_slices = 32u;
+ORO_CONST uint aerial_first = 36867u;
+ORO_CONST uint aerial_end = 331779u;
 
 // What covers the ground by nature: FrameStyle's tints by metres above the snow line of the latitude, and
 // rock where it is steep.

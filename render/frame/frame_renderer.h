@@ -76,8 +76,7 @@ class FrameRenderer {
     Result<std::vector<std::uint32_t>> read_edges(std::size_t pages);
     // ... and 256 bits: the nodes that may stand for what they cover.
     Result<std::vector<std::uint32_t>> read_accepted(std::size_t pages);
-    // The tables of the air (shaders/shared.h, AirModel) of the last frame, three floats an entry; its style
-    // had air.
+    // The tables of the air (shaders/shared.h, AirModel) of the last frame, as floats; its style had air.
     Result<std::vector<float>> read_air();
     // With record_positions: of every page of the last frame, 129 x 129 positions relative to the eye, in its
     // meridian frame (with record_view in view coordinates), as the mesh shader placed them (those of void

@@ -16,13 +16,17 @@ bool same(const T& a, const T& b) {
 }
 
 constexpr std::uint32_t entries_a_group = 64;
-constexpr std::array<std::uint32_t, 4> entry_counts{
+constexpr std::array<std::uint32_t, 5> entry_counts{
     gpu::air_column_heights * gpu::air_column_angles, gpu::air_light_heights* gpu::air_light_suns,
-    gpu::air_light_heights* gpu::air_light_suns, gpu::air_sky_rises* gpu::air_sky_turns};
+    gpu::air_light_heights* gpu::air_light_suns, gpu::air_sky_rises* gpu::air_sky_turns,
+    2 * gpu::aerial_rises* gpu::aerial_turns};
 static_assert(gpu::air_scattered_first == gpu::air_columns_first + entry_counts[0] &&
               gpu::air_skylight_first == gpu::air_scattered_first + entry_counts[1] &&
               gpu::air_sky_first == gpu::air_skylight_first + entry_counts[2] &&
-              gpu::air_entries == gpu::air_sky_first + 3 * entry_counts[3]);
+              gpu::air_exposure_at == gpu::air_sky_first + 3 * entry_counts[3] &&
+              gpu::air_entries == gpu::air_exposure_at + 4);
+static_assert(gpu::aerial_first * sizeof(gpu::vec4) == gpu::air_entries * sizeof(gpu::vec3) &&
+              gpu::aerial_end == gpu::aerial_first + 3 * gpu::aerial_slices * entry_counts[4]);
 
 }  // namespace
 
@@ -32,7 +36,7 @@ Result<void> AirTables::prepare(const Gpu& gpu, Pipelines& pipelines, gpu::Frame
     if (constants.style.air.on == 0) return {};
     if (!entries_.handle) {
         ORO_TRY(entries_,
-                create_buffer(gpu, gpu::air_entries * sizeof(gpu::vec3),
+                create_buffer(gpu, gpu::aerial_end * sizeof(gpu::vec4),
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                   VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                               MemoryKind::device, "air"));

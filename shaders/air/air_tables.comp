@@ -4,9 +4,10 @@
 #include "shaders/place/frame.glsl"
 #include "shaders/air/air.glsl"
 #include "shaders/air/sky.glsl"
+#include "shaders/air/aerial.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint table = 0u;  // 0 columns, 1 scattered, 2 skylight, 3 sky
+layout(constant_id = 0) const uint table = 0u;  // 0 columns, 1 scattered, 2 skylight, 3 sky, 4 aerial
 
 const vec3 least_light = vec3(1.0e-20);  // of the sun's
 
@@ -113,9 +114,34 @@ void fill_sky(uint i) {
     sky_line(i / air_sky_turns, i % air_sky_turns, ray, from_m, to_m);
     AirLight light = AirLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0));
     if (to_m > from_m) light = gathered(ray, from_m, to_m, 64);
+    if (i == 0u) put(air_exposure_at, vec3(exposure()));
     put(air_sky_first + 3u * i, log(max(light.molecules, least_light)));
     put(air_sky_first + 3u * i + 1u, log(max(light.dust, least_light)));
     put(air_sky_first + 3u * i + 2u, log(max(light.often, least_light)));
+}
+
+void put_aerial(uint at, AirLight light) {
+    vec3 molecules = log(max(light.molecules, least_light)), dust = log(max(light.dust, least_light)), often = log(max(light.often, least_light));
+    AerialTable(FRAME.air).at[at] = vec4(molecules, dust.x);
+    AerialTable(FRAME.air).at[at + 1u] = vec4(dust.yz, often.xy);
+    AerialTable(FRAME.air).at[at + 2u] = vec4(often.z, light.through);
+}
+
+// A line with all its slices.
+void fill_aerial(uint i) {
+    uint row = i / aerial_turns, column = i % aerial_turns;
+    AirRay ray = aerial_ray(row, column);
+    float from_m, length_m;
+    aerial_reach(ray, row < aerial_rises, from_m, length_m);
+    AirLight light = AirLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0));
+    put_aerial(aerial_at(row, column, 0u), light);
+    for (uint slice = 1u; slice < aerial_slices; ++slice) {
+        float near_m = from_m + length_m * way_of_slice(float(slice - 1u) / float(aerial_slices - 1u));
+        float far_m = from_m + length_m * way_of_slice(float(slice) / float(aerial_slices - 1u)), middle_m = 0.5 * (near_m + far_m);
+        gather(ray, near_m, middle_m, light);
+        gather(ray, middle_m, far_m, light);
+        put_aerial(aerial_at(row, column, slice), light);
+    }
 }
 
 void main() {
@@ -124,4 +150,5 @@ void main() {
     if (table == 1u && i < air_light_heights * air_light_suns) fill_scattered(i);
     if (table == 2u && i < air_light_heights * air_light_suns) fill_skylight(i);
     if (table == 3u && i < air_sky_rises * air_sky_turns) fill_sky(i);
+    if (table == 4u && i < 2u * aerial_rises * aerial_turns) fill_aerial(i);
 }

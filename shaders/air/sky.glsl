@@ -68,3 +68,13 @@ vec3 sky_radiance(vec3 direction, float above_rad) {
     float last = eye_above_air() ? clamp((1.0 - share) / (1.0 - last_share), 0.0, 1.0) : 1.0;
     return last * radiance(AirLight(exp(light.molecules), exp(light.dust), exp(light.often), vec3(1.0)), dot(direction, sun));
 }
+
+// White ground in the light at the eye's place is a little below white; when the sun is low less light is let in than a camera would,
+// so that dusk is dark. From space by day, wherever the sun is.
+float exposure() {
+    float h_m = min(eye_in_air_m(), 10000.0), rise = FRAME.style.sun_enu.z;
+    vec3 light = skylight(h_m, rise) + sunlight(h_m, rise) * max(rise, 0.0);
+    float seen = dot(light, vec3(0.2126, 0.7152, 0.0722));  // of Rec. 709
+    seen = mix(seen, 0.8, smoothstep(2.0e4, 2.0e5, FRAME.eye_h_m));
+    return AIR.exposure * pi * 1.45 * pow(max(seen, 2.0e-4), -0.8);
+}

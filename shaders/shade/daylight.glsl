@@ -1,4 +1,4 @@
-// Ground and sky by the light of the sun in the air: FrameStyle.air. Needs surface.glsl, air.glsl and sky.glsl.
+// Ground and sky by the light of the sun in the air: FrameStyle.air. Needs surface.glsl and aerial.glsl.
 
 // Towards the sun from a place: east, north, up there. Its light is parallel.
 vec3 sun_at(vec3 view) {
@@ -23,10 +23,7 @@ vec3 through_air(vec3 colour, vec3 view) {
     float distance_m = length(view);
     vec3 direction = view / distance_m, sun = sun_in_view();
     AirRay ray = AirRay(FRAME.earth_radius_m, eye_in_air_m(), dot(direction, FRAME.up_view), FRAME.style.sun_enu.z, dot(direction, sun));
-    float from_m = ray.h_m > air_top_m ? max(way_down_m(ray, air_top_m), 0.0) : 0.0;
-    if (from_m >= distance_m) return colour;
-    int pieces = int(clamp(4.0 + 12.0 * sqrt((distance_m - from_m) / 2.0e5), 4.0, 24.0));
-    AirLight light = gathered(ray, from_m, distance_m, pieces);
+    AirLight light = aerial_light(ray, distance_m);
     return colour * light.through + radiance(light, ray.to_sun);
 }
 
@@ -37,18 +34,8 @@ vec3 sun_disc(vec3 direction) {
     return disc <= 0.0 ? vec3(0.0) : disc * to_space(min(eye_in_air_m(), air_top_m), rise) / (pi * sun_radius_rad * sun_radius_rad);
 }
 
-// White ground in the light at the eye's place is a little below white; when the sun is low less light is let in than a camera would,
-// so that dusk is dark. From space by day, wherever the sun is.
-float exposure() {
-    float h_m = min(eye_in_air_m(), 10000.0), rise = FRAME.style.sun_enu.z;
-    vec3 light = skylight(h_m, rise) + sunlight(h_m, rise) * max(rise, 0.0);
-    float seen = dot(light, vec3(0.2126, 0.7152, 0.0722));  // of Rec. 709
-    seen = mix(seen, 0.8, smoothstep(2.0e4, 2.0e5, FRAME.eye_h_m));
-    return AIR.exposure * pi * 1.45 * pow(max(seen, 2.0e-4), -0.8);
-}
-
 // Bright light is pressed together instead of cut off.
 vec3 shown(vec3 radiance) {
-    vec3 light = radiance * exposure();
+    vec3 light = radiance * AirTable(FRAME.air).at[air_exposure_at].x;
     return mix(light, 0.35 + 0.65 * (1.0 - exp(-(light - 0.35) / 0.65)), greaterThan(light, vec3(0.35)));
 }

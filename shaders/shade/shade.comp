@@ -14,6 +14,7 @@ layout(constant_id = 6) const bool by_means = false;  // FrameStyle.footprint
 #include "shaders/shade/surface.glsl"
 #include "shaders/air/air.glsl"
 #include "shaders/air/sky.glsl"
+#include "shaders/air/aerial.glsl"
 #include "shaders/cast/casters.glsl"
 #include "shaders/cast/shadow.glsl"
 #include "shaders/cast/shown.glsl"

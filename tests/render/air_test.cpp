@@ -148,5 +148,125 @@ TEST_F(AirTables, SkyIsWhatBruteForceGives) {
     EXPECT_GT(worst, 1e-5) << "a reference that shares nothing is never the same";
 }
 
+// A line of sight to the ground by its place in the aerial table (shaders/air/aerial.glsl) that ends between
+// its entries, too.
+struct GroundLine {
+    double row, column, slice;  // in entries
+    double way;                 // of its way through the air, of 1
+    double elevation_rad, turn_rad, to_m;
+};
+constexpr double floor_m = -500.0;
+GroundLine ground_line(double share, double turn, double ground_h_m, bool falls, double eye_h_m,
+                       double radius_m) {
+    const double dip = std::acos((radius_m + floor_m) / (radius_m + eye_h_m)), squared = share * share;
+    GroundLine line{};
+    const double half =
+        falls ? squared * std::tan(0.25 * pi - 0.5 * dip) : -squared * std::tan(0.25 * pi + 0.5 * dip);
+    line.elevation_rad = -dip - 2.0 * std::atan(half);
+    line.row = share * (gpu::aerial_rises - 1) + (falls ? 0.0 : gpu::aerial_rises);
+    line.turn_rad = std::acos(2.0 * turn - 1.0);
+    line.column = turn * (gpu::aerial_turns - 1);
+    const double r = radius_m + eye_h_m, along = r * std::sin(line.elevation_rad);
+    const auto square = [&](double shell_m) {
+        return along * along + (radius_m + shell_m) * (radius_m + shell_m) - r * r;
+    };
+    const double from_m = eye_h_m > 1e5 ? -along - std::sqrt(square(1e5)) : 0.0;
+    const double end_m = falls ? -along - std::sqrt(square(floor_m)) : -along + std::sqrt(square(1e5));
+    // To where it comes down to the ground, or leaves the heights that have ground.
+    const bool comes_down = along < 0.0 && square(ground_h_m) > 0.0 && eye_h_m > ground_h_m;
+    const double way_m = -along + (comes_down ? -1.0 : 1.0) * std::sqrt(std::max(square(ground_h_m), 0.0));
+    const double way = std::clamp((way_m - from_m) / (end_m - from_m), 0.0, 1.0);
+    line.to_m = from_m + way * (end_m - from_m);
+    line.way = way;
+    line.slice =
+        (way < 0.5 ? std::sqrt(0.5 * way) : 1.0 - std::sqrt(0.5 * (1.0 - way))) * (gpu::aerial_slices - 1);
+    return line;
+}
+
+struct AirSeen {
+    glm::dvec3 gathered, through;
+};
+// Between its entries.
+AirSeen seen_in(const std::vector<float>& tables, const GroundLine& line, double to_sun) {
+    const unsigned half = line.row < gpu::aerial_rises ? 0 : gpu::aerial_rises,
+                   i = std::min(static_cast<unsigned>(line.row) - half, gpu::aerial_rises - 2) + half,
+                   j = std::min(static_cast<unsigned>(line.column), gpu::aerial_turns - 2),
+                   k = std::min(static_cast<unsigned>(line.slice), gpu::aerial_slices - 2);
+    const auto entry = [&](unsigned part, unsigned slice) {
+        const auto one = [&](unsigned row, unsigned column) {
+            const std::size_t at =
+                4 * (gpu::aerial_first +
+                     3 * ((row * gpu::aerial_turns + column) * gpu::aerial_slices + slice)) +
+                3 * part;
+            return glm::dvec3(tables[at], tables[at + 1], tables[at + 2]);
+        };
+        return glm::mix(glm::mix(one(i, j), one(i, j + 1), line.column - j),
+                        glm::mix(one(i + 1, j), one(i + 1, j + 1), line.column - j), line.row - i);
+    };
+    const auto way_of = [](double x) { return x < 0.5 ? 2.0 * x * x : 1.0 - 2.0 * (1.0 - x) * (1.0 - x); };
+    const double last = gpu::aerial_slices - 1, low = way_of(k / last), high = way_of((k + 1) / last),
+                 on = (line.way - low) / (high - low);
+    const glm::dvec3 let = entry(3, k + 1) / entry(3, k), here = glm::pow(let, glm::dvec3(on));
+    glm::dvec3 come = (1.0 - here) / (1.0 - let);
+    for (int c = 0; c < 3; ++c)
+        if (let[c] > 0.999) come[c] = on;
+    const auto between = [&](unsigned part) {
+        return glm::mix(glm::exp(entry(part, k)), glm::exp(entry(part, k + 1)), come);
+    };
+    const double g = 0.8;
+    return {between(0) * (3.0 / (16.0 * pi) * (1.0 + to_sun * to_sun)) +
+                between(1) * (3.0 / (8.0 * pi) * (1.0 - g * g) * (1.0 + to_sun * to_sun) /
+                              ((2.0 + g * g) * std::pow(1.0 + g * g - 2.0 * g * to_sun, 1.5))) +
+                between(2),
+            entry(3, k) * here};
+}
+
+// What lies between the eye and the ground: light within 2 % of what white ground sends through it and of
+// itself, together, and what it lets through within 0.025.
+TEST_F(AirTables, GroundIsSeenThroughWhatBruteForceGives) {
+    std::optional<test::AirReference> reference;
+    constexpr unsigned seed = 20261123;
+    std::mt19937 random(seed);
+    std::printf("seed %u\n", seed);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (const double eye_h_m : {2.0, 3000.0, 11000.0, 110000.0, 400000.0}) {
+        for (const double sun_deg : {60.0, 20.0, 5.0, 0.0, -5.0}) {
+            const std::vector<float> air = tables(eye_h_m, sun_deg);
+            if (!reference) reference.emplace(clear_air(), radius_m_);
+            const double sun_rad = sun_deg * pi / 180.0;
+            AirSeen worst{};
+            for (int i = 0; i < 24; ++i) {
+                const bool falls = i % 4 != 0 || eye_h_m > 1e5;
+                const GroundLine line = ground_line(
+                    share(random), share(random),
+                    (falls ? std::min(eye_h_m, 5000.0) : 5000.0) * share(random), falls, eye_h_m, radius_m_);
+                const double to_sun =
+                    std::sin(line.elevation_rad) * std::sin(sun_rad) +
+                    std::cos(line.elevation_rad) * std::cos(sun_rad) * std::cos(line.turn_rad);
+                const AirSeen drawn = seen_in(air, line, to_sun);
+                const auto truth =
+                    reference->seen(eye_h_m, line.elevation_rad, line.turn_rad, sun_rad, line.to_m);
+                const glm::dvec3 ground =
+                    reference->sunlight(0.0, std::sin(sun_rad)) * (std::max(std::sin(sun_rad), 0.0) / pi);
+                const glm::dvec3 light = glm::abs(drawn.gathered + ground * drawn.through - truth.gathered -
+                                                  ground * truth.through) /
+                                         glm::max(truth.gathered + ground * truth.through, glm::dvec3(2e-5));
+                const glm::dvec3 through = glm::abs(drawn.through - truth.through);
+                worst = {glm::max(worst.gathered, light), glm::max(worst.through, through)};
+                EXPECT_LT(std::max({light.x, light.y, light.z}), 0.02)
+                    << "eye " << eye_h_m << " m, sun " << sun_deg << ", row " << line.row << ", slice "
+                    << line.slice << ", " << line.to_m << " m: " << drawn.gathered.x << " "
+                    << drawn.gathered.y << " " << drawn.gathered.z << " for " << truth.gathered.x << " "
+                    << truth.gathered.y << " " << truth.gathered.z;
+                EXPECT_LT(std::max({through.x, through.y, through.z}), 0.025)
+                    << "row " << line.row << ", slice " << line.slice << ", eye " << eye_h_m;
+            }
+            std::printf("eye at %.0f m, sun at %.0f deg: light within %.2f %%, through %.2f %%\n", eye_h_m,
+                        sun_deg, 100.0 * std::max({worst.gathered.x, worst.gathered.y, worst.gathered.z}),
+                        100.0 * std::max({worst.through.x, worst.through.y, worst.through.z}));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace oro

@@ -1,0 +1,125 @@
+// The air between the eye and what it sees, from a table for all lines of sight from the eye. Needs air.glsl and sky.glsl.
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer AerialTable { vec4 at[]; };
+
+// Lines that meet this shell end there; it lies below all ground in the air.
+const float air_floor_m = -500.0;
+
+// A line of sight in the table: of those that meet the floor and of the others, its row; where it comes into the air, and how far it goes
+// there.
+struct AerialLine {
+    float row;
+    float column;
+    float from_m;
+    float length_m;
+};
+
+// Cosine and sine of the angle from the level down to the floor's horizon.
+vec2 floor_dip(float radius_m, float h_m) {
+    float r_m = radius_m + h_m;
+    return vec2((radius_m + air_floor_m) / r_m, sqrt((h_m - air_floor_m) * (2.0 * radius_m + h_m + air_floor_m)) / r_m);
+}
+// The tangent of half the angle from there to straight down, and to straight up.
+float half_down(vec2 dip) { return dip.x / (1.0 + dip.y); }
+float half_up(vec2 dip) { return dip.x / max(1.0 - dip.y, 1.0e-6); }
+
+void aerial_reach(AirRay ray, bool falls, out float from_m, out float length_m) {
+    from_m = ray.h_m > air_top_m ? max(way_down_m(ray, air_top_m), 0.0) : 0.0;
+    // A line that just touches the floor meets it, whatever rounding says.
+    float r_m = ray.radius_m + ray.h_m, along = r_m * ray.rise, below = (ray.h_m - air_floor_m) * (2.0 * ray.radius_m + ray.h_m + air_floor_m);
+    float to_m = falls ? below / (-along + sqrt(max(along * along - below, 0.0))) : way_out_m(ray, air_top_m);
+    length_m = max(to_m - from_m, 1.0);
+}
+
+// Closest together at the floor's horizon, on both sides. Without arcs, whose precision Vulkan leaves open.
+AerialLine aerial_line(AirRay ray) {
+    vec2 dip = floor_dip(ray.radius_m, ray.h_m);
+    float level = sqrt(max(1.0 - ray.rise * ray.rise, 0.0));
+    float below = -(dip.y * level + dip.x * ray.rise), beside = dip.x * level - dip.y * ray.rise;
+    float half_angle = below / max(1.0 + beside, 1.0e-6);
+    bool falls = below > 0.0;
+    float share;
+    if (falls) {
+        share = half_angle / half_down(dip);
+    } else if (eye_above_air()) {
+        float r_m = ray.radius_m + ray.h_m, passes_m = ray.h_m - r_m * ray.rise * ray.rise / (1.0 + level);
+        share = (passes_m - air_floor_m) / (air_top_m - air_floor_m);
+    } else {
+        share = -half_angle / half_up(dip);
+    }
+    AerialLine line;
+    line.row = sqrt(clamp(share, 0.0, 1.0)) * float(aerial_rises - 1u) + (falls ? 0.0 : float(aerial_rises));
+    float sun_level = sqrt(max(1.0 - ray.sun_rise * ray.sun_rise, 0.0)), levels = level * sun_level;
+    float turn = levels > 1.0e-6 ? clamp((ray.to_sun - ray.rise * ray.sun_rise) / levels, -1.0, 1.0) : 0.0;
+    line.column = (0.5 + 0.5 * turn) * float(aerial_turns - 1u);
+    aerial_reach(ray, falls, line.from_m, line.length_m);
+    return line;
+}
+
+// The inverse, of a whole row and column.
+AirRay aerial_ray(uint row, uint column) {
+    float radius_m = FRAME.earth_radius_m, h_m = eye_in_air_m(), rise, level;
+    float share = float(row % aerial_rises) / float(aerial_rises - 1u);
+    share *= share;
+    vec2 dip = floor_dip(radius_m, h_m);
+    if (row >= aerial_rises && eye_above_air()) {
+        float passes_m = mix(air_floor_m, air_top_m, min(share, last_share)), r_m = radius_m + h_m;
+        rise = -sqrt((h_m - passes_m) * (2.0 * radius_m + h_m + passes_m)) / r_m;
+        level = (radius_m + passes_m) / r_m;
+    } else {
+        float half_angle = row < aerial_rises ? share * half_down(dip) : -share * half_up(dip);
+        float squared = half_angle * half_angle, below = 2.0 * half_angle / (1.0 + squared), beside = (1.0 - squared) / (1.0 + squared);
+        rise = -(dip.y * beside + dip.x * below);
+        level = dip.x * beside - dip.y * below;
+    }
+    float sun_rise = FRAME.style.sun_enu.z, sun_level = sqrt(max(1.0 - sun_rise * sun_rise, 0.0));
+    float turn = 2.0 * float(column) / float(aerial_turns - 1u) - 1.0;
+    return AirRay(radius_m, h_m, rise, sun_rise, rise * sun_rise + level * sun_level * turn);
+}
+
+// Slices are thin at both ends, where the air is densest. The share of a line's way where a slice ends (x of 1), and the inverse.
+float way_of_slice(float x) { return x < 0.5 ? 2.0 * x * x : 1.0 - 2.0 * (1.0 - x) * (1.0 - x); }
+float slice_of_way(float share) { return share < 0.5 ? sqrt(0.5 * share) : 1.0 - sqrt(0.5 * (1.0 - share)); }
+
+// An entry is molecules, dust, often (logarithms: at dusk light falls fast) and through, one after the other.
+uint aerial_at(uint row, uint column, uint slice) {
+    return aerial_first + 3u * ((row * aerial_turns + column) * aerial_slices + slice);
+}
+void add_aerial(inout vec4 sum[3], AerialTable table, uint at, float share) {
+    for (uint k = 0u; k < 3u; ++k) sum[k] += share * table.at[at + k];
+}
+AirLight unpacked_aerial(vec4 sum[3]) {
+    return AirLight(exp(sum[0].xyz), exp(vec3(sum[0].w, sum[1].xy)), exp(vec3(sum[1].zw, sum[2].x)), sum[2].yzw);
+}
+
+// What a line gathers on its way to a distance, and lets through.
+AirLight aerial_light(AirRay ray, float distance_m) {
+    AirLight light = AirLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0));
+    AerialLine line = aerial_line(ray);
+    float share = clamp((distance_m - line.from_m) / line.length_m, 0.0, 1.0);
+    if (share <= 0.0) return light;
+    const float last = float(aerial_slices - 1u);
+    uint slice = min(uint(slice_of_way(share) * last), aerial_slices - 2u);
+    float low = way_of_slice(float(slice) / last), high = way_of_slice(float(slice + 1u) / last);
+    float on = clamp((share - low) / (high - low), 0.0, 1.0);
+    uint first_row = line.row < float(aerial_rises) ? 0u : aerial_rises;
+    uint row = min(uint(line.row) - first_row, aerial_rises - 2u) + first_row, column = min(uint(line.column), aerial_turns - 2u);
+    vec2 part = vec2(line.row, line.column) - vec2(row, column);
+    vec4 near[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0)), far[3] = near;
+    AerialTable table = AerialTable(FRAME.air);
+    for (uint k = 0u; k < 4u; ++k) {
+        uint at = aerial_at(row + k / 2u, column + k % 2u, slice);
+        float weight = (k / 2u == 1u ? part.x : 1.0 - part.x) * (k % 2u == 1u ? part.y : 1.0 - part.y);
+        add_aerial(near, table, at, weight);
+        add_aerial(far, table, at + 3u, weight);
+    }
+    light = unpacked_aerial(near);
+    AirLight beyond = unpacked_aerial(far);
+    // Within a slice as in even air: light comes to the eye as the air lets it through.
+    vec3 let = clamp(beyond.through / max(light.through, vec3(1.0e-30)), vec3(1.0e-6), vec3(1.0));
+    vec3 here = exp(log(let) * on), come = mix((1.0 - here) / max(1.0 - let, vec3(1.0e-6)), vec3(on), greaterThan(let, vec3(0.999)));
+    light.molecules = mix(light.molecules, beyond.molecules, come);
+    light.dust = mix(light.dust, beyond.dust, come);
+    light.often = mix(light.often, beyond.often, come);
+    light.through *= here;
+    return light;
+}
