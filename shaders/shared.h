@@ -223,11 +223,17 @@ struct Casters {
     uvec2 nodes;        // CasterNode, 256 a page
     uvec2 openness;  // float[open_corners^2] for each page of the frame: the share of the sky that its nodes'
                      // corners see
+    uvec2 sun_shares;  // float for each pixel, row by row: what it sees of the sun
 };
+ORO_CONST float no_node_m = 1.0e30f;
 // A node of such a page.
 struct CasterNode {
-    float top_m;    // nothing that it stands for is higher
-    float error_m;  // of the pyramid
+    float top_m;          // nothing that it stands for is higher
+    float error_m;        // of the pyramid
+    float above_top_m;    // the same of the node of the next coarser level that holds it;
+    float above_error_m;  // ... no_node_m where that is not there
+    uint finer;           // 1: the page of the next finer level is there
+    uvec2 block;          // device address of its page's PageBlock
 };
 
 // The geoid's undulation N at nodes of its own, bilinear between them; the nearest beyond them.

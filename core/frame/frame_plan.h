@@ -31,6 +31,8 @@ struct FramePlan {
     std::size_t pages_beyond_frustum{};
     std::size_t pages_beyond_horizon{};
     CasterPlan casters;  // none until plan_casters()
+    // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.
+    std::uint64_t heights{};
 };
 
 // Device address of a page's block, 0 where it is not on the GPU.
@@ -38,8 +40,8 @@ using Residency = std::function<std::uint64_t(const PageIndex& page)>;
 
 // Chooses the pages of a frame, from the top down: of those that can be seen (conservative: none that can is
 // left out) each whose parent is not good enough for tau_px pixels everywhere, or has its posts too far apart
-// to shade slopes from (more than shading_spacing_px). Between neighbours that are there the levels differ by at
-// most one, whatever is missing. model: what of the world is drawn; on another Earth than WGS84 tau_px is
+// to shade slopes from (more than shading_spacing_px). Between neighbours that are there the levels differ by
+// at most one, whatever is missing. model: what of the world is drawn; on another Earth than WGS84 tau_px is
 // kept as well as that Earth agrees with it. coding: of the heights on the GPU. Errors: a page's record that
 // cannot be read; more pages than triangle ids can number.
 Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residency, const Camera& camera,

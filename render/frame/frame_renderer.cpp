@@ -235,7 +235,7 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     ORO_CHECK(drape_.prepare(*gpu_, options_.path, pipelines_, options_.shades ? drape : nullptr, constants));
     if (options_.shades) {
         ORO_CHECK(air_.prepare(*gpu_, pipelines_, constants));
-        ORO_CHECK(casters_.prepare(*gpu_, pipelines_, plan, constants));
+        ORO_CHECK(casters_.prepare(*gpu_, options_.path, pipelines_, plan, constants));
         ShadingKind kind = shading_of(style);
         kind.casts = casters_.casts();
         kind.opens = casters_.opens();

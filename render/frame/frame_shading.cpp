@@ -9,12 +9,12 @@ namespace oro {
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
     air_.record(commands, pipelines_);
-    casters_.record(commands, pipelines_);
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
                   drape_.is_on() ? shader_read
                   : compute_     ? unused
                                  : as_colour,
                   shader_read);
+    casters_.record(commands, pipelines_);
     const bool first = plan.constants.sample_index == 0;
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);

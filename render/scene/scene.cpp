@@ -1,6 +1,7 @@
 #include "render/scene/scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include "core/base/parallel.h"
@@ -30,6 +31,8 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, 
     ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
     ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding, means), coding, means));
     Scene scene(std::move(pages), std::move(store));
+    static std::atomic<std::uint64_t> scenes{0};
+    scene.number_ = ++scenes;
     const std::uint64_t under_way = memory.main > 0 ? memory.main : default_main_bytes;
     const std::size_t page_size = sizeof(gpu::PageBlock) + (means ? sizeof(gpu::PageMeans) : 0);
     scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, means);
@@ -61,6 +64,7 @@ Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau
                 address_words((std::uint64_t{page.block.y} << 32U | page.block.x) + store_.means_offset());
     }
     plan.constants.undulation.N_m = address_words(undulation_.address);
+    plan.heights = number_;
     return plan;
 }
 

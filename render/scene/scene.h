@@ -71,6 +71,7 @@ class Scene {
     PageStore store_;
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
+    std::uint64_t number_{};  // FramePlan::heights
     std::uint64_t bytes_sent_{};
     bool full_{false};  // of the last frame's pages
     CastRequest cast_;

@@ -17,10 +17,78 @@ VkDeviceSize aligned(VkDeviceSize size) {
     return (size + 15) / 16 * 16;
 }
 
+struct CasterLayout {
+    VkDeviceSize pages, table, size;
+};
+CasterLayout layout_of(const CasterPlan& plan) {
+    const VkDeviceSize pages = aligned(sizeof(gpu::Casters));
+    const VkDeviceSize table = aligned(pages + plan.pages.size() * sizeof(gpu::CasterPage));
+    return {pages, table, aligned(table + plan.table.size() * sizeof(gpu::uint))};
+}
+
 }  // namespace
 
-Result<void> CasterBuffers::prepare(const Gpu& gpu, Pipelines& pipelines, const FramePlan& frame,
-                                    gpu::FrameConstants& constants) {
+Result<void> CasterBuffers::reserve(const Gpu& gpu, const FramePlan& frame,
+                                    const gpu::FrameConstants& constants) {
+    const CasterPlan& plan = frame.casters;
+    const auto grow = [&](Buffer& buffer, VkDeviceSize bytes, const char* name) -> Result<void> {
+        if (buffer.size >= bytes) return {};
+        made_.clear();
+        ORO_TRY(buffer,
+                create_buffer(gpu, std::max(bytes, 2 * buffer.size), on_device, MemoryKind::device, name));
+        return {};
+    };
+    const VkDeviceSize bytes = layout_of(plan).size;
+    if (staging_.size < bytes) {
+        const VkDeviceSize size = std::max(bytes, 2 * staging_.size);
+        ORO_TRY(Buffer staging, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload,
+                                              "casters staging"));
+        ORO_CHECK(grow(data_, size, "casters"));
+        staging_ = std::move(staging);
+    }
+    ORO_CHECK(
+        grow(nodes_, plan.pages.size() * gpu::meshlets_per_page * sizeof(gpu::CasterNode), "casters' nodes"));
+    if (opens_)
+        ORO_CHECK(grow(openness_, frame.pages.size() * gpu::open_corners * gpu::open_corners * sizeof(float),
+                       "openness"));
+    width_px_ = constants.width_px;
+    height_px_ = constants.height_px;
+    if (casts_)
+        ORO_CHECK(grow(sun_shares_, VkDeviceSize{width_px_} * height_px_ * sizeof(float), "sun shares"));
+    return {};
+}
+
+// What nodes and openness follow from: the casters as they are sent, then whose heights they are and of which
+// pages. Heights stay where they are, and the same place holds others only as another page.
+void CasterBuffers::describe(const FramePlan& frame, const gpu::Casters& casters) {
+    const CasterPlan& plan = frame.casters;
+    const CasterLayout layout = layout_of(plan);
+    wanted_.assign(layout.size, std::byte{});
+    const auto put = [&](VkDeviceSize at, const void* values, std::size_t bytes) {
+        if (bytes > 0) std::memcpy(wanted_.data() + at, values, bytes);
+    };
+    put(0, &casters, sizeof(casters));
+    put(layout.pages, plan.pages.data(), plan.pages.size() * sizeof(gpu::CasterPage));
+    put(layout.table, plan.table.data(), plan.table.size() * sizeof(gpu::uint));
+    const auto add = [&](const auto& value) {
+        wanted_.resize(wanted_.size() + sizeof(value));
+        std::memcpy(wanted_.data() + wanted_.size() - sizeof(value), &value, sizeof(value));
+    };
+    add(frame.heights);
+    add(casts_);
+    if (opens_)
+        for (const gpu::FramePage& page : frame.pages) {
+            add(page.block);
+            add(page.level);
+            add(page.first_row);
+            add(page.first_column);
+        }
+    size_ = layout.size;
+    is_new_ = frame.heights == 0 || wanted_ != made_;
+}
+
+Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& pipelines,
+                                    const FramePlan& frame, gpu::FrameConstants& constants) {
     const CasterPlan& plan = frame.casters;
     const gpu::FrameStyle& style = constants.style;
     const bool there = !plan.pages.empty();
@@ -28,35 +96,17 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, Pipelines& pipelines, const 
     opens_ = there && style.sky_openness != 0 && plan.for_openness;
     constants.casters = {};
     if (!any()) return {};
-    ORO_CHECK(add_cast_pipelines(gpu, pipelines));
-    const VkDeviceSize pages_at = aligned(sizeof(gpu::Casters));
-    const VkDeviceSize table_at = aligned(pages_at + plan.pages.size() * sizeof(gpu::CasterPage));
-    size_ = aligned(table_at + plan.table.size() * sizeof(gpu::uint));
-    if (staging_.size < size_) {
-        const VkDeviceSize size = std::max(size_, 2 * staging_.size);
-        ORO_TRY(Buffer staging, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload,
-                                              "casters staging"));
-        ORO_TRY(data_, create_buffer(gpu, size, on_device, MemoryKind::device, "casters"));
-        staging_ = std::move(staging);
-    }
-    const VkDeviceSize nodes = plan.pages.size() * gpu::meshlets_per_page * sizeof(gpu::CasterNode);
-    if (nodes_.size < nodes) {
-        ORO_TRY(nodes_, create_buffer(gpu, std::max(nodes, 2 * nodes_.size), on_device, MemoryKind::device,
-                                      "casters' nodes"));
-    }
-    const VkDeviceSize openness = frame.pages.size() * gpu::open_corners * gpu::open_corners * sizeof(float);
-    if (opens_ && openness_.size < openness) {
-        ORO_TRY(openness_, create_buffer(gpu, std::max(openness, 2 * openness_.size), on_device,
-                                         MemoryKind::device, "openness"));
-    }
+    ORO_CHECK(add_cast_pipelines(gpu, path, pipelines));
+    ORO_CHECK(reserve(gpu, frame, constants));
+    const CasterLayout layout = layout_of(plan);
     gpu::Casters casters = plan.frame;
     casters.openness = address_words(openness_.address);
-    casters.pages = address_words(data_.address + pages_at);
-    casters.table = address_words(data_.address + table_at);
+    casters.sun_shares = address_words(sun_shares_.address);
+    casters.pages = address_words(data_.address + layout.pages);
+    casters.table = address_words(data_.address + layout.table);
     casters.nodes = address_words(nodes_.address);
-    std::memcpy(staging_.mapped, &casters, sizeof(casters));
-    std::memcpy(staging_.mapped + pages_at, plan.pages.data(), plan.pages.size() * sizeof(gpu::CasterPage));
-    std::memcpy(staging_.mapped + table_at, plan.table.data(), plan.table.size() * sizeof(gpu::uint));
+    describe(frame, casters);
+    if (is_new_) std::memcpy(staging_.mapped, wanted_.data(), size_);
     constants.casters = address_words(data_.address);
     pages_ = static_cast<std::uint32_t>(plan.pages.size());
     frame_pages_ = static_cast<std::uint32_t>(frame.pages.size());
@@ -65,19 +115,32 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, Pipelines& pipelines, const 
 
 void CasterBuffers::record(VkCommandBuffer commands, const Pipelines& pipelines) {
     if (!any()) return;
-    const VkBufferCopy copy{0, 0, size_};
-    vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
-    memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    const auto written = [&] {
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    };
     const auto dispatch = [&](const OwnedPipeline& pipeline, std::uint32_t groups) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
         vkCmdDispatch(commands, std::min(groups, gpu::groups_per_row),
                       (groups + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
     };
-    if (casts_) dispatch(pipelines.caster_tops, groups_a_page * pages_);
-    if (opens_) dispatch(pipelines.openness, gpu::open_groups_a_page * frame_pages_);
-    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    if (is_new_) {
+        const VkBufferCopy copy{0, 0, size_};
+        vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+        if (casts_) dispatch(pipelines.caster_tops, groups_a_page * pages_);
+        if (opens_) dispatch(pipelines.openness, gpu::open_groups_a_page * frame_pages_);
+        written();
+        made_.swap(wanted_);
+    }
+    if (!casts_) return;
+    for (std::uint32_t turn = 0; turn < pipelines.sun_shares.size(); ++turn) {
+        const std::uint32_t side_px = 32U >> turn;  // of a workgroup's square
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.sun_shares[turn].get());
+        vkCmdDispatch(commands, (width_px_ + side_px - 1) / side_px, (height_px_ + side_px - 1) / side_px, 1);
+        written();
+    }
 }
 
 }  // namespace oro

@@ -8,6 +8,7 @@
 #include "spirv/edges_comp.h"
 #include "spirv/openness_comp.h"
 #include "spirv/shade_comp.h"
+#include "spirv/shares_comp.h"
 #include "spirv/tops_comp.h"
 
 namespace oro {
@@ -70,7 +71,7 @@ Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
-Result<void> add_cast_pipelines(const Gpu& gpu, Pipelines& pipelines) {
+Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
     if (!pipelines.caster_tops) {
         ORO_TRY(pipelines.caster_tops,
                 create_compute_pipeline(gpu, pipelines, tops_comp_spirv, "caster tops"));
@@ -78,6 +79,15 @@ Result<void> add_cast_pipelines(const Gpu& gpu, Pipelines& pipelines) {
     if (!pipelines.openness) {
         ORO_TRY(pipelines.openness,
                 create_compute_pipeline(gpu, pipelines, openness_comp_spirv, "sky openness"));
+    }
+    for (std::uint32_t turn = 0; turn < pipelines.sun_shares.size(); ++turn) {
+        if (pipelines.sun_shares[turn]) continue;
+        const std::array<std::uint32_t, 2> values{flag(path == RasterPath::compute), 2U >> turn};
+        const std::array<VkSpecializationMapEntry, 2> entries{
+            {{0, 0, sizeof(values[0])}, {1, sizeof(values[0]), sizeof(values[1])}}};
+        const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
+        ORO_TRY(pipelines.sun_shares[turn],
+                create_compute_pipeline(gpu, pipelines, shares_comp_spirv, "sun shares", &constants));
     }
     return {};
 }

@@ -1,4 +1,4 @@
-// Finds out what a place gets of the sun's light and of the sky's. Needs shown.glsl and what shades with it.
+// What a place gets of the sun's light and of the sky's. Needs shown.glsl and what shades with it.
 
 // Ground that is turned away from the sun has none of its light to lose.
 bool faces_sun(SurfacePoint surface) {
@@ -6,7 +6,7 @@ bool faces_sun(SurfacePoint surface) {
     return dot(normal, in_air ? sun_at(surface.view) : FRAME.style.sun_enu) > 0.0;
 }
 
-void cast_on(uint id, SurfacePoint surface) {
-    if (casts && faces_sun(surface)) shown_share = sun_over_terrain(cast_point(id, surface));
+void cast_on(uint id, SurfacePoint surface, ivec2 pixel) {
+    if (casts && faces_sun(surface)) shown_share = CasterShares(CASTERS.sun_shares).at[pixel.y * int(FRAME.width_px) + pixel.x];
     if (opens) open_share = sky_openness(id, surface);
 }

@@ -5,6 +5,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CasterNodes
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CasterShares { float at[]; };
 #define CASTERS CasterList(FRAME.casters).at
 
+const float no_sun_share = -1.0;  // of a pixel without ground
+
 // The number of the page of a level that holds a post of the region, or no_page.
 uint caster_page(uint level, ivec2 post) {
     CasterLevel held = CASTERS.levels[level];
@@ -26,12 +28,11 @@ struct CasterCell {
     ivec2 to;
     ivec4 heights;  // north-west, north-east, south-west, south-east
 };
-CasterCell caster_cell(uint page, uint level, ivec2 post) {
+CasterCell caster_cell(PageBlocks block, uint level, ivec2 post) {
     uvec2 number = uvec2(post) >> level;
     CasterCell cell;
     cell.from = ivec2(number << level);
     cell.to = min(cell.from + (1 << level), ivec2(FRAME.last_row, FRAME.last_column));
-    PageBlocks block = PageBlocks(CasterPages(CASTERS.pages).at[page].block);
     uint place = ((number.x & 127u) + 1u) * height_stride + (number.y & 127u) + 1u;
     cell.heights = ivec4(stored_height(block, place), stored_height(block, place + 1u), stored_height(block, place + height_stride),
                          stored_height(block, place + height_stride + 1u));

@@ -10,6 +10,7 @@ struct CastPoint {
     float distance_m;
     vec2 latitude;   // cosine, sine
     vec2 longitude;  // ... from the eye's
+    uint level;      // that it is drawn on
 };
 
 // Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964, 4.4.42: Vulkan's own may be off by 4096 ulp.
@@ -69,11 +70,12 @@ vec3 towards_sun_m(CastFrame at, float t_m) {
 struct SunLine {
     vec3 a1, a2, a3;  // row, column, metres; of the share of the way
     float length_m;
+    float per_m;  // 1 / length_m
     float level;  // cosine of the sun's elevation
     bool rises;   // above the disc's lower edge, too, and so all the way
 };
 vec3 along(SunLine line, float t_m) {
-    float share = t_m / line.length_m;
+    float share = t_m * line.per_m;
     return share * (line.a1 + share * (line.a2 + share * line.a3));
 }
 
@@ -83,6 +85,7 @@ SunLine sun_line(CastFrame at) {
     float root = sqrt(up * up + 2.0 * room / radius);
     SunLine line;
     line.length_m = 1.02 * (up > 0.0 ? 2.0 * room / (up + root) : radius * (root - up));
+    line.per_m = 1.0 / line.length_m;
     line.level = max(length(at.sun.xy), 0.02);
     line.rises = up > 0.01;
     vec3 f1 = towards_sun_m(at, line.length_m / 3.0), f2 = towards_sun_m(at, line.length_m * 2.0 / 3.0);
@@ -93,18 +96,25 @@ SunLine sun_line(CastFrame at) {
     return line;
 }
 
-// The coarsest page that is good enough for a place, or the finest that is there.
-uint caster_at(ivec2 post, float error_m, out uint level) {
-    uint page = no_page;
-    level = 0u;
-    for (int k = int(CASTERS.level_count) - 1; k >= 0; --k) {
-        uint finer = caster_page(uint(k), post);
-        if (finer == no_page) break;
-        page = finer;
-        level = uint(k);
-        if (CasterNodes(CASTERS.nodes).at[caster_node(page, level, post)].error_m <= error_m) break;
+// The node of the coarsest level that is good enough for a place, or of the finest that is there; false where there is none. level: where
+// to begin to look, and what was found.
+bool caster_at(ivec2 post, float error_m, inout uint level, out CasterNode node) {
+    const uint top = CASTERS.level_count - 1u;
+    level = min(level, top);
+    uint page = caster_page(level, post);
+    while (page == no_page && level < top) page = caster_page(++level, post);
+    if (page == no_page) return false;
+    node = CasterNodes(CASTERS.nodes).at[caster_node(page, level, post)];
+    // Errors grow from level to level: one of the two, or none.
+    while (node.error_m > error_m && node.finer == 1u) {
+        --level;
+        node = CasterNodes(CASTERS.nodes).at[caster_node(caster_page(level, post), level, post)];
     }
-    return page;
+    while (node.above_error_m <= error_m) {
+        ++level;
+        node = CasterNodes(CASTERS.nodes).at[caster_node(caster_page(level, post), level, post)];
+    }
+    return true;
 }
 
 // Which straight piece of the line is followed: within 0.3 m of the curve.
@@ -164,9 +174,10 @@ void meet_level(CastPiece piece, CasterCell cell, float t_m, float to_m, bool so
 
 // The terrain's edge as seen along the part of a piece in one node, cell by cell: its triangles are highest against the line where the
 // line crosses their sides.
-void look_at_node(SunLine line, CastPiece piece, uint page, uint level, float top_m, float from_m, float to_m, inout CastSearch search) {
+void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, float from_m, float to_m, inout CastSearch search) {
     float step_m = 1.0e-3 / max(max(abs(piece.per_m.x), abs(piece.per_m.y)), 1.0e-9);
-    float t_m = from_m;
+    float base_m = float(search.base) * height_step_m, per_slope = 1.0 / line.level;
+    float t_m = from_m, z_m = along(line, t_m).z + search.lift_m;
     bool meets = level != search.last_level && from_m - search.last_m <= 2.0 * step_m;
     search.last_level = level;
     search.step_m = 0.0;
@@ -176,25 +187,32 @@ void look_at_node(SunLine line, CastPiece piece, uint page, uint level, float to
     for (int i = 0; i < 40 && t_m + step_m < to_m && search.least > -sun_radius_rad; ++i) {
         vec2 at = piece.at + (t_m + step_m - piece.from_m) * piece.per_m;
         ivec2 post = search.post + ivec2(floor(at));
-        CasterCell cell = caster_cell(page, level, post);
+        CasterCell cell = caster_cell(PageBlocks(node.block), level, post);
         vec2 low = vec2(cell.from - search.post), high = vec2(cell.to - search.post);
-        float out_m = clamp(way_out_of(piece, low, high), t_m + step_m, to_m);
-        // Where it crosses the diagonal.
-        vec2 size = high - low, here = (piece.at + (t_m - piece.from_m) * piece.per_m - low) / size, step = piece.per_m / size;
-        float apart = here.x - here.y, change = step.x - step.y;
-        float diagonal_m = change == 0.0 ? -1.0 : t_m - apart / change;
-        bool crosses = diagonal_m > t_m && diagonal_m < out_m;
-        bool before = crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * change > 0.0;  // in the south-western triangle
-        if (meets) meet_level(piece, cell, t_m, to_m, before, search);
-        meets = false;
-        look_at_cell(line, piece, cell, t_m, before, search);
-        if (crosses) {
-            look_at_cell(line, piece, cell, diagonal_m, before, search);
-            look_at_cell(line, piece, cell, diagonal_m, !before, search);
+        float out_m = clamp(way_out_of(piece, low, high), t_m + step_m, to_m), out_z_m = along(line, out_m).z + search.lift_m;
+        // Most cells are too low to matter; the last of a node is where the next one goes on.
+        int highest = max(max(cell.heights.x, cell.heights.y), max(cell.heights.z, cell.heights.w));
+        float matters_m = min(z_m, out_z_m) - (out_m - t_m) * (out_m - t_m) / 5.0e7 - max(search.least, 0.0) * out_m * per_slope;
+        bool low_enough = float(highest) * height_step_m - base_m < matters_m && search.step_m == 0.0 && !meets && out_m + step_m < to_m;
+        if (!low_enough) {
+            // Where it crosses the diagonal.
+            vec2 size = high - low, here = (piece.at + (t_m - piece.from_m) * piece.per_m - low) / size, step = piece.per_m / size;
+            float apart = here.x - here.y, change = step.x - step.y;
+            float diagonal_m = change == 0.0 ? -1.0 : t_m - apart / change;
+            bool crosses = diagonal_m > t_m && diagonal_m < out_m;
+            bool before = crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * change > 0.0;  // in the south-western triangle
+            if (meets) meet_level(piece, cell, t_m, to_m, before, search);
+            meets = false;
+            look_at_cell(line, piece, cell, t_m, before, search);
+            if (crosses) {
+                look_at_cell(line, piece, cell, diagonal_m, before, search);
+                look_at_cell(line, piece, cell, diagonal_m, !before, search);
+            }
+            look_at_cell(line, piece, cell, out_m, crosses ? !before : before, search);
         }
-        look_at_cell(line, piece, cell, out_m, crosses ? !before : before, search);
         t_m = out_m;
-        if (line.rises && along(line, t_m).z - t_m * sun_radius_rad / line.level + search.lift_m > top_m) return;
+        z_m = out_z_m;
+        if (line.rises && z_m - t_m * sun_radius_rad * per_slope > node.top_m - base_m) return;
     }
 }
 
@@ -202,13 +220,18 @@ void look_at_node(SunLine line, CastPiece piece, uint page, uint level, float to
 bool look_along(SunLine line, CastPiece piece, float error_m, inout uint level, inout CastSearch search) {
     const uint top = CASTERS.level_count - 1u;
     float step_m = 1.0e-3 / max(max(abs(piece.per_m.x), abs(piece.per_m.y)), 1.0e-9);
-    float t_m = piece.from_m;
+    float t_m = piece.from_m, base_m = float(search.base) * height_step_m, slope = sun_radius_rad / line.level;
+    uint page = no_page, page_level = no_page;
+    ivec2 page_at = ivec2(0);
     for (int i = 0; i < 4000 && t_m < piece.to_m; ++i) {
         vec2 at = piece.at + (t_m + step_m - piece.from_m) * piece.per_m;
         ivec2 post = search.post + ivec2(floor(at));
         if (post.x < 0 || post.x >= int(FRAME.last_row)) return false;
         if (post.y < 0 || post.y >= int(FRAME.last_column)) return false;
-        uint page = caster_page(level, post);
+        ivec2 there = post >> int(level + 7u);
+        if (page_level != level || there != page_at) page = caster_page(level, post);
+        page_level = level;
+        page_at = there;
         if (page == no_page) {
             if (level >= top) return false;
             ++level;
@@ -218,25 +241,23 @@ bool look_along(SunLine line, CastPiece piece, float error_m, inout uint level, 
         float out_m = way_out_of(piece, vec2(node_from - search.post), vec2(node_from + (8 << level) - search.post));
         out_m = min(max(out_m, t_m + step_m), piece.to_m);
         CasterNode node = CasterNodes(CASTERS.nodes).at[caster_node(page, level, post)];
-        float slope = sun_radius_rad / line.level;
-        float low_m = min(along(line, t_m).z - t_m * slope, along(line, out_m).z - out_m * slope) -
-                      (out_m - t_m) * (out_m - t_m) / 5.0e7;
-        if (node.top_m - float(search.base) * height_step_m < low_m + search.lift_m) {
+        float low_m = min(along(line, t_m).z - t_m * slope, along(line, out_m).z - out_m * slope) - (out_m - t_m) * (out_m - t_m) / 5.0e7;
+        low_m += search.lift_m + base_m;
+        if (node.top_m < low_m) {
             t_m = out_m;
-            if (level < top) ++level;
+            if (node.above_top_m < low_m) ++level;
             continue;
         }
-        if (level > 0u && node.error_m > error_m && caster_page(level - 1u, post) != no_page) {
+        if (node.error_m > error_m && node.finer == 1u) {
             --level;
             continue;
         }
         // The coarsest that is good enough, by whatever way the search came here: so pages that other pixels need change nothing.
-        uint above = level < top ? caster_page(level + 1u, post) : no_page;
-        if (above != no_page && CasterNodes(CASTERS.nodes).at[caster_node(above, level + 1u, post)].error_m <= error_m) {
+        if (node.above_error_m <= error_m) {
             ++level;
             continue;
         }
-        look_at_node(line, piece, page, level, node.top_m - float(search.base) * height_step_m, t_m, out_m, search);
+        look_at_node(line, piece, node, level, t_m, out_m, search);
         if (search.least <= -sun_radius_rad) return false;
         t_m = out_m;
     }
@@ -249,15 +270,44 @@ float disc_share(float above_rad) {
     return 0.5 + (x * sqrt(max(1.0 - x * x, 0.0)) + asin(x)) / pi;
 }
 
+// How much faster a cell's triangle rises towards the sun than the line does, metres a metre.
+float rise_over(SunLine line, CastPiece piece, CasterCell cell, bool south_west) {
+    int corner = south_west ? cell.heights.z : cell.heights.y;
+    if (cell.heights.x == void_height || cell.heights.w == void_height || corner == void_height) return 0.0;
+    vec2 steps = vec2(corner - cell.heights.x, cell.heights.w - corner);  // along the triangle's two sides
+    vec2 rise = height_step_m * (south_west ? steps : steps.yx) / vec2(cell.to - cell.from);  // southwards, eastwards, a post
+    return dot(rise, piece.per_m) - line.a1.z * line.per_m;
+}
+
+// Metres by which a line begins above its triangle where that, or the next towards the sun, is turned away from the sun, but posts are so
+// large that the ground is shaded smoothly: there the shaded slope tells how much light it gets, and an edge of triangles must not.
+// Nothing where slopes are not shaded at all.
+float smooth_lift_m(SunLine line, CastPiece piece, CasterCell cell, uint level, CastPoint point, bool south_west) {
+    vec2 size = vec2(cell.to - cell.from), low = vec2(cell.from - point.post);
+    float cell_m = size.x * CASTERS.row_rad * 6371000.0, cell_px = cell_m * FRAME.pixels_per_tangent / point.distance_m;
+    if (FRAME.style.relief < 0.5 || cell_px <= 8.0) return 0.0;
+    float over = rise_over(line, piece, cell, south_west), out_m = max(way_out_of(piece, low, low + size), 0.0);
+    vec2 next = piece.at + (out_m + 0.05 * cell_m) * piece.per_m;
+    ivec2 post = clamp(point.post + ivec2(floor(next)), ivec2(0), ivec2(FRAME.last_row, FRAME.last_column) - 1);
+    uint page = caster_page(level, post);
+    if (page != no_page) {
+        CasterCell beyond = caster_cell(PageBlocks(CasterPages(CASTERS.pages).at[page].block), level, post);
+        vec2 share = (next - vec2(beyond.from - point.post)) / vec2(beyond.to - beyond.from);
+        over = max(over, rise_over(line, piece, beyond, share.x >= share.y));
+    }
+    float smoothly = smoothstep(8.0, 24.0, cell_px) * (1.0 - smoothstep(0.25, 0.5, over));
+    return smoothly * 2.0 * max(over, 0.0) * (out_m + 0.7 * cell_m);
+}
+
 float sun_over_terrain(CastPoint point) {
     // The sun's rise where the place is decides how much its casters may be off.
     CastFrame at = cast_frame(point, 0.0);
     float slope = clamp(at.sun.z / max(length(at.sun.xy), 1.0e-3), 0.02, 1.0);
     float error_m = CASTERS.error_per_m * point.distance_m * slope;
-    uint level;
-    uint page = caster_at(point.post, error_m, level);
-    if (page == no_page) return 1.0;
-    CasterCell cell = caster_cell(page, level, point.post);
+    uint level = point.level;
+    CasterNode node;
+    if (!caster_at(point.post, error_m, level, node)) return 1.0;
+    CasterCell cell = caster_cell(PageBlocks(node.block), level, point.post);
     vec2 share = clamp((vec2(point.post - cell.from) + point.beyond) / vec2(cell.to - cell.from), 0.0, 1.0);
     float base_m = above_base(cell, share, share.x >= share.y, 0);
     if (base_m == no_ground_m) return 1.0;
@@ -267,6 +317,8 @@ float sun_over_terrain(CastPoint point) {
     CastPiece piece;
     piece.from_m = 0.0;
     piece.at = point.beyond;
+    piece.per_m = line.a1.xy * line.per_m;
+    search.lift_m += smooth_lift_m(line, piece, cell, level, point, share.x >= share.y);
     for (int i = 0; i < 500 && piece.from_m < line.length_m; ++i) {
         piece.to_m = min(piece.from_m + cast_piece_m, line.length_m);
         vec2 end = point.beyond + along(line, piece.to_m).xy;

@@ -15,6 +15,7 @@ CastPoint cast_point(uint id, SurfacePoint surface) {
     point.post = min(from + ivec2(floor(beyond)), last - 1);
     point.beyond = beyond - vec2(point.post - from);
     point.distance_m = length(surface.view);
+    point.level = page.level;
     RowTable rows = RowTable(FRAME.row_terms);
     ColumnTable columns = ColumnTable(FRAME.column_terms);
     uint row = page.row_terms + uint(whole.x), column = page.column_terms + uint(whole.y);

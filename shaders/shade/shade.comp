@@ -56,7 +56,7 @@ void main() {
     } else {
         SurfacePoint point = surface_at(id - 1u, ray);
         depth = FRAME.near_m / -point.view.z;
-        cast_on(id - 1u, point);
+        cast_on(id - 1u, point, pixel);
         colour = seen_ground(point);
     }
     // From the triangle and the pixel alone, so that both ways of drawing give the same.

@@ -164,20 +164,26 @@ void drape_place(FramePage page, vec2 post, out ivec2 whole, out vec2 part) {
     part = along - posts;
 }
 
-SurfacePoint surface_at(uint id, vec3 ray) {
-    uvec2 posts[3];
-    vec3 at[3];
-    float heights_m[3];
-    FramePage page = corners_of(id, posts, heights_m, at);
-    // Where the ray from the eye (the origin of view coordinates) crosses the triangle's plane.
-    // Source: T. Möller, B. Trumbore, Fast, minimum storage ray/triangle intersection, J. Graphics Tools 2(1), 1997.
+// Where the ray from the eye (the origin of view coordinates) crosses a triangle's plane, as shares of its second and third post; of a
+// ray that passes beside it, where it is nearest. scale: of what changes the shares.
+// Source: T. Möller, B. Trumbore, Fast, minimum storage ray/triangle intersection, J. Graphics Tools 2(1), 1997.
+vec2 met_shares(vec3 ray, vec3 at[3], out float scale) {
     vec3 edge_b = at[1] - at[0], edge_c = at[2] - at[0];
     vec3 p = cross(ray, edge_c);
     float determinant = dot(edge_b, p);
-    float scale = determinant == 0.0 ? 0.0 : 1.0 / determinant;
+    scale = determinant == 0.0 ? 0.0 : 1.0 / determinant;
     vec2 shares = vec2(dot(-at[0], p), dot(ray, cross(-at[0], edge_b))) * scale;
     bool within = determinant != 0.0 && shares.x >= 0.0 && shares.y >= 0.0 && shares.x + shares.y <= 1.0;
-    if (!within) shares = rim_shares(ray, at[0], edge_b, edge_c);
+    return within ? shares : rim_shares(ray, at[0], edge_b, edge_c);
+}
+
+SurfacePoint surface_at(uint id, vec3 ray) {
+    uvec2 posts[3];
+    vec3 at[3];
+    float heights_m[3], scale;
+    FramePage page = corners_of(id, posts, heights_m, at);
+    vec2 shares = met_shares(ray, at, scale);
+    vec3 edge_b = at[1] - at[0], edge_c = at[2] - at[0];
     float share_b = shares.x, share_c = shares.y;
     float share_a = 1.0 - share_b - share_c;
 
