@@ -86,7 +86,11 @@ ORO_CONST float means_normal_steps = 1023.0f;
 struct PageMeans {
     uint normals[18496];  // mean unit normal in steps: east 11 bits, north 11, up 10; 0 without a post
     uint heights[18496];  // halves: mean height above the ellipsoid without exaggeration, and its spread
+    uint spreads[18496];  // of the normals' east and north: standard deviations, 11 bits each of 0 to 1, and
+                          // their correlation, 10 bits of -1 to 1
 };
+ORO_CONST float means_spread_steps = 2047.0f;
+ORO_CONST float means_correlation_steps = 511.0f;
 // One page as the GPU holds it.
 struct PageBlock {
     MeshletBounds meshlets[256];
@@ -128,8 +132,8 @@ struct FramePage {
 // Slopes are shaded from the coarsest page whose posts are at most so many pixels apart, whatever level the
 // triangles are of.
 ORO_CONST float shading_spacing_px = 1.5f;
-// The same where a pixel's colour is the mean of the ground that it covers: it takes four squares or more.
-ORO_CONST float means_spacing_px = 0.75f;
+// The same where a pixel's colour is the mean of the ground that it covers: it takes eight squares or more.
+ORO_CONST float means_spacing_px = 0.375f;
 // FrameStyle.footprint: what a pixel's colour is made of.
 ORO_CONST uint footprint_point = 0u;   // the ground in its middle, as shading_spacing_px says
 ORO_CONST uint footprint_mean = 1u;    // the mean of all that it covers

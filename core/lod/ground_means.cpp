@@ -10,9 +10,20 @@
 
 namespace oro {
 
+namespace {
+
+// Ground is shaded from slopes that are smooth at and between posts. What squares of several posts know of
+// their spread is of such slopes: those of the posts beside weigh half by Horn's formula, more for what is
+// between posts. By trial. Source: B. K. P. Horn, Hill shading and the reflectance map, Proceedings of the
+// IEEE 69(1), 1981.
+constexpr float beside_weight = 0.8F;
+
+}  // namespace
+
 // Sums over the posts of a square.
 struct GroundMeans::Sums {
-    float x{}, y{}, z{};  // of unit normals: east, north, up
+    float x{}, y{}, z{};     // of unit normals: east, north, up
+    float xx{}, xy{}, yy{};  // of their products
     float h_m{};
     float hh_m2{};
     float posts{};
@@ -21,6 +32,9 @@ struct GroundMeans::Sums {
         x += other.x;
         y += other.y;
         z += other.z;
+        xx += other.xx;
+        xy += other.xy;
+        yy += other.yy;
         h_m += other.h_m;
         hh_m2 += other.hh_m2;
         posts += other.posts;
@@ -52,20 +66,38 @@ std::int32_t GroundMeans::steps(int row, int column) const {
     return heights_.at(row, column);
 }
 
-GroundMeans::Sums GroundMeans::post(int row, int column) const {
+// From the post before to the one after, in steps: rows apart or columns apart. The post itself must not be
+// void.
+float GroundMeans::rise(int row, int column, int rows, int columns) const {
+    const std::int32_t here = steps(row, column), before = steps(row - rows, column - columns),
+                       after = steps(row + rows, column + columns);
+    const bool no_before = before == void_height_steps, no_after = after == void_height_steps;
+    const float whole = static_cast<float>((no_after ? here : after) - (no_before ? here : before));
+    return no_before == no_after ? 0.5F * whole : whole;
+}
+
+GroundMeans::Sums GroundMeans::post(int row, int column, float beside) const {
     const std::int32_t here = steps(row, column);
     if (here == void_height_steps) return {};
-    const auto rise = [&](std::int32_t before, std::int32_t after) {
-        const bool no_before = before == void_height_steps, no_after = after == void_height_steps;
-        const float whole = static_cast<float>((no_after ? here : after) - (no_before ? here : before));
-        return no_before == no_after ? 0.5F * whole : whole;
-    };
+    float down = rise(row, column, 1, 0), right = rise(row, column, 0, 1), down_whole = 1.0F,
+          right_whole = 1.0F;
+    for (int side = -1; beside > 0.0F && side <= 1; side += 2) {
+        if (steps(row, column + side) != void_height_steps) {
+            down += beside * rise(row, column + side, 1, 0);
+            down_whole += beside;
+        }
+        if (steps(row + side, column) != void_height_steps) {
+            right += beside * rise(row + side, column, 0, 1);
+            right_whole += beside;
+        }
+    }
     const RowScale& scale = rows_[static_cast<std::size_t>(row)];
-    const float down = rise(steps(row - 1, column), steps(row + 1, column)) * scale.down_per_m;
-    const float right = rise(steps(row, column - 1), steps(row, column + 1)) * scale.right_per_m;
+    down *= scale.down_per_m / down_whole;
+    right *= scale.right_per_m / right_whole;
     const float length = std::sqrt(down * down + right * right + 1.0F);
     const float h_m = static_cast<float>(here) * static_cast<float>(height_step_m) / exaggeration_;
-    return {-right / length, down / length, 1.0F / length, h_m, h_m * h_m, 1.0F};
+    const float x = -right / length, y = down / length;
+    return {x, y, 1.0F / length, x * x, x * y, y * y, h_m, h_m * h_m, 1.0F};
 }
 
 // Four squares of the level below make one.
@@ -77,7 +109,7 @@ void GroundMeans::add_level(std::vector<Sums>& below, int threads) {
     level.squares.resize(count);
     const auto finer_at = [&](int row, int column) {
         if (row >= finer.rows || column >= finer.columns) return Sums{};
-        if (finer.squares.empty()) return post(row, column);
+        if (finer.squares.empty()) return post(row, column, beside_weight);
         return below[static_cast<std::size_t>(row) * static_cast<std::size_t>(finer.columns) +
                      static_cast<std::size_t>(column)];
     };
@@ -96,7 +128,7 @@ void GroundMeans::add_level(std::vector<Sums>& below, int threads) {
 
 // See shaders/shared.h, PageMeans.
 GroundMeans::Packed GroundMeans::packed(const Sums& sums) {
-    if (sums.posts == 0.0F) return {0, 0};
+    if (sums.posts == 0.0F) return {};
     const auto part = [&](float sum) {
         return static_cast<std::int32_t>(std::lround(sum / sums.posts * gpu::means_normal_steps));
     };
@@ -106,7 +138,22 @@ GroundMeans::Packed GroundMeans::packed(const Sums& sums) {
     const float spread_m = std::sqrt(std::max(0.0F, sums.hh_m2 / sums.posts - h_m * h_m));
     constexpr float most_m = 65000.0F;  // of a half
     return {(x & 0x7ffU) | (y & 0x7ffU) << 11U | z << 22U,
-            glm::packHalf2x16({std::clamp(h_m, -most_m, most_m), std::min(spread_m, most_m)})};
+            glm::packHalf2x16({std::clamp(h_m, -most_m, most_m), std::min(spread_m, most_m)}),
+            packed_spread(sums)};
+}
+
+std::uint32_t GroundMeans::packed_spread(const Sums& sums) {
+    const float x = sums.x / sums.posts, y = sums.y / sums.posts;
+    const float along_x = std::sqrt(std::max(0.0F, sums.xx / sums.posts - x * x));
+    const float along_y = std::sqrt(std::max(0.0F, sums.yy / sums.posts - y * y));
+    const float both = along_x * along_y;
+    const float correlation = both > 1.0e-6F ? (sums.xy / sums.posts - x * y) / both : 0.0F;
+    const auto steps = [](float part, float count) {
+        return static_cast<std::int32_t>(std::lround(std::clamp(part, -1.0F, 1.0F) * count));
+    };
+    return static_cast<std::uint32_t>(steps(along_x, gpu::means_spread_steps)) |
+           static_cast<std::uint32_t>(steps(along_y, gpu::means_spread_steps)) << 11U |
+           static_cast<std::uint32_t>(steps(correlation, gpu::means_correlation_steps)) << 22U;
 }
 
 void GroundMeans::page(const PageIndex& index, gpu::PageMeans& means) const {
@@ -120,11 +167,12 @@ void GroundMeans::page(const PageIndex& index, gpu::PageMeans& means) const {
         if (row >= 0 && row < level.rows && column >= 0 && column < level.columns)
             square =
                 index.level == 0
-                    ? packed(post(row, column))
+                    ? packed(post(row, column, 0.0F))
                     : level.squares[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
                                     static_cast<std::size_t>(column)];
         means.normals[i] = square.normal;
         means.heights[i] = square.height;
+        means.spreads[i] = square.spread;
     }
 }
 

@@ -13,12 +13,12 @@ namespace oro {
 
 // Normals of the drawn surface at its posts (slopes from the posts around, one-sided beside a void), and
 // heights above the ellipsoid without the exaggeration. A square of level k has 2^k x 2^k posts, those that
-// are void left out; the mean normal is shorter than 1 the more its normals differ, which says how rough the
-// ground is. Source: M. Toksvig, Mipmapping normal maps, J. Graphics Tools 10(3), 2005.
+// are void left out; how much its normals differ, and in which direction, their covariance tells. Moments add
+// up from square to square. Source: M. Olano, D. Baker, LEAN mapping, I3D 2010.
 class GroundMeans {
   public:
-    // The work is shared between `threads` (at least 1), with one result for any number. Keeps 2.7 bytes a
-    // post, takes 8 more while it works. `grid` and `heights` must
+    // The work is shared between `threads` (at least 1), with one result for any number. Keeps 4 bytes a
+    // post, takes 12 more while it works. `grid` and `heights` must
     // outlive it.
     GroundMeans(const PostGrid& grid, const DrawnHeights& heights, double exaggeration, int threads);
 
@@ -30,6 +30,7 @@ class GroundMeans {
     struct Packed {
         std::uint32_t normal;
         std::uint32_t height;
+        std::uint32_t spread;
     };
     struct Level {
         int rows{};
@@ -37,7 +38,10 @@ class GroundMeans {
         std::vector<Packed> squares;  // none of level 0: its squares are the posts
     };
     static Packed packed(const Sums& sums);
-    [[nodiscard]] Sums post(int row, int column) const;
+    static std::uint32_t packed_spread(const Sums& sums);
+    [[nodiscard]] float rise(int row, int column, int rows, int columns) const;
+    // beside: weight of the slopes of the posts beside it.
+    [[nodiscard]] Sums post(int row, int column, float beside) const;
     [[nodiscard]] std::int32_t steps(int row, int column) const;
     void add_level(std::vector<Sums>& below, int threads);
 

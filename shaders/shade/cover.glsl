@@ -9,7 +9,7 @@ float snow_line_m(float lat_deg) {
     return mix(FRAME.style.cover.snow_line[below].H_m, FRAME.style.cover.snow_line[above].H_m, share);
 }
 
-vec3 cover_at(SurfacePoint point) {
+vec3 ground_cover(SurfacePoint point) {
     float slope = slope_deg(point), steepness = min(sin(radians(slope)) * 2.0, 1.0);
     float lean = length(point.normal.xy);
     float to_pole = lean > 0.0 ? point.normal.y / lean * (point.lat_deg < 0.0 ? -1.0 : 1.0) : 0.0;
@@ -22,18 +22,4 @@ vec3 cover_at(SurfacePoint point) {
                         + smoothstep(-100.0, 300.0, above_m));
     float rock = smoothstep(FRAME.style.cover.rock_from_deg + held, FRAME.style.cover.rock_to_deg + held, slope);
     return mix(tint(above_m), FRAME.style.cover.rock, rock);
-}
-
-// Over a pixel: of its slopes a quarter each of a normal distribution, of its heights below and above the mean by turns.
-vec3 ground_cover(SurfacePoint point) {
-    if (!by_means || (!is_spread(point.normal) && point.H_spread_m < 1.0)) return cover_at(point);
-    const float quarters[4] = {-1.27, -0.325, 0.325, 1.27};
-    float mean_H_m = point.mean_H_m;
-    vec3 colour = vec3(0.0);
-    for (int i = 0; i < 4; ++i) {
-        point.aside = quarters[i];
-        point.mean_H_m = mean_H_m + (i % 2 == 0 ? point.H_spread_m : -point.H_spread_m);
-        colour += 0.25 * cover_at(point);
-    }
-    return colour;
 }

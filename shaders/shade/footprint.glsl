@@ -5,21 +5,26 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Me
 
 struct GroundSum {
     vec3 normal;
-    float h_m;  // those of heights are from an origin near by, so that their squares keep their digits
+    vec3 second;  // products of its east and north: xx, xy, yy
+    float h_m;    // those of heights are from an origin near by, so that their squares keep their digits
     float hh_m2;
     float share;  // without voids
 };
+GroundSum no_ground() { return GroundSum(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0); }
 
 // A square of a page of this frame, (row, column); beyond the four around the page the nearest of them.
 void add_square(inout GroundSum sum, uvec2 means, ivec2 square, float share, float origin_m) {
     uvec2 at = uvec2(clamp(square + int(means_apron), ivec2(0), ivec2(int(means_stride) - 1)));
     uint place = at.x * means_stride + at.y;
-    uint normal = MeansOfPages(means).at[0].normals[place];
+    uint normal = MeansOfPages(means).at[0].normals[place], spread = MeansOfPages(means).at[0].spreads[place];
     if (normal == 0u) return;
     vec2 height = unpackHalf2x16(MeansOfPages(means).at[0].heights[place]);
-    vec3 steps = vec3(bitfieldExtract(int(normal), 0, 11), bitfieldExtract(int(normal), 11, 11), int(normal >> 22));
+    vec3 mean = vec3(bitfieldExtract(int(normal), 0, 11), bitfieldExtract(int(normal), 11, 11), int(normal >> 22)) / means_normal_steps;
+    vec2 apart = vec2(spread & 2047u, bitfieldExtract(spread, 11, 11)) / means_spread_steps;
+    float correlation = float(int(spread) >> 22) / means_correlation_steps;
     float h_m = height.x - origin_m;
-    sum.normal += share / means_normal_steps * steps;
+    sum.normal += share * mean;
+    sum.second += share * (mean.xxy * mean.xyy + apart.xxy * apart.xyy * vec3(1.0, correlation, 1.0));
     sum.h_m += share * h_m;
     sum.hh_m2 += share * (h_m * h_m + height.y * height.y);
     sum.share += share;
@@ -70,6 +75,7 @@ struct Footprint {
     vec2 across;     // at a right angle to that
     float across_posts;
     float round_posts;  // its width on ground that faces the eye
+    mat2 to_next;       // metres east and north to what the next pixels show, to the right and below
 };
 
 // East, north and up at a place, as columns, in view coordinates.
@@ -90,9 +96,10 @@ Footprint footprint_at(vec3 view, vec2 region, vec3 normal, mat3 axes, vec2 post
     vec3 x = vec3(pixel.x, 0.0, 0.0), y = vec3(0.0, pixel.y, 0.0);
     x = -view.z * (x - ray * (dot(across, x) / facing));
     y = -view.z * (y - ray * (dot(across, y) / facing));
+    Footprint foot;
+    foot.to_next = mat2(vec2(dot(x, axes[0]), dot(x, axes[1])), vec2(dot(y, axes[0]), dot(y, axes[1])));
     vec2 to_x = vec2(-dot(x, axes[1]), dot(x, axes[0])) / post_m, to_y = vec2(-dot(y, axes[1]), dot(y, axes[0])) / post_m;
     float area = abs(to_x.x * to_y.y - to_x.y * to_y.x);
-    Footprint foot;
     foot.region = region;
     foot.round_posts = length(view) / (FRAME.pixels_per_tangent * post_m.x);
     foot.along = dot(to_x, to_x) > dot(to_y, to_y) ? to_x : to_y;
@@ -104,37 +111,19 @@ Footprint footprint_at(vec3 view, vec2 region, vec3 normal, mat3 axes, vec2 post
     return foot;
 }
 
-// How far apart `count` samples of squares lie that together weigh a length of ground as a box of that length does, by the square of its
-// spread (a bilinear sample of squares of a length c has c * c / 4).
-float samples_apart(float posts, float square, int count) {
-    float n = float(count);
-    return count == 1 ? 0.0 : sqrt(max(posts * posts - 3.0 * square * square, 0.0) / (n * n - 1.0));
+// The pixel's middle is on a peak or in a hollow, `higher_m` from the mean ground: where the pixel's ray meets that.
+vec2 to_mean_ground(Footprint foot, vec3 normal, vec3 to_eye, float higher_m, vec2 post_m) {
+    float facing = max(dot(normal, to_eye), 0.12 * length(normal));
+    vec2 on = higher_m * normal.z / facing * vec2(-to_eye.y, to_eye.x) / post_m;
+    return on * min(0.25 * foot.across_posts / max(length(on), 1.0e-6), 1.0);
 }
 
-// The mean over a footprint, from the squares of one level. Ground that is turned away from the eye is seen less.
-GroundSum mean_over(Footprint foot, uint number, uint level, vec3 to_eye, bool smooth_posts, float origin_m) {
-    GroundSum sum = GroundSum(vec3(0.0), 0.0, 0.0, 0.0);
-    uint page = page_over(number, level, foot.region);
-    uvec2 means = frame_pages().at[page].means;
-    float square = float(1u << frame_pages().at[page].level), long_posts = length(foot.along);
-    int rows = smooth_posts || samples_apart(foot.across_posts, square, 2) < 0.1 * square ? 1 : 2;
-    int steps = clamp(int(ceil(long_posts / square - 0.8)), rows, 8);
-    vec2 along = foot.along * (samples_apart(long_posts, square, steps) / long_posts);
-    vec2 across = foot.across * (samples_apart(foot.across_posts, square, rows) / foot.across_posts);
-    for (int i = 0; i < steps * rows; ++i) {
-        float on = float(i / rows) - 0.5 * float(steps - 1), off = float(i % rows) - 0.5 * float(rows - 1);
-        vec2 region = foot.region + on * along + off * across;
-        GroundSum part = GroundSum(vec3(0.0), 0.0, 0.0, 0.0);
-        if (smooth_posts) add_smooth(part, means, among_squares(page, region), 1.0, origin_m);
-        else add_squares(part, means, among_squares(page, region), 1.0, origin_m);
-        float share = max(dot(part.normal, to_eye), 0.02);
-        sum.normal += share * part.normal;
-        sum.h_m += share * part.h_m;
-        sum.hh_m2 += share * part.hh_m2;
-        sum.share += share * part.share;
-    }
-    float scale = sum.share > 0.0 ? 1.0 / sum.share : 0.0;
-    return GroundSum(sum.normal * scale, sum.h_m * scale, sum.hh_m2 * scale, sum.share > 0.0 ? 1.0 : 0.0);
+// How far apart `count` samples of squares lie that together weigh a length of ground as a box of that length does, by the square of its
+// spread (a bilinear sample of squares of a length c has c * c / 4). Of posts they are places.
+float samples_apart(float posts, float square, int count) {
+    float n = float(count);
+    if (square < 2.0) return posts / n;
+    return count == 1 ? 0.0 : sqrt(max(posts * posts - 3.0 * square * square, 0.0) / (n * n - 1.0));
 }
 
 // Of the finest posts that are here: a map's angles by Horn's formula, and light without edges between posts.
@@ -144,9 +133,77 @@ vec3 finest_normal(uint number, vec2 region, float origin_m) {
         FramePage page = frame_pages().at[finest];
         return horn_normal_at(PageBlocks(page.block), page, clamp(page_post(page, region), vec2(0.0), vec2(float(page_quads))));
     }
-    GroundSum here = GroundSum(vec3(0.0), 0.0, 0.0, 0.0);
+    GroundSum here = no_ground();
     add_smooth(here, frame_pages().at[finest].means, among_squares(finest, region), 1.0, origin_m);
     return here.share > 0.0 ? normalize(here.normal) : vec3(0.0, 0.0, 1.0);
+}
+
+// What the pixel's colour is a mean of: parts of its footprint, in rows along its longer side.
+struct PixelGround {
+    Footprint foot;
+    uint page;
+    uint level;
+    float on;  // towards the next level
+    int rows;
+    int steps;
+    vec3 to_eye;
+    float origin_m;
+    float undulation_m;  // not exaggerated
+};
+PixelGround pixel_ground;
+
+// One of them, from the squares of one level.
+GroundSum part_of_level(PixelGround of, uint level, int part) {
+    uint page = page_over(of.page, level, of.foot.region);
+    uvec2 means = frame_pages().at[page].means;
+    float square = float(1u << frame_pages().at[page].level), long_posts = length(of.foot.along);
+    vec2 along = of.foot.along * (samples_apart(long_posts, square, of.steps) / long_posts);
+    vec2 across = of.foot.across * (samples_apart(of.foot.across_posts, square, of.rows) / of.foot.across_posts);
+    float on = float(part / of.rows) - 0.5 * float(of.steps - 1), off = float(part % of.rows) - 0.5 * float(of.rows - 1);
+    vec2 place = among_squares(page, of.foot.region + on * along + off * across);
+    GroundSum sum = no_ground();
+    if (square > 1.0) {
+        add_squares(sum, means, place, 1.0, of.origin_m);
+        return sum;
+    }
+    // Posts: one slope.
+    add_smooth(sum, means, place, 1.0, of.origin_m);
+    if (sum.share <= 0.0) return sum;
+    vec3 normal = normalize(sum.normal);
+    if (as_map && shows_angles()) normal = finest_normal(of.page, of.foot.region + on * along + off * across, of.origin_m);
+    sum.normal = sum.share * normal;
+    sum.second = sum.share * normal.xxy * normal.xyy;
+    return sum;
+}
+
+// Means; the share is how much of it the eye sees: ground that is turned away less.
+GroundSum part_of(PixelGround of, int part) {
+    GroundSum sum = part_of_level(of, of.level, part);
+    if (of.on > 0.0) {
+        GroundSum coarser = part_of_level(of, of.level + 1u, part);
+        sum.normal = mix(sum.normal, coarser.normal, of.on);
+        sum.second = mix(sum.second, coarser.second, of.on);
+        sum.h_m = mix(sum.h_m, coarser.h_m, of.on);
+        sum.hh_m2 = mix(sum.hh_m2, coarser.hh_m2, of.on);
+        sum.share = mix(sum.share, coarser.share, of.on);
+    }
+    if (sum.share <= 0.0) return sum;
+    float scale = 1.0 / sum.share;
+    return GroundSum(sum.normal * scale, sum.second * scale, sum.h_m * scale, sum.hh_m2 * scale, sum.share);
+}
+
+// The symmetric root of the covariance of a part's normals, east and north: a point of the unit circle's spread, turned into theirs.
+mat2 normals_apart(GroundSum part) {
+    vec3 of = part.second - part.normal.xxy * part.normal.xyy;
+    of.xz = max(of.xz, 0.0);
+    float root = sqrt(max(of.x * of.z - of.y * of.y, 0.0));
+    float scale = of.x + of.z + 2.0 * root;
+    return scale < 1.0e-10 ? mat2(0.0) : mat2(of.x + root, of.y, of.y, of.z + root) / sqrt(scale);
+}
+
+vec3 normal_of(vec2 level) {
+    float squared = min(dot(level, level), 0.998);
+    return normalize(vec3(level * inversesqrt(max(dot(level, level) / squared, 1.0)), sqrt(1.0 - squared)));
 }
 
 // Takes what the pixel's triangle says of its middle and puts the mean of its footprint in its place. number: of the triangle's page.
@@ -163,64 +220,32 @@ void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     mat3 axes = axes_at(point.view);
     vec3 to_eye = normalize(-point.view) * axes;
     float round_posts = length(point.view) / (FRAME.pixels_per_tangent * post_m.x);
-    uint slope_level = uint(max(ceil(log2(max(round_posts, 1.0))), 0.0));
+    uint slope_level = uint(log2(max(round_posts, 1.0)));
     uint slope_page = page_over(number, slope_level, region);
-    GroundSum slope = GroundSum(vec3(0.0), 0.0, 0.0, 0.0);
+    GroundSum slope = no_ground();
     add_squares(slope, frame_pages().at[slope_page].means, among_squares(slope_page, region), 1.0, origin_m);
     if (slope.share <= 0.0) {
         point.normal = vec3(0.0, 0.0, 1.0);
         return;
     }
+    point.normal = normalize(slope.normal);
     Footprint foot = footprint_at(point.view, region, slope.normal, axes, post_m);
+    foot.region += to_mean_ground(foot, slope.normal, to_eye, H_ex * slope.h_m / slope.share, post_m);
     float level = log2(means_spacing_px * foot.across_posts);
-    bool smooth_posts = level < 0.0;
-    if (as_map && smooth_posts && shows_angles()) {
+    if (as_map && shows_angles() && foot.across_posts < 1.3333) {
         point.normal = finest_normal(number, region, origin_m);
         return;
     }
-    float whole = max(floor(level), 0.0), on = smooth_posts ? 0.0 : smoothstep(0.75, 1.0, level - whole);
-    GroundSum mean = mean_over(foot, slope_page, uint(whole), to_eye, smooth_posts, origin_m);
-    if (on > 0.0) {
-        GroundSum coarser = mean_over(foot, slope_page, uint(whole) + 1u, to_eye, false, origin_m);
-        mean.normal = mix(mean.normal, coarser.normal, on);
-        mean.h_m = mix(mean.h_m, coarser.h_m, on);
-        mean.hh_m2 = mix(mean.hh_m2, coarser.hh_m2, on);
-    }
-    if (mean.share <= 0.0) mean.normal = slope.normal / slope.share;
-    point.normal = mean.normal;
-    if (smooth_posts) {
-        point.normal = normalize(mean.normal);
-        return;
-    }
-    point.mean_H_m = mean.h_m + origin_m - undulation_m / H_ex;
-    point.H_spread_m = sqrt(max(mean.hh_m2 - mean.h_m * mean.h_m, 0.0));
+    float whole = max(floor(level), 0.0), on = level < 0.0 ? 0.0 : smoothstep(0.75, 1.0, level - whole);
+    float square = exp2(whole);
+    int rows = clamp(int(ceil(foot.across_posts / square - 0.8)), 1, 8);
+    int steps = clamp(int(ceil(length(foot.along) / square - 0.8)), rows, 16);
+    pixel_ground = PixelGround(foot, slope_page, uint(whole), on, rows, steps, to_eye, origin_m, undulation_m / H_ex);
+    point.parts = rows * steps;
 }
 
-// Is a normal the mean of several?
-bool is_spread(vec3 normal) { return by_means && dot(normal, normal) < 0.9999; }
+// The mean normal of the ground, drawn `relief` times as steep.
+vec3 steeper(vec3 normal, float relief) { return normalize(vec3(normal.xy * relief, normal.z)); }
 
-// The mean normal of the ground, drawn `relief` times as steep. Of a mean it is as long as the mean of such normals would be, by the
-// spread that its length tells (Toksvig), the same in all directions.
-vec3 steeper(vec3 normal, float relief) {
-    vec3 steep = vec3(normal.xy * relief, normal.z);
-    if (!is_spread(normal)) return normalize(steep);
-    float squared = clamp(dot(normal, normal), 1.0e-6, 1.0);
-    float up2 = normal.z * normal.z, spread = 0.5 * (1.0 - squared) * (1.0 - up2 / squared);
-    return steep / sqrt(max(mix(relief * relief, 1.0, up2 + spread), 1.0e-6));
-}
-
-// How far the cosines between a direction and normals around a mean are spread (Toksvig).
-float spread_along(vec3 normal, vec3 direction) {
-    float cosine = dot(normal, direction), squared = clamp(dot(normal, normal), 1.0e-6, 1.0);
-    return sqrt(max(0.5 * (1.0 - squared) * (1.0 - cosine * cosine / squared), 0.0));
-}
-
-// Mean cosine between a direction and the ground, 0 where it is turned away: of normals spread around their mean, as long as steeper()
-// made it. The mean of the positive part of a logistic distribution, within 1 % of the spread from the normal one's.
-float facing(vec3 normal, vec3 direction) {
-    float cosine = dot(normal, direction);
-    if (!by_means) return max(cosine, 0.0);
-    float spread = 0.5755 * spread_along(normal, direction);
-    if (spread < 1.0e-4 || abs(cosine) > 12.0 * spread) return max(cosine, 0.0);
-    return spread * log(1.0 + exp(cosine / spread));
-}
+// Cosine between a direction and the ground, 0 where it is turned away.
+float facing(vec3 normal, vec3 direction) { return max(dot(normal, direction), 0.0); }

@@ -21,18 +21,8 @@ vec3 tint(float value) {
     return mix(FRAME.style.tints[above - 1u].colour, FRAME.style.tints[above].colour, clamp((value - low) / (high - low), 0.0, 1.0));
 }
 
-// By height, at the place or over the pixel.
-vec3 height_tint(SurfacePoint point) {
-    if (!by_means || point.H_spread_m < 1.0) return tint(point.mean_H_m);
-    return 0.5 * (tint(point.mean_H_m - point.H_spread_m) + tint(point.mean_H_m + point.H_spread_m));
-}
-
 // Of the ground as it is: not exaggerated.
 float slope_deg(SurfacePoint point) {
-    if (by_means && is_spread(point.normal)) {
-        vec3 normal = steeper(point.normal, 1.0 / FRAME.exaggeration), up = vec3(0.0, 0.0, 1.0);
-        return degrees(acos(clamp(normal.z + point.aside * spread_along(normal, up), 0.0, 1.0)));
-    }
     return degrees(atan(length(point.normal.xy), FRAME.exaggeration * point.normal.z));
 }
 
@@ -48,15 +38,13 @@ float aspect_deg(SurfacePoint point) {
 vec3 ground_tint(SurfacePoint point) {
     if (FRAME.style.colour_by == colour_by_cover) return ground_cover(point);
     if (FRAME.style.colour_by == colour_by_slope) return tint(slope_deg(point));
-    if (FRAME.style.colour_by == colour_by_height) return height_tint(point);
+    if (FRAME.style.colour_by == colour_by_height) return tint(point.mean_H_m);
     return point.normal.xy == vec2(0.0) ? FRAME.style.flat_colour : tint(aspect_deg(point));
 }
 
 // Cosine of the angle between the sun and the slope, which is drawn `relief` times as steep.
 float towards_sun(SurfacePoint point) {
-    vec3 normal = steeper(point.normal, FRAME.style.relief);
-    float cosine = dot(normal, FRAME.style.sun_enu);
-    return by_means ? cosine + point.aside * spread_along(normal, FRAME.style.sun_enu) : cosine;
+    return dot(steeper(point.normal, FRAME.style.relief), FRAME.style.sun_enu);
 }
 
 vec3 sunlit(vec3 colour, SurfacePoint point) {
@@ -92,7 +80,7 @@ vec3 in_relief_light(vec3 codes, SurfacePoint point) {
 vec3 with_contours(vec3 colour, SurfacePoint point) {
     float interval = FRAME.style.contours.interval_m;
     if (interval <= 0.0 || point.H_per_px <= 0.0) return colour;
-    float in_intervals = (point.H_m + 0.01) / interval, nearest = floor(in_intervals + 0.5);
+    float in_intervals = (point.mean_H_m + 0.01) / interval, nearest = floor(in_intervals + 0.5);
     float off_px = abs(in_intervals - nearest) * interval / point.H_per_px, apart_px = interval / point.H_per_px;
     bool fifth = mod(nearest, 5.0) == 0.0;
     float half_width_px = FRAME.style.contours.width_px * (fifth ? 1.0 : 0.5);
@@ -101,35 +89,117 @@ vec3 with_contours(vec3 colour, SurfacePoint point) {
     return mix(colour, FRAME.style.contours.colour, there * room);
 }
 
+// What images over the ground do to its colour and its normals: as with_drape(), for all of a pixel's ground at once.
+struct Images {
+    vec3 colour;
+    float share;
+    float upright;
+};
+Images images_over(SurfacePoint point) {
+    if (!draped) return Images(vec3(0.0), 0.0, 0.0);
+    vec4 image = drape_sample(point);
+    float share = image.a * FRAME.drape.opacity;
+    if (share <= 0.0) return Images(vec3(0.0), 0.0, 0.0);
+    vec3 codes = image.rgb / image.a;
+    bool as_codes = as_map && !in_air && FRAME.style.tints_as_codes == 1u;
+    return Images(as_codes ? codes : linear_from_srgb(codes), share, share * (1.0 - FRAME.drape.relief));
+}
+vec3 imaged_tint(Images images, inout SurfacePoint point) {
+    vec3 colour = as_map || in_air ? ground_tint(point) : tint(point.mean_H_m);
+    if (images.share <= 0.0) return colour;
+    point.normal = normalize(mix(point.normal, vec3(0.0, 0.0, 1.0), images.upright));
+    return mix(colour, images.colour, images.share);
+}
+
 // In linear light, before any air.
-vec3 map_colour(SurfacePoint point) {
-    vec3 colour = with_drape(ground_tint(point), point, FRAME.style.tints_as_codes == 1u);
-    if (FRAME.style.light == light_hillshade) colour = hillshaded(colour, point);
-    if (FRAME.style.light == light_relief) colour = in_relief_light(colour, point);
-    return FRAME.style.tints_as_codes == 1u ? linear_from_srgb(colour) : colour;
+vec3 place_colour(Images images, SurfacePoint point) {
+    vec3 colour = imaged_tint(images, point);
+    if (as_map) {
+        if (FRAME.style.light == light_hillshade) colour = hillshaded(colour, point);
+        if (FRAME.style.light == light_relief) colour = in_relief_light(colour, point);
+        if (FRAME.style.tints_as_codes == 1u) colour = linear_from_srgb(colour);
+    }
+    if (!as_map || FRAME.style.light == light_sun) colour = sunlit(colour, point);
+    return as_map ? with_contours(colour, point) : colour;
+}
+
+// A pixel's ground: its colour; in air what it sends back of any light, of light from the sun, and of light from an open sky.
+struct GroundLight {
+    vec3 colour;
+    vec3 lit;
+    vec3 open;
+};
+void add_place(inout GroundLight sum, Images images, SurfacePoint point, vec3 sun, float share) {
+    if (!in_air) {
+        sum.colour += share * place_colour(images, point);
+        return;
+    }
+    vec3 albedo = share * imaged_tint(images, point), normal = steeper(point.normal, FRAME.style.relief);
+    sum.colour += albedo;
+    sum.lit += albedo * facing(normal, sun);
+    sum.open += albedo * (0.5 + 0.5 * normal.z);
+}
+
+// Each part of the footprint has ground of several slopes, coloured one by one: places that have the mean and the covariance of its
+// normals, as sigma points have. Source: S. Julier, J. Uhlmann, A new extension of the Kalman filter to nonlinear systems, 1997.
+float add_part(inout GroundLight sum, Images images, SurfacePoint point, GroundSum part, vec3 sun) {
+    mat2 apart = normals_apart(part);
+    float H_m = part.h_m + pixel_ground.origin_m - pixel_ground.undulation_m;
+    float H_apart_m = sqrt(max(part.hh_m2 - part.h_m * part.h_m, 0.0));
+    const int places = 4;
+    float whole = 0.0;
+    for (int i = 0; i < places; ++i) {
+        vec2 side = vec2(1 - 2 * (i & 1), 1 - (i & 2));
+        point.normal = normal_of(part.normal.xy + apart * side);
+        point.mean_H_m = H_m + H_apart_m * side.x * side.y;
+        if (point.H_per_px > 0.0)
+            point.H_per_px = length(point.normal.xy * pixel_ground.foot.to_next) / (point.normal.z * FRAME.exaggeration);
+        if (in_air) point.mean_H_m = land_H_m(point.mean_H_m);
+        float share = part.share * max(dot(point.normal, pixel_ground.to_eye) / point.normal.z, 0.02) / float(places);
+        add_place(sum, images, point, sun, share);
+        whole += share;
+    }
+    return whole;
+}
+
+GroundLight pixel_light(SurfacePoint point, vec3 sun) {
+    GroundLight sum = GroundLight(vec3(0.0), vec3(0.0), vec3(0.0));
+    Images images = images_over(point);
+    if (in_air) point.mean_H_m = land_H_m(point.mean_H_m);
+    if (!by_means || point.parts == 0) {
+        add_place(sum, images, point, sun, 1.0);
+        return sum;
+    }
+    float share = 0.0;
+    for (int i = 0; i < point.parts; ++i) {
+        GroundSum part = part_of(pixel_ground, i);
+        if (part.share <= 0.0) continue;
+        share += add_part(sum, images, point, part, sun);
+    }
+    if (share <= 0.0) add_place(sum, images, point, sun, 1.0);
+    float scale = share > 0.0 ? 1.0 / share : 1.0;
+    return GroundLight(sum.colour * scale, sum.lit * scale, sum.open * scale);
 }
 
 vec3 ground_colour(SurfacePoint point) {
-    if (!as_map) return sunlit(with_drape(height_tint(point), point, false), point);
-    vec3 colour = map_colour(point);
-    if (by_means && shows_angles() && is_spread(point.normal)) {
-        // Of the angles in a pixel, a quarter each of a normal distribution: colours do not follow them evenly.
-        const float quarters[4] = {-1.27, -0.325, 0.325, 1.27};
-        colour = vec3(0.0);
-        for (int i = 0; i < 4; ++i) {
-            point.aside = quarters[i];
-            colour += 0.25 * map_colour(point);
-        }
-    }
-    if (FRAME.style.light == light_sun) colour = sunlit(colour, point);
-    return with_contours(colour, point);
+    return pixel_light(point, FRAME.style.sun_enu).colour;
 }
 
-// By the light of the sun in the air, as a camera shows it.
+// By the light of the sun in the air, as a camera shows it. Of slopes, the part that does not see the sky sees other ground.
 vec3 daylit_ground(SurfacePoint point) {
-    point.mean_H_m = land_H_m(point.mean_H_m);
-    vec3 normal = steeper(point.normal, FRAME.style.relief);
-    vec3 sun = sun_at(point.view), ground = ground_radiance(with_drape(ground_tint(point), point, false), normal, point.h_m, sun);
+    vec3 sun = sun_at(point.view);
+    vec3 ground;
+    if (by_means) {
+        GroundLight light = pixel_light(point, sun);
+        vec3 from_sun = sunlight(point.h_m, sun.z), from_sky = skylight(point.h_m, sun.z);
+        vec3 from_ground = AIR.ground_albedo * (from_sun * max(sun.z, 0.0) + from_sky);
+        ground = (from_sun * sun_share() * light.lit + from_ground * light.colour
+                  + (from_sky - from_ground) * sky_share() * light.open) / pi;
+    } else {
+        point.mean_H_m = land_H_m(point.mean_H_m);
+        vec3 normal = steeper(point.normal, FRAME.style.relief);
+        ground = ground_radiance(with_drape(ground_tint(point), point, false), normal, point.h_m, sun);
+    }
     if (point.water > 0.0) ground = mix(ground, water_radiance(point.view, point.h_m, sun), point.water);
     return shown(through_air(ground, point.view));
 }

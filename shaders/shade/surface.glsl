@@ -5,11 +5,10 @@ struct SurfacePoint {
     vec2 post;      // (row, column) within the page, fractional
     float H_m;      // orthometric, not exaggerated
     float h_m;      // above the ellipsoid, as drawn
-    vec3 normal;    // east, north, up at the place; a mean of unit normals (shorter than 1) where the style has a footprint
+    vec3 normal;    // east, north, up at the place
     float lat_deg;  // where the style asks for it
-    float mean_H_m;    // as H_m, of the pixel's footprint, and its spread; H_m and 0 without one
-    float H_spread_m;
-    float aside;    // from the mean normal, of its spread: maps draw several of a pixel's angles
+    float mean_H_m; // as H_m, of a part of the pixel's footprint
+    int parts;      // of the footprint (footprint.glsl, pixel_ground); 0: the place alone colours the pixel
     float H_per_px; // how fast H changes on the picture; 0 where no contours are asked for
     float water;    // share of water; 0 where none is looked for
     ivec2 drape_post;  // for images over the ground: (row, column) in the region, whole posts ...
@@ -194,7 +193,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     point.H_m = (point.h_m - undulation_at(region_post(page, point.post))) / FRAME.exaggeration;
     if (draped) drape_place(page, point.post, point.drape_post, point.drape_part);
     point.mean_H_m = point.H_m;
-    point.H_spread_m = point.aside = 0.0;
+    point.parts = 0;
     if (by_means) average_over_pixel(id / (meshlet_triangles * meshlets_per_page), region_post(page, point.post), point);
     vec2 post = point.post;
     if (!by_means || in_air || draped) descend(page, post, length(point.view));

@@ -100,6 +100,7 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FramePage, means),
         ORO_MEMBER(PageMeans, normals),
         ORO_MEMBER(PageMeans, heights),
+        ORO_MEMBER(PageMeans, spreads),
         ORO_MEMBER(FramePage, cull),
         ORO_MEMBER(FramePage, level),
         ORO_MEMBER(FramePage, first_row),

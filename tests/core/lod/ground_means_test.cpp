@@ -20,6 +20,7 @@ struct Square {
     glm::dvec3 normal;
     double h_m;
     double spread_m;
+    glm::dvec3 second;  // products of the normals' east and north, mean: xx, xy, yy
 };
 
 std::optional<Square> square_of(const gpu::PageMeans& means, int row, int column) {
@@ -30,8 +31,13 @@ std::optional<Square> square_of(const gpu::PageMeans& means, int row, int column
     if (word == 0) return std::nullopt;
     const auto part = [&](unsigned shift) { return static_cast<std::int32_t>(word << (21U - shift)) >> 21; };
     const glm::vec2 height = glm::unpackHalf2x16(means.heights[at]);
-    return Square{glm::dvec3(part(0), part(11), static_cast<int>(word >> 22U)) / 1023.0,
-                  static_cast<double>(height.x), static_cast<double>(height.y)};
+    const glm::dvec3 normal = glm::dvec3(part(0), part(11), static_cast<int>(word >> 22U)) / 1023.0;
+    const std::uint32_t spread = means.spreads[at];
+    const double x = (spread & 2047U) / 2047.0, y = (spread >> 11U & 2047U) / 2047.0;
+    const double correlation = (static_cast<std::int32_t>(spread) >> 22) / 511.0;
+    const glm::dvec3 second{normal.x * normal.x + x * x, normal.x * normal.y + x * y * correlation,
+                            normal.y * normal.y + y * y};
+    return Square{normal, static_cast<double>(height.x), static_cast<double>(height.y), second};
 }
 
 // Rises of 0.3 to the east and 0.2 to the north are that on each level, and heights are those of the middles.
@@ -58,6 +64,7 @@ TEST(GroundMeans, OfAPlaneIsThePlane) {
                         0.003);  // the radii are for one latitude; steps of 0.001
             EXPECT_NEAR(square->normal.y, -0.2 / length, 0.003);
             EXPECT_NEAR(square->normal.z, 1.0 / length, 0.002);
+            EXPECT_LE(glm::length(square->second - glm::dvec3(0.09, 0.06, 0.04) / (length * length)), 0.004);
             const double middle = std::ldexp(at + 0.5, level) - 0.5;
             const double H_m = static_cast<double>(field.H_at_post_m(0, 0)) +
                                0.3 * (std::ldexp(60.5, level) - 0.5) * east_m - 0.2 * middle * north_m;
@@ -66,34 +73,48 @@ TEST(GroundMeans, OfAPlaneIsThePlane) {
     }
 }
 
-// On rough ground with holes: each square of each level is the mean of its posts as level 0 tells them.
+// On rough ground with holes: each square is the mean of the four below it, by the posts that these have.
+// Normals of single posts are sharper than those that squares are made of; heights are not.
 TEST(GroundMeans, AreThoseOfAllPosts) {
     HeightField field = test::rough_field(46.9, 8.1, 300, 420);
     for (std::size_t i = 0; i < field.H_m.size(); i += 37) field.H_m[i] = void_height_m;
     const DrawnHeights heights = drawn_heights(field, 1.0, 1);
     const GroundMeans means(field.grid, heights, 1.0, 2);
-    const auto finest = std::make_unique<gpu::PageMeans>(), page = std::make_unique<gpu::PageMeans>();
-    means.page({0, 0, 0}, *finest);
+    const auto posts_in = [&](int row, int column, int level) {
+        double posts = 0.0;
+        for (int i = 0; i < 1 << (2 * level); ++i)
+            posts +=
+                field.H_m[static_cast<std::size_t>(((row << level) + (i >> level)) * 420 + (column << level) +
+                                                   (i & ((1 << level) - 1)))] != void_height_m;
+        return posts;
+    };
+    const auto finer = std::make_unique<gpu::PageMeans>(), page = std::make_unique<gpu::PageMeans>();
     for (const int level : {1, 2}) {
+        means.page({0, 0, level - 1}, *finer);
         means.page({0, 0, level}, *page);
         for (int row = 0; row < 30; row += 7) {
             for (int column = 0; column < 30; column += 3) {
-                glm::dvec3 normal(0.0);
-                double h_m = 0.0, posts = 0.0;
-                for (int i = 0; i < 1 << (2 * level); ++i) {
-                    const auto post = square_of(*finest, (row << level) + (i >> level),
-                                                (column << level) + (i & ((1 << level) - 1)));
-                    if (!post) continue;
-                    normal += post->normal;
-                    h_m += post->h_m;
-                    posts += 1.0;
+                Square sum{};
+                double posts = 0.0;
+                for (int i = 0; i < 4; ++i) {
+                    const int at_row = 2 * row + i / 2, at_column = 2 * column + i % 2;
+                    const auto part = square_of(*finer, at_row, at_column);
+                    const double share = posts_in(at_row, at_column, level - 1);
+                    ASSERT_EQ(part.has_value(), share > 0.0);
+                    if (!part) continue;
+                    sum.normal += share * part->normal;
+                    sum.second += share * part->second;
+                    sum.h_m += share * part->h_m;
+                    posts += share;
                 }
                 const auto square = square_of(*page, row, column);
                 ASSERT_EQ(square.has_value(), posts > 0.0);
                 if (!square) continue;
-                EXPECT_LE(glm::length(square->normal - normal / posts), 0.002);  // steps of 0.001
-                EXPECT_NEAR(square->h_m, h_m / posts, 0.001 * std::abs(h_m / posts) + 0.01);
+                EXPECT_NEAR(square->h_m, sum.h_m / posts, 0.001 * std::abs(sum.h_m / posts) + 0.01);
                 EXPECT_LE(glm::length(square->normal), 1.001);
+                if (level == 1) continue;
+                EXPECT_LE(glm::length(square->normal - sum.normal / posts), 0.002);  // steps of 0.001
+                EXPECT_LE(glm::length(square->second - sum.second / posts), 0.004);
             }
         }
     }
@@ -112,6 +133,7 @@ TEST(GroundMeans, PagesAgreeBesideEachOther) {
         for (int column = 0; column < stride - quads; ++column) {
             EXPECT_EQ(west->normals[row * stride + column + quads], east->normals[row * stride + column]);
             EXPECT_EQ(west->heights[row * stride + column + quads], east->heights[row * stride + column]);
+            EXPECT_EQ(west->spreads[row * stride + column + quads], east->spreads[row * stride + column]);
         }
     }
 }
