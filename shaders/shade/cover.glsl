@@ -1,19 +1,24 @@
 // What covers the ground by nature, without any map of it: FrameStyle.cover. Needs ground.glsl's tints.
 
+// Found once for a pixel (seen_ground): all of it has one latitude.
 float snow_line_m(float lat_deg) {
-    uint last = FRAME.style.cover.snow_line_count - 1u, above = 0u;
-    while (above < last && FRAME.style.cover.snow_line[above].lat_deg < lat_deg) ++above;
-    uint below = max(above, 1u) - 1u;
-    float low = FRAME.style.cover.snow_line[below].lat_deg, high = FRAME.style.cover.snow_line[above].lat_deg;
+    uint first = 0u, last = FRAME.style.cover.snow_line_count - 1u;
+    while (first < last) {
+        uint middle = (first + last) / 2u;
+        if (FRAME.style.cover.snow_line[middle].lat_deg < lat_deg) first = middle + 1u;
+        else last = middle;
+    }
+    uint below = max(first, 1u) - 1u;
+    float low = FRAME.style.cover.snow_line[below].lat_deg, high = FRAME.style.cover.snow_line[first].lat_deg;
     float share = high > low ? clamp((lat_deg - low) / (high - low), 0.0, 1.0) : 0.0;
-    return mix(FRAME.style.cover.snow_line[below].H_m, FRAME.style.cover.snow_line[above].H_m, share);
+    return mix(FRAME.style.cover.snow_line[below].H_m, FRAME.style.cover.snow_line[first].H_m, share);
 }
 
 vec3 ground_cover(SurfacePoint point) {
-    float slope = slope_deg(point), steepness = min(sin(radians(slope)) * 2.0, 1.0);
-    float lean = length(point.normal.xy);
+    float slope = slope_deg(point), lean = length(point.normal.xy), up = FRAME.exaggeration * point.normal.z;
+    float steepness = min(2.0 * lean * inversesqrt(max(lean * lean + up * up, 1.0e-12)), 1.0);
     float to_pole = lean > 0.0 ? point.normal.y / lean * (point.lat_deg < 0.0 ? -1.0 : 1.0) : 0.0;
-    float above_m = point.mean_H_m - snow_line_m(point.lat_deg) + FRAME.style.cover.shade_m * steepness * to_pole;
+    float above_m = point.mean_H_m - point.snow_line_m + FRAME.style.cover.shade_m * steepness * to_pole;
     // Level ground high up is most often ice, which snow feeds from above.
     float high = smoothstep(-2.0, -1.0, above_m / max(FRAME.style.cover.level_m, 1.0));
     above_m += FRAME.style.cover.level_m * high * (1.0 - smoothstep(7.0, 15.0, slope));

@@ -13,39 +13,41 @@ struct GroundSum {
 GroundSum no_ground() { return GroundSum(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0); }
 
 // A square of a page of this frame, (row, column); beyond the four around the page the nearest of them.
-void add_square(inout GroundSum sum, uvec2 means, ivec2 square, float share, float origin_m) {
+void add_square(inout GroundSum sum, uvec2 means, ivec2 square, float share, float origin_m, bool are_posts) {
     uvec2 at = uvec2(clamp(square + int(means_apron), ivec2(0), ivec2(int(means_stride) - 1)));
     uint place = at.x * means_stride + at.y;
-    uint normal = MeansOfPages(means).at[0].normals[place], spread = MeansOfPages(means).at[0].spreads[place];
+    uint normal = MeansOfPages(means).at[0].normals[place];
     if (normal == 0u) return;
     vec2 height = unpackHalf2x16(MeansOfPages(means).at[0].heights[place]);
     vec3 mean = vec3(bitfieldExtract(int(normal), 0, 11), bitfieldExtract(int(normal), 11, 11), int(normal >> 22)) / means_normal_steps;
-    vec2 apart = vec2(spread & 2047u, bitfieldExtract(spread, 11, 11)) / means_spread_steps;
-    float correlation = float(int(spread) >> 22) / means_correlation_steps;
     float h_m = height.x - origin_m;
     sum.normal += share * mean;
-    sum.second += share * (mean.xxy * mean.xyy + apart.xxy * apart.xyy * vec3(1.0, correlation, 1.0));
     sum.h_m += share * h_m;
-    sum.hh_m2 += share * (h_m * h_m + height.y * height.y);
     sum.share += share;
+    if (are_posts) return;  // one by one nothing is spread
+    uint spread = MeansOfPages(means).at[0].spreads[place];
+    vec2 apart = vec2(spread & 2047u, bitfieldExtract(spread, 11, 11)) / means_spread_steps;
+    float correlation = float(int(spread) >> 22) / means_correlation_steps;
+    sum.second += share * (mean.xxy * mean.xyy + apart.xxy * apart.xyy * vec3(1.0, correlation, 1.0));
+    sum.hh_m2 += share * (h_m * h_m + height.y * height.y);
 }
 
 // Bilinear between the squares' middles.
-void add_squares(inout GroundSum sum, uvec2 means, vec2 place, float share, float origin_m) {
+void add_squares(inout GroundSum sum, uvec2 means, vec2 place, float origin_m, bool are_posts) {
     vec2 low = floor(place), on = place - low;
     ivec2 first = ivec2(low);
-    add_square(sum, means, first, share * (1.0 - on.x) * (1.0 - on.y), origin_m);
-    add_square(sum, means, first + ivec2(0, 1), share * (1.0 - on.x) * on.y, origin_m);
-    add_square(sum, means, first + ivec2(1, 0), share * on.x * (1.0 - on.y), origin_m);
-    add_square(sum, means, first + ivec2(1, 1), share * on.x * on.y, origin_m);
+    add_square(sum, means, first, (1.0 - on.x) * (1.0 - on.y), origin_m, are_posts);
+    add_square(sum, means, first + ivec2(0, 1), (1.0 - on.x) * on.y, origin_m, are_posts);
+    add_square(sum, means, first + ivec2(1, 0), on.x * (1.0 - on.y), origin_m, are_posts);
+    add_square(sum, means, first + ivec2(1, 1), on.x * on.y, origin_m, are_posts);
 }
 
 // Where posts are larger than pixels: quadratic B-splines of the posts' normals, whose slopes have no edge anywhere.
-void add_smooth(inout GroundSum sum, uvec2 means, vec2 place, float share, float origin_m) {
+void add_smooth(inout GroundSum sum, uvec2 means, vec2 place, float origin_m) {
     vec2 middle = floor(place + 0.5), off = place - middle;
     vec2 weights[3] = {0.5 * (0.5 - off) * (0.5 - off), 0.75 - off * off, 0.5 * (0.5 + off) * (0.5 + off)};
     for (int i = 0; i < 9; ++i)
-        add_square(sum, means, ivec2(middle) + ivec2(i / 3 - 1, i % 3 - 1), share * weights[i / 3].x * weights[i % 3].y, origin_m);
+        add_square(sum, means, ivec2(middle) + ivec2(i / 3 - 1, i % 3 - 1), weights[i / 3].x * weights[i % 3].y, origin_m, true);
 }
 
 // The page of that level over a place of the region, of those in this frame: the nearest level below and above that is here.
@@ -134,58 +136,74 @@ vec3 finest_normal(uint number, vec2 region, float origin_m) {
         return horn_normal_at(PageBlocks(page.block), page, clamp(page_post(page, region), vec2(0.0), vec2(float(page_quads))));
     }
     GroundSum here = no_ground();
-    add_smooth(here, frame_pages().at[finest].means, among_squares(finest, region), 1.0, origin_m);
+    add_smooth(here, frame_pages().at[finest].means, among_squares(finest, region), origin_m);
     return here.share > 0.0 ? normalize(here.normal) : vec3(0.0, 0.0, 1.0);
 }
 
+// Where the parts of a pixel's footprint are among the squares of one level, (row, column).
+struct PartsOfLevel {
+    uvec2 means;
+    bool are_posts;
+    vec2 corner;  // the page's first post in the region
+    vec2 first;
+    vec2 along;   // from a part to the next
+    vec2 across;  // ... row
+};
+
 // What the pixel's colour is a mean of: parts of its footprint, in rows along its longer side.
 struct PixelGround {
-    Footprint foot;
-    uint page;
-    uint level;
+    mat2 to_next;  // of the footprint
+    vec3 to_eye;
     float on;  // towards the next level
     int rows;
-    int steps;
-    vec3 to_eye;
+    bool smooth_posts;  // where several are beside each other in a pixel nobody sees how they are joined
+    uint page;
     float origin_m;
     float undulation_m;  // not exaggerated
+    PartsOfLevel finer;
+    PartsOfLevel coarser;
 };
 PixelGround pixel_ground;
 
+PartsOfLevel parts_of_level(Footprint foot, uint near_page, uint level, int rows, int steps) {
+    uint page = page_over(near_page, level, foot.region);
+    float square = float(1u << frame_pages().at[page].level), long_posts = length(foot.along);
+    vec2 along = foot.along * (samples_apart(long_posts, square, steps) / (long_posts * square));
+    vec2 across = foot.across * (samples_apart(foot.across_posts, square, rows) / (foot.across_posts * square));
+    vec2 first = among_squares(page, foot.region) - 0.5 * (float(steps - 1) * along + float(rows - 1) * across);
+    vec2 corner = vec2(frame_pages().at[page].first_row, frame_pages().at[page].first_column);
+    return PartsOfLevel(frame_pages().at[page].means, square == 1.0, corner, first, along, across);
+}
+
 // One of them, from the squares of one level.
-GroundSum part_of_level(PixelGround of, uint level, int part) {
-    uint page = page_over(of.page, level, of.foot.region);
-    uvec2 means = frame_pages().at[page].means;
-    float square = float(1u << frame_pages().at[page].level), long_posts = length(of.foot.along);
-    vec2 along = of.foot.along * (samples_apart(long_posts, square, of.steps) / long_posts);
-    vec2 across = of.foot.across * (samples_apart(of.foot.across_posts, square, of.rows) / of.foot.across_posts);
-    float on = float(part / of.rows) - 0.5 * float(of.steps - 1), off = float(part % of.rows) - 0.5 * float(of.rows - 1);
-    vec2 place = among_squares(page, of.foot.region + on * along + off * across);
+GroundSum part_of_level(PartsOfLevel of, int part) {
+    int step = part / pixel_ground.rows;
+    vec2 place = of.first + float(step) * of.along + float(part - step * pixel_ground.rows) * of.across;
     GroundSum sum = no_ground();
-    if (square > 1.0) {
-        add_squares(sum, means, place, 1.0, of.origin_m);
-        return sum;
-    }
-    // Posts: one slope.
-    add_smooth(sum, means, place, 1.0, of.origin_m);
-    if (sum.share <= 0.0) return sum;
+    if (of.are_posts && pixel_ground.smooth_posts) add_smooth(sum, of.means, place, pixel_ground.origin_m);
+    else add_squares(sum, of.means, place, pixel_ground.origin_m, of.are_posts);
+    if (!of.are_posts || sum.share <= 0.0) return sum;
+    // Posts: one slope and one height.
     vec3 normal = normalize(sum.normal);
-    if (as_map && shows_angles()) normal = finest_normal(of.page, of.foot.region + on * along + off * across, of.origin_m);
+    if (as_map && shows_angles())
+        normal = finest_normal(pixel_ground.page, of.corner + place, pixel_ground.origin_m);
     sum.normal = sum.share * normal;
     sum.second = sum.share * normal.xxy * normal.xyy;
+    sum.hh_m2 = sum.h_m * sum.h_m / sum.share;
     return sum;
 }
 
 // Means; the share is how much of it the eye sees: ground that is turned away less.
-GroundSum part_of(PixelGround of, int part) {
-    GroundSum sum = part_of_level(of, of.level, part);
-    if (of.on > 0.0) {
-        GroundSum coarser = part_of_level(of, of.level + 1u, part);
-        sum.normal = mix(sum.normal, coarser.normal, of.on);
-        sum.second = mix(sum.second, coarser.second, of.on);
-        sum.h_m = mix(sum.h_m, coarser.h_m, of.on);
-        sum.hh_m2 = mix(sum.hh_m2, coarser.hh_m2, of.on);
-        sum.share = mix(sum.share, coarser.share, of.on);
+GroundSum part_of_pixel(int part) {
+    GroundSum sum = part_of_level(pixel_ground.finer, part);
+    float on = pixel_ground.on;
+    if (on > 0.0) {
+        GroundSum coarser = part_of_level(pixel_ground.coarser, part);
+        sum.normal = mix(sum.normal, coarser.normal, on);
+        sum.second = mix(sum.second, coarser.second, on);
+        sum.h_m = mix(sum.h_m, coarser.h_m, on);
+        sum.hh_m2 = mix(sum.hh_m2, coarser.hh_m2, on);
+        sum.share = mix(sum.share, coarser.share, on);
     }
     if (sum.share <= 0.0) return sum;
     float scale = 1.0 / sum.share;
@@ -198,7 +216,7 @@ mat2 normals_apart(GroundSum part) {
     of.xz = max(of.xz, 0.0);
     float root = sqrt(max(of.x * of.z - of.y * of.y, 0.0));
     float scale = of.x + of.z + 2.0 * root;
-    return scale < 1.0e-10 ? mat2(0.0) : mat2(of.x + root, of.y, of.y, of.z + root) / sqrt(scale);
+    return scale < 1.0e-5 ? mat2(0.0) : mat2(of.x + root, of.y, of.y, of.z + root) / sqrt(scale);
 }
 
 vec3 normal_of(vec2 level) {
@@ -223,7 +241,7 @@ void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     uint slope_level = uint(log2(max(round_posts, 1.0)));
     uint slope_page = page_over(number, slope_level, region);
     GroundSum slope = no_ground();
-    add_squares(slope, frame_pages().at[slope_page].means, among_squares(slope_page, region), 1.0, origin_m);
+    add_squares(slope, frame_pages().at[slope_page].means, among_squares(slope_page, region), origin_m, true);
     if (slope.share <= 0.0) {
         point.normal = vec3(0.0, 0.0, 1.0);
         return;
@@ -231,16 +249,18 @@ void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     point.normal = normalize(slope.normal);
     Footprint foot = footprint_at(point.view, region, slope.normal, axes, post_m);
     foot.region += to_mean_ground(foot, slope.normal, to_eye, H_ex * slope.h_m / slope.share, post_m);
-    float level = log2(means_spacing_px * foot.across_posts);
+    float level = log2((in_air ? 0.5 : means_spacing_px) * foot.across_posts);
     if (as_map && shows_angles() && foot.across_posts < 1.3333) {
         point.normal = finest_normal(number, region, origin_m);
         return;
     }
     float whole = max(floor(level), 0.0), on = level < 0.0 ? 0.0 : smoothstep(0.75, 1.0, level - whole);
     float square = exp2(whole);
-    int rows = clamp(int(ceil(foot.across_posts / square - 0.8)), 1, 8);
-    int steps = clamp(int(ceil(length(foot.along) / square - 0.8)), rows, 16);
-    pixel_ground = PixelGround(foot, slope_page, uint(whole), on, rows, steps, to_eye, origin_m, undulation_m / H_ex);
+    int rows = clamp(int(ceil(foot.across_posts / square - 0.8)), 1, 6);
+    int steps = clamp(int(ceil(length(foot.along) / square - 0.8)), rows, 8);
+    PartsOfLevel finer = parts_of_level(foot, slope_page, uint(whole), rows, steps), coarser = finer;
+    if (on > 0.0) coarser = parts_of_level(foot, slope_page, uint(whole) + 1u, rows, steps);
+    pixel_ground = PixelGround(foot.to_next, to_eye, on, rows, foot.across_posts < 1.0 && steps < 3, slope_page, origin_m, undulation_m / H_ex, finer, coarser);
     point.parts = rows * steps;
 }
 

@@ -142,18 +142,20 @@ void add_place(inout GroundLight sum, Images images, SurfacePoint point, vec3 su
 
 // Each part of the footprint has ground of several slopes, coloured one by one: places that have the mean and the covariance of its
 // normals, as sigma points have. Source: S. Julier, J. Uhlmann, A new extension of the Kalman filter to nonlinear systems, 1997.
-float add_part(inout GroundLight sum, Images images, SurfacePoint point, GroundSum part, vec3 sun) {
+float add_part(inout GroundLight sum, Images images, SurfacePoint point, GroundSum part, vec3 sun, float turn) {
     mat2 apart = normals_apart(part);
     float H_m = part.h_m + pixel_ground.origin_m - pixel_ground.undulation_m;
     float H_apart_m = sqrt(max(part.hh_m2 - part.h_m * part.h_m, 0.0));
-    const int places = 4;
+    // Natural colours differ little enough for two, across each other in parts that are neighbours.
+    int places = H_apart_m > 0.5 || apart != mat2(0.0) ? (in_air ? 2 : 4) : 1;  // posts have one slope
     float whole = 0.0;
     for (int i = 0; i < places; ++i) {
-        vec2 side = vec2(1 - 2 * (i & 1), 1 - (i & 2));
+        float one = float(1 - 2 * (i & 1));
+        vec2 side = vec2(one, places == 2 ? one * turn : float(1 - (i & 2)));
         point.normal = normal_of(part.normal.xy + apart * side);
-        point.mean_H_m = H_m + H_apart_m * side.x * side.y;
+        point.mean_H_m = H_m + H_apart_m * (places == 2 ? one : side.x * side.y);
         if (point.H_per_px > 0.0)
-            point.H_per_px = length(point.normal.xy * pixel_ground.foot.to_next) / (point.normal.z * FRAME.exaggeration);
+            point.H_per_px = length(point.normal.xy * pixel_ground.to_next) / (point.normal.z * FRAME.exaggeration);
         if (in_air) point.mean_H_m = land_H_m(point.mean_H_m);
         float share = part.share * max(dot(point.normal, pixel_ground.to_eye) / point.normal.z, 0.02) / float(places);
         add_place(sum, images, point, sun, share);
@@ -172,9 +174,9 @@ GroundLight pixel_light(SurfacePoint point, vec3 sun) {
     }
     float share = 0.0;
     for (int i = 0; i < point.parts; ++i) {
-        GroundSum part = part_of(pixel_ground, i);
+        GroundSum part = part_of_pixel(i);
         if (part.share <= 0.0) continue;
-        share += add_part(sum, images, point, part, sun);
+        share += add_part(sum, images, point, part, sun, float(1 - 2 * ((i + i / pixel_ground.rows) & 1)));
     }
     if (share <= 0.0) add_place(sum, images, point, sun, 1.0);
     float scale = share > 0.0 ? 1.0 / share : 1.0;
@@ -213,6 +215,7 @@ vec3 daylit_background(vec3 direction) {
 }
 
 vec3 seen_ground(SurfacePoint point) {
+    if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) point.snow_line_m = snow_line_m(point.lat_deg);
     if (in_air) return daylit_ground(point);
     vec3 colour = ground_colour(point);
     return as_map && FRAME.style.is_map == 1u ? colour : in_haze(colour, point.h_m, length(point.view));
