@@ -23,7 +23,7 @@ class PageStream {
     // `capacity`: pages that may be under way or ready at a time, at least 1; 80 KB each. `pages` outlives
     // the stream. Where fewer threads are to be had, or none, it does with those: without any, take() loads
     // pages itself.
-    // means: pages come with theirs, 145 KB more.
+    // means: pages come with theirs, 222 KB more.
     PageStream(const RegionPages& pages, int threads, std::size_t capacity, bool means = false);
     ~PageStream();
     PageStream(const PageStream&) = delete;

@@ -20,8 +20,8 @@ vec3 ground_cover(SurfacePoint point) {
     float to_pole = lean > 0.0 ? point.normal.y / lean * (point.lat_deg < 0.0 ? -1.0 : 1.0) : 0.0;
     float above_m = point.mean_H_m - point.snow_line_m + FRAME.style.cover.shade_m * steepness * to_pole;
     // Level ground high up is most often ice, which snow feeds from above.
-    float high = smoothstep(-2.0, -1.0, above_m / max(FRAME.style.cover.level_m, 1.0));
-    above_m += FRAME.style.cover.level_m * high * (1.0 - smoothstep(7.0, 15.0, slope));
+    float high = smoothstep(-1.6, -0.8, above_m / max(FRAME.style.cover.level_m, 1.0));
+    above_m += FRAME.style.cover.level_m * high * point.wide_level * (1.0 - smoothstep(7.0, 15.0, slope));
     // Trees and snow hold on where grass and scree have slid down.
     float held = 9.0 * (1.0 - smoothstep(FRAME.style.cover.forest_m, 0.5 * FRAME.style.cover.forest_m, above_m)
                         + smoothstep(-100.0, 300.0, above_m));

@@ -34,8 +34,10 @@ vec3 sun_disc(vec3 direction) {
     return disc <= 0.0 ? vec3(0.0) : disc * to_space(min(eye_in_air_m(), air_top_m), rise) / (pi * sun_radius_rad * sun_radius_rad);
 }
 
-// Bright light is pressed together instead of cut off.
+// As a camera develops it: with a little more contrast than there is around what is exposed as a middle grey, and bright light pressed
+// together instead of cut off.
 vec3 shown(vec3 radiance) {
     vec3 light = radiance * AirTable(FRAME.air).at[air_exposure_at].x;
+    light = 0.22 * pow(max(light, vec3(0.0)) / 0.22, vec3(1.2));
     return mix(light, 0.35 + 0.65 * (1.0 - exp(-(light - 0.35) / 0.65)), greaterThan(light, vec3(0.35)));
 }

@@ -195,15 +195,18 @@ GroundSum part_of_level(PartsOfLevel of, int part) {
 
 // Means; the share is how much of it the eye sees: ground that is turned away less.
 GroundSum part_of_pixel(int part) {
-    GroundSum sum = part_of_level(pixel_ground.finer, part);
+    GroundSum sum = no_ground();
     float on = pixel_ground.on;
-    if (on > 0.0) {
-        GroundSum coarser = part_of_level(pixel_ground.coarser, part);
-        sum.normal = mix(sum.normal, coarser.normal, on);
-        sum.second = mix(sum.second, coarser.second, on);
-        sum.h_m = mix(sum.h_m, coarser.h_m, on);
-        sum.hh_m2 = mix(sum.hh_m2, coarser.hh_m2, on);
-        sum.share = mix(sum.share, coarser.share, on);
+    for (int i = 0; i < (on > 0.0 ? 2 : 1); ++i) {
+        PartsOfLevel level = pixel_ground.finer;
+        if (i == 1) level = pixel_ground.coarser;
+        GroundSum one = part_of_level(level, part);
+        float share = i == 0 ? 1.0 - on : on;
+        sum.normal += share * one.normal;
+        sum.second += share * one.second;
+        sum.h_m += share * one.h_m;
+        sum.hh_m2 += share * one.hh_m2;
+        sum.share += share * one.share;
     }
     if (sum.share <= 0.0) return sum;
     float scale = 1.0 / sum.share;
@@ -224,6 +227,25 @@ vec3 normal_of(vec2 level) {
     return normalize(vec3(level * inversesqrt(max(dot(level, level) / squared, 1.0)), sqrt(1.0 - squared)));
 }
 
+// Ice lies on level ground that is wide; a level crest has slopes on both sides. From how steep all ground around is on average.
+float wide_level_at(SurfacePoint point) {
+    float wide_posts = 500.0 / point.post_m;
+    uint page = page_over(point.page, uint(max(log2(wide_posts), 0.0)), point.region);
+    float square = float(1u << frame_pages().at[page].level);
+    vec2 middle = among_squares(page, point.region);
+    GroundSum around = no_ground();
+    // A small region may have no level of such squares.
+    int sides = square < 0.5 * wide_posts ? 4 : 1;
+    for (int i = 0; i < sides * sides; ++i) {
+        vec2 off = (vec2(i / sides, i % sides) - 0.5 * float(sides - 1)) * (wide_posts / (float(sides) * square));
+        add_squares(around, frame_pages().at[page].means, middle + off, 0.0, false);
+    }
+    if (around.share <= 0.0) return 1.0;
+    float sine2 = min((around.second.x + around.second.z) / around.share, 1.0), up2 = FRAME.exaggeration * FRAME.exaggeration;
+    sine2 /= max(sine2 + up2 * (1.0 - sine2), 1.0e-6);
+    return 1.0 - smoothstep(0.015, 0.05, sine2);  // 7 and 13 degrees
+}
+
 // Takes what the pixel's triangle says of its middle and puts the mean of its footprint in its place. number: of the triangle's page.
 void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     float H_ex = FRAME.exaggeration, undulation_m = undulation_at(region), origin_m = (point.h_m) / H_ex;
@@ -231,6 +253,9 @@ void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     uint row = min(uint(max(point.post.x, 0.0)), page_posts - 1u);
     float cosine = abs(RowTable(FRAME.row_terms).at[frame_pages().at[number].row_terms + row].cosine);
     vec2 post_m = vec2(PageBlocks(block).at[0].row_spacing_m, max(cosine * PageBlocks(block).at[0].column_spacing_m, 1.0e-3));
+    point.page = number;
+    point.region = region;
+    point.post_m = post_m.x;
     if (FRAME.style.footprint == footprint_finest) {
         point.normal = finest_normal(number, region, origin_m);
         return;
@@ -249,7 +274,7 @@ void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     point.normal = normalize(slope.normal);
     Footprint foot = footprint_at(point.view, region, slope.normal, axes, post_m);
     foot.region += to_mean_ground(foot, slope.normal, to_eye, H_ex * slope.h_m / slope.share, post_m);
-    float level = log2((in_air ? 0.5 : means_spacing_px) * foot.across_posts);
+    float level = log2((in_air ? 0.45 : means_spacing_px) * foot.across_posts);
     if (as_map && shows_angles() && foot.across_posts < 1.3333) {
         point.normal = finest_normal(number, region, origin_m);
         return;

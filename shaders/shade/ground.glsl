@@ -215,7 +215,12 @@ vec3 daylit_background(vec3 direction) {
 }
 
 vec3 seen_ground(SurfacePoint point) {
-    if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) point.snow_line_m = snow_line_m(point.lat_deg);
+    if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
+        point.snow_line_m = snow_line_m(point.lat_deg);
+        // Far below it nothing is ice, and far above it everything is.
+        float above_m = point.mean_H_m - point.snow_line_m, level_m = FRAME.style.cover.level_m;
+        if (by_means && level_m > 0.0 && above_m > -1.6 * level_m - 1000.0 && above_m < 2000.0) point.wide_level = wide_level_at(point);
+    }
     if (in_air) return daylit_ground(point);
     vec3 colour = ground_colour(point);
     return as_map && FRAME.style.is_map == 1u ? colour : in_haze(colour, point.h_m, length(point.view));

@@ -8,6 +8,10 @@ struct SurfacePoint {
     vec3 normal;    // east, north, up at the place
     float lat_deg;  // where the style asks for it
     float snow_line_m; // H, likewise; of seen_ground()
+    float wide_level;  // likewise: 1 on ground that is level for half a kilometre around, 0 on slopes and crests
+    uint page;         // of the triangle,
+    vec2 region;       // the place in the region,
+    float post_m;      // and metres from its row to the next: where the pixel has means
     float mean_H_m; // as H_m, of a part of the pixel's footprint
     int parts;      // of the footprint (footprint.glsl, pixel_ground); 0: the place alone colours the pixel
     float H_per_px; // how fast H changes on the picture; 0 where no contours are asked for
@@ -200,6 +204,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     if (!by_means || in_air || draped) descend(page, post, length(point.view));
     if (!by_means) point.normal = shading_normal_at(PageBlocks(page.block), page, post);
     point.lat_deg = point.snow_line_m = 0.0;
+    point.wide_level = 1.0;
     if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
         RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + uint(clamp(post.x, 0.0, float(page_quads)))];
         point.lat_deg = degrees(atan(row.S, row.C));

@@ -1,6 +1,7 @@
 // What covers the ground by nature: pictures against the table's own numbers.
 #include <array>
 #include <cstdlib>
+#include <functional>
 #include <glm/vec3.hpp>
 
 #include "tests/styles/drawn_style.h"
@@ -25,14 +26,18 @@ class Cover : public test::StyleTest {
     // Of the middle of a slope in a style: rises by `rise` towards the north, and is 2,700 m + `H_m` high
     // there.
     glm::ivec3 seen(const std::string& text, double rise, double H_m) {
+        return seen_over(
+            text, [&](int row) { return 2700.0 + H_m + rise * 30.0 * (30 - row); }, false);
+    }
+    // Of the middle of ground whose height goes by the row, of posts 30 m apart.
+    glm::ivec3 seen_over(const std::string& text, const std::function<double(int)>& H_m, bool means) {
         Region region;
-        region.field = test::square_field(
-            46.5, 8.0, 30.0, 61, [&](int row, int) { return 2700.0 + H_m + rise * 30.0 * (30 - row); });
+        region.field = test::square_field(46.5, 8.0, 30.0, 61, [&](int row, int) { return H_m(row); });
         const Camera camera = test::straight_down(region.field, 30.0, 3.0, 17);
         const auto style = style_of(text, ".json", camera, region.field);
         EXPECT_TRUE(style.ok()) << style.error().line();
         if (!style.ok()) return {};
-        const auto picture = drawn(region, camera, *style);
+        const auto picture = drawn(region, camera, *style, means);
         if (!picture) return {};
         const std::size_t pixel = 4 * (8 * 17 + 8);
         return {picture->rgba[pixel], picture->rgba[pixel + 1], picture->rgba[pixel + 2]};
@@ -59,6 +64,17 @@ TEST_F(Cover, LevelGroundHighUpIsIce) {
     expect_grey(seen(cover_style(never_rock, 0, 400), 0.0, 0.0), 140);
     expect_grey(seen(cover_style(never_rock, 0, 400), 0.0, -900.0), 10);  // not in the valley
     expect_grey(seen(cover_style(never_rock, 0, 400), 0.3, 0.0), 100);    // nor on a slope of 17 degrees
+}
+
+// By means: a level crest of 180 m between slopes of 27 degrees is none, level ground of a kilometre is.
+TEST_F(Cover, IceLiesOnWideLevelGround) {
+    std::string text = cover_style(never_rock, 0, 400);
+    text.insert(1, R"("footprint": "mean", )");
+    const auto crest = [](int row) { return 2700.0 - 15.0 * std::max(std::abs(row - 30) - 3, 0); };
+    expect_grey(seen_over(text, crest, true), 100);
+    expect_grey(seen_over(text, crest, false), 140);  // without them the place alone is known
+    const auto wide = [](int row) { return 2700.0 - 15.0 * std::max(std::abs(row - 30) - 17, 0); };
+    expect_grey(seen_over(text, wide, true), 140);
 }
 
 TEST_F(Cover, SteepGroundIsRock) {

@@ -148,11 +148,12 @@ class StyleTest : public GpuTest {
         EXPECT_LE(ties, 8 + mesh.points.size() / 5000);
     }
 
-    // By both ways of drawing.
-    std::optional<DepthPicture> drawn(const Region& region, const Camera& camera, const Style& style) {
+    // By both ways of drawing. means: of the ground, for styles whose footprint is one.
+    std::optional<DepthPicture> drawn(const Region& region, const Camera& camera, const Style& style,
+                                      bool means = false) {
         std::optional<DepthPicture> first;
         for (const RasterPath path : {RasterPath::mesh, RasterPath::compute}) {
-            auto scene = create_scene(*gpu_, region, 1.0, MemoryOptions{});
+            auto scene = create_scene(*gpu_, region, 1.0, MemoryOptions{}, {}, HeightStorage::f32, means);
             EXPECT_TRUE(scene.ok()) << scene.error().line();
             if (!scene.ok()) return std::nullopt;
             DepthPictureOptions options;
