@@ -260,6 +260,7 @@ struct DrawnTriangle {
     vec3 at[3];    // view coordinates, as they are drawn
     uint rows[3];  // no_triangle: the background
     uint columns[3];
+    float h_m[3];  // above the ellipsoid, as they are drawn
 };
 
 // Where the eye stands over the region's grid of posts: from a place in view coordinates to the post below it

@@ -56,6 +56,7 @@ DrawnPoint drawn_point(const gpu::DrawnTriangle& triangle, const glm::dvec3& ray
         point.row += shares[i] * triangle.rows[i];
         point.column += shares[i] * triangle.columns[i];
         point.z_m -= shares[i] * at[i].z;
+        point.h_m += shares[i] * triangle.h_m[i];
     }
     return point;
 }

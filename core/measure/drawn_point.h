@@ -12,6 +12,7 @@ struct DrawnPoint {
     double row{};  // fractional; 0 is the region's north
     double column{};
     double z_m{};  // distance along the view axis at which it is drawn; 0: the background
+    double h_m{};  // its triangle's height above the ellipsoid there, exaggerated as it is drawn
     [[nodiscard]] bool background() const { return z_m <= 0.0; }
 };
 

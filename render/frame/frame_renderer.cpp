@@ -349,6 +349,8 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
         record_wants(commands, plan);
     } else if (options_.shades) {
         record_shade(commands, plan);
+    } else if (options_.keep_triangles) {
+        record_ids_alone(commands);
     }
     stamp(3);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,

@@ -36,7 +36,7 @@ struct FrameRendererOptions {
     bool smooth_edges{false};      // of pictures of one sample, see shaders/shade/edges.comp
     bool keep_depths{false};       // for read_depths()
     bool keep_triangles{false};    // for read_triangles()
-    bool shades{true};             // false: for times alone, there is nothing to be read
+    bool shades{true};             // false: there is nothing to be read but triangles; for times, too
     bool waits_for_images{true};   // false: a frame is drawn with what of them is there
     RasterPath path{RasterPath::mesh};
 };
@@ -103,6 +103,7 @@ class FrameRenderer {
     void record_choice(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
+    void record_ids_alone(VkCommandBuffer commands) const;
     void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
     Result<void> ask_again(const FramePlan& plan, std::uint32_t seed);
     Result<bool> bring_images(const FramePlan& plan);

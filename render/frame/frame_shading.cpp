@@ -30,9 +30,14 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     vkCmdDispatch(commands, columns, rows, 1);
 }
 
-void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {
+// For those who read them instead of the shading pass.
+void FrameRenderer::record_ids_alone(VkCommandBuffer commands) const {
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, compute_ ? unused : as_colour,
                   shader_read);
+}
+
+void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {
+    record_ids_alone(commands);
     drape_.record(commands, pipelines_, plan.constants);
 }
 

@@ -21,6 +21,7 @@ DrawnTriangle triangle_of(uint id) {
         for (int i = 0; i < 3; ++i) {
             triangle.at[i] = vec3(0.0);
             triangle.rows[i] = triangle.columns[i] = no_triangle;
+            triangle.h_m[i] = 0.0;
         }
         return triangle;
     }
@@ -33,6 +34,7 @@ DrawnTriangle triangle_of(uint id) {
         triangle.at[i] = at[i];
         triangle.rows[i] = number.x;
         triangle.columns[i] = number.y;
+        triangle.h_m[i] = heights_m[i];
     }
     return triangle;
 }

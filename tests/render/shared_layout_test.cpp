@@ -145,6 +145,7 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(DrawnTriangle, at),
         ORO_MEMBER(DrawnTriangle, rows),
         ORO_MEMBER(DrawnTriangle, columns),
+        ORO_MEMBER(DrawnTriangle, h_m),
         ORO_MEMBER(LargeTask, triangle),
         ORO_MEMBER(LargeTask, square),
         ORO_MEMBER(TintStop, at),
