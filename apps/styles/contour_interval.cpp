@@ -111,4 +111,10 @@ double contour_interval_m(const Camera& camera, double exaggeration, const Heigh
     return round_interval_m(std::min(wanted_px * rise_m, relief_m / wanted_lines), least_px * rise_m);
 }
 
+double steady_interval_m(double shown_m, double wanted_m) {
+    constexpr double one_step = 2.6;  // at most 2.5 lies between two of them
+    const double off = shown_m > 0.0 ? std::max(wanted_m / shown_m, shown_m / wanted_m) : one_step + 1.0;
+    return off <= one_step ? shown_m : wanted_m;
+}
+
 }  // namespace oro

@@ -12,4 +12,9 @@ namespace oro {
 // 100 where a picture shows no ground. Looks along 400 sight lines, in steps: a narrow ridge may be missed.
 double contour_interval_m(const Camera& camera, double exaggeration, const HeightField& field);
 
+// The interval of an eye that moves: the one that is shown, as long as the one that the view would have is
+// the same, or the next or the last of 1, 2, 5, 10 and so on. So lines stay where they are while they stand
+// 2 to 100 px apart instead of 5 to 40, and each change is followed by a long stretch without another.
+double steady_interval_m(double shown_m, double wanted_m);
+
 }  // namespace oro

@@ -116,10 +116,12 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     return style;
 }
 
-Result<void> fit_to_view(Style& style, const View& view, const HeightField& field) {
+Result<void> fit_to_view(Style& style, const View& view, const HeightField& field, Eye eye) {
     if (!style.contours_by_view) return {};
+    const double wanted_m = contour_interval_m(view.camera, view.exaggeration, field);
+    const double shown_m = static_cast<double>(style.frame.contours.interval_m);
     style.frame.contours.interval_m =
-        static_cast<float>(contour_interval_m(view.camera, view.exaggeration, field));
+        static_cast<float>(eye == Eye::moves ? steady_interval_m(shown_m, wanted_m) : wanted_m);
     return field.health();
 }
 

@@ -19,7 +19,9 @@ void light_by(const SunDirection& sun, gpu::FrameStyle& style);
 // light. Errors: no such style, or what is wrong in it; posts that cannot be read.
 Result<Style> load_style(const View& view, const HeightField& field);
 
-// What of a style follows from the view, after the eye has moved. Errors: posts that cannot be read.
-Result<void> fit_to_view(Style& style, const View& view, const HeightField& field);
+// What of a style follows from the view, after the eye has moved. Of one that moves on, what is shown stays
+// as long as it may (steady_interval_m). Errors: posts that cannot be read.
+enum class Eye { rests, moves };
+Result<void> fit_to_view(Style& style, const View& view, const HeightField& field, Eye eye = Eye::rests);
 
 }  // namespace oro

@@ -47,7 +47,9 @@ struct Viewer {
     std::optional<TrueSurface> surface{};  // made when it is first asked, for all questions after
     std::unique_ptr<FinerLevels> finer{};  // the levels that the view asks for, until they are here
     Clock::time_point started{};
-    bool is_shown{};  // once something is
+    bool is_shown{};            // once something is
+    Clock::time_point moved{};  // when the eye last did
+    bool follows_eye{};         // what is fitted to a view is that of an eye that moved, until it rests
 };
 
 // How long the user has waited for it.
@@ -118,6 +120,7 @@ void jump(Viewer& viewer) {
     const auto to = ground_h_m(field, place->lat_deg, place->lon_deg, exaggeration);
     const double above_m = std::max(eye_clearance_m, camera.eye.h_m - from.value_or(0.0));
     camera.eye = {place->lat_deg, place->lon_deg, to ? *to + above_m : std::max(camera.eye.h_m, above_m)};
+    viewer.follows_eye = false;
     viewer.message = to ? "" : "no data there";
 }
 
@@ -239,7 +242,8 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
             viewer.view.camera =
                 flown(viewer.view.camera, step, viewer.region.field, viewer.view.exaggeration);
             viewer.message.clear();
-            changed = true;
+            viewer.moved = Clock::now();
+            viewer.follows_eye = changed = true;
         }
         if (input.take_picture) {
             ORO_CHECK(take_picture(viewer));
@@ -250,6 +254,14 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
     ORO_CHECK(viewer.region.field.health());
     show_title(viewer);
     return true;
+}
+
+// Some time after the eye has moved it rests: contour lines, which stayed, are then those of its view.
+bool comes_to_rest(Viewer& viewer) {
+    constexpr double rest_s = 0.4;
+    if (!viewer.follows_eye || seconds_since(viewer.moved) < rest_s) return false;
+    viewer.follows_eye = false;
+    return viewer.style.contours_by_view;
 }
 
 // Draws with what is on the GPU; what is missing comes in the background and is drawn when it is there.
@@ -265,6 +277,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         ORO_TRY(const bool better, viewer.scene->advance(viewer.missing));
         changed = changed || better;
     }
+    changed = comes_to_rest(viewer) || changed;
     if (!changed) return {};
     camera.width_px = static_cast<int>(extent.width);
     camera.height_px = static_cast<int>(extent.height);
@@ -280,7 +293,8 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         say(viewer.options.quiet, "note: " + viewer.message);
         show_title(viewer);
     }
-    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field));
+    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field,
+                          viewer.follows_eye ? Eye::moves : Eye::rests));
     ORO_TRY(const FrameReport drawn,
             viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drape()));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
