@@ -1,6 +1,6 @@
 #include "apps/accuracy/pixel_check.h"
 
-#include "apps/output/picture_file.h"
+#include "apps/labels/labelled_picture.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 
@@ -30,14 +30,15 @@ bool is_drawn_one(const PictureDifference& difference) {
            beyond.most_in_a_square <= most_off_in_a_square;
 }
 
-Result<PictureDifference> compare_pixels(const std::string& picture, const View& view, const Gpu& gpu,
-                                         Scene& scene, RasterPath path, const gpu::FrameStyle& style,
+Result<PictureDifference> compare_pixels(const std::string& picture, const View& view,
+                                         const HeightField& field, const Gpu& gpu, Scene& scene,
+                                         RasterPath path, const Style& style,
                                          const RenderProgress& progress) {
     const Camera& camera = view.camera;
     ORO_TRY(PictureComparison comparison,
             PictureComparison::open(picture, camera.width_px, camera.height_px, device_slack));
     const auto take = [&](std::span<const std::uint8_t> rgb) { return comparison.add_drawn_row(rgb); };
-    ORO_CHECK(render_picture(gpu, scene, camera, style, picture_options(view, path), take, progress));
+    ORO_CHECK(render_labelled(gpu, scene, view, field, style, path, take, progress));
     return comparison.finish();
 }
 

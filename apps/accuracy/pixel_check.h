@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/styles/style.h"
 #include "apps/view/view.h"
 #include "geo/pixels/picture_difference.h"
 #include "render/frame/picture_renderer.h"
@@ -26,9 +27,9 @@ bool is_drawn_one(const PictureDifference& difference);
 
 // Draws a view as its picture is drawn, and compares that with the picture's file. Errors: those of
 // open_picture_rows and of the device.
-Result<PictureDifference> compare_pixels(const std::string& picture, const View& view, const Gpu& gpu,
-                                         Scene& scene, RasterPath path, const gpu::FrameStyle& style,
-                                         const RenderProgress& progress);
+Result<PictureDifference> compare_pixels(const std::string& picture, const View& view,
+                                         const HeightField& field, const Gpu& gpu, Scene& scene,
+                                         RasterPath path, const Style& style, const RenderProgress& progress);
 
 // What is wrong with the pixels of the picture that a view comes from; nothing where they are as its view
 // draws them. `same_style`: colours and light are those that it was drawn with.

@@ -108,7 +108,7 @@ void add_plan(CLI::App& app, PlanOptions& options) {
             "How far off the picture may be, 0.001 to 1000, e.g. 1px (default 1px). Errors are judged by "
             "it.");
     hide(command, {"--style", "--drape", "--drape-opacity", "--sun", "--sun-time", "--visibility", "--sea",
-                   "--rim", "--shadows", "--sky-openness", "--samples", "--pipeline"});
+                   "--rim", "--shadows", "--sky-openness", "--labels", "--samples", "--pipeline"});
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},

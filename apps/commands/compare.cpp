@@ -58,18 +58,18 @@ Result<void> check_error_picture(const CompareOptions& options) {
 // Of a picture: that its pixels are what its view draws. Where its data changed, and that is known, they may
 // well be others.
 Result<std::optional<PictureDifference>> check_pixels(const CompareOptions& options, const View& view,
-                                                      const Gpu& gpu, Scene& scene, RasterPath path,
-                                                      const Style& style, ProgressBar& bar) {
+                                                      const HeightField& field, const Gpu& gpu, Scene& scene,
+                                                      RasterPath path, const Style& style, ProgressBar& bar) {
     if (!is_from_picture(view)) {
         say(options.quiet, "note: " + options.view_file + ": is a view without pixels to check");
         return std::optional<PictureDifference>();
     }
     ORO_TRY(const PictureDifference found,
-            compare_pixels(options.view_file, view, gpu, scene, path, style.frame,
+            compare_pixels(options.view_file, view, field, gpu, scene, path, style,
                            [&](double share) { bar.show(share, "drawing"); }));
     const std::optional<Fingerprints>& told = view.told->prints;
-    const bool same_style = !told || !told->style || told->program != view.prints->program ||
-                            *told->style == style_print(style.frame);
+    const bool same_style =
+        !told || !told->style || told->program != view.prints->program || *told->style == style_print(style);
     if (const auto fault = fault_of_pixels(view, found, same_style)) {
         const bool was_edited =
             told && told->pixels && found.file_print && *told->pixels != *found.file_print;
@@ -106,7 +106,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(const std::optional<PictureDifference> pixels,
-            check_pixels(options, view, *gpu, scene, path, style, bar));
+            check_pixels(options, view, region.field, *gpu, scene, path, style, bar));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(0.0, "comparing");
     ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));

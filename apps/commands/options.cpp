@@ -91,6 +91,9 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
     looks.choice(
         "--sky-openness", options.sky_openness, {"on", "off"},
         "Whether ground that sees less of the sky gets less of its light. Default: as the style has it.");
+    looks.choice("--labels", options.labels, {"on", "off"},
+                 "Whether every fifth contour line has its height written on it, in pictures; a window has "
+                 "none. Default: as the style has it.");
     looks.whole_number("--samples", options.samples, static_cast<int>(view_limits::samples.low),
                        static_cast<int>(view_limits::samples.high), "N",
                        "How many samples make a pixel, " + span(view_limits::samples) +

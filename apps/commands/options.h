@@ -36,6 +36,7 @@ struct ViewOptions {
     std::optional<std::string> sun_time;
     std::optional<std::string> shadows;  // on, off
     std::optional<std::string> sky_openness;
+    std::optional<std::string> labels;
     std::optional<double> exaggeration;
     std::optional<int> samples;
     std::optional<std::string> style;

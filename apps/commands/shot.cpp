@@ -232,10 +232,11 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     ORO_TRY(DrawnPicture picture,
             draw_picture(
                 checks ? unnamed(files) : files, options.overwrite || checks, shot.view, shot.region,
-                shot.middle, gpu, scene, style.frame, [&](double share) { bar.show(share, "drawing"); },
+                shot.middle, gpu, scene, style, [&](double share) { bar.show(share, "drawing"); },
                 [&](std::span<const std::uint8_t> row) { return beside.take(row), Result<void>(); }));
     shot.beside = beside.found();
     shot.picture = picture.report;
+    shot.labels = picture.labels;
     shot.view.prints = picture.prints;
     shot.times.draw_s = seconds_since(drawing);
     if (shot.picture.ground_px == 0)

@@ -60,6 +60,17 @@ void put_counts(const ShotResult& shot, ordered_json& json) {
     pages["bytes_on_gpu"] = shot.page_bytes;
 }
 
+// Of the picture, from the top down.
+ordered_json labels_json(const std::vector<LineLabel>& labels) {
+    ordered_json json = ordered_json::array();
+    for (const LineLabel& label : labels)
+        json.push_back(json_object("text", label.text, "H_m", label.H_m, "middle_px",
+                                   json_list(label.middle_px.x, label.middle_px.y), "angle_deg",
+                                   label.angle_deg, "length_px", label.length_px, "top_is_uphill",
+                                   label.top_is_uphill));
+    return json;
+}
+
 // Null where neither --accuracy nor --tolerance chose.
 ordered_json accuracy_json(const ShotResult& shot) {
     const bool named = !shot.view.accuracy.empty();
@@ -108,6 +119,9 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["footprint"] = !shot.has_means                                  ? "point"
                         : style.frame.footprint == gpu::footprint_finest ? "finest"
                                                                          : "mean";
+    json["contour_interval_m"] = nullptr;
+    if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
+    json["labels"] = labels_json(shot.labels);
     json["time"] = time_text(shot.view.time_utc_s);
     json["destination"] = destination_json(shot.middle);
     json["attribution"] = tags.attribution;

@@ -31,6 +31,7 @@ struct ShotResult {
     Region region;
     std::optional<SeenPlace> middle;  // what the picture sees there
     PictureReport picture;
+    std::vector<LineLabel> labels;
     std::uint64_t pages{};
     std::uint64_t pages_on_gpu{};
     std::uint64_t page_bytes{};

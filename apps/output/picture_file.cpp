@@ -43,18 +43,9 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
     return tags;
 }
 
-PictureOptions picture_options(const View& view, RasterPath path) {
-    PictureOptions options;
-    options.samples = view.samples;
-    options.tau_px = view.tau_px;
-    options.model = view.model;
-    options.path = path;
-    return options;
-}
-
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
                                   const Region& region, const std::optional<SeenPlace>& middle,
-                                  const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                  const Gpu& gpu, Scene& scene, const Style& style,
                                   const RenderProgress& progress, const RowSink& also) {
     // The eye and the tags come from heights that were asked for by now.
     ORO_CHECK(region.field.health());
@@ -75,8 +66,9 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
         if (also) ORO_CHECK(also(rgb));
         return writer->write_row(rgb);
     };
-    ORO_TRY(PictureReport report,
-            render_picture(gpu, scene, view.camera, style, picture_options(view, path), take, progress));
+    ORO_TRY(LabelledPicture labelled,
+            render_labelled(gpu, scene, view, region.field, style, path, take, progress));
+    const PictureReport& report = labelled.report;
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
     if (!report.settled)
@@ -92,12 +84,12 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
         drawn.prints->pixels = pixels.print();
         ORO_CHECK(replace_in_view(file, files.picture, pixels_field(0), pixels_field(pixels.print())));
     }
-    return DrawnPicture{report, std::move(file), drawn.prints};
+    return DrawnPicture{report, std::move(labelled.labels), std::move(file), drawn.prints};
 }
 
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
                                     const Region& region, const std::optional<SeenPlace>& middle,
-                                    const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                    const Gpu& gpu, Scene& scene, const Style& style,
                                     const RenderProgress& progress) {
     ORO_TRY(DrawnPicture picture,
             draw_picture(files, overwrite, view, region, middle, gpu, scene, style, progress));

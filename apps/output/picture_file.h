@@ -1,6 +1,7 @@
 // A view drawn into a file with its geotags, which hold the view. Used by shot and by the viewer.
 #pragma once
 
+#include "apps/labels/labelled_picture.h"
 #include "apps/view/view.h"
 #include "apps/window/picking.h"
 #include "geo/pictures/picture.h"
@@ -24,6 +25,7 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
 // A picture that is whole and has no name yet.
 struct DrawnPicture {
     PictureReport report;
+    std::vector<LineLabel> labels;
     WholeFile file;
     std::optional<Fingerprints> prints;  // those in it
 };
@@ -33,16 +35,13 @@ struct DrawnPicture {
 // the device; any message of the validation layer, where it is on.
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
                                   const Region& region, const std::optional<SeenPlace>& middle,
-                                  const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                  const Gpu& gpu, Scene& scene, const Style& style,
                                   const RenderProgress& progress, const RowSink& also = {});
-
-// What a view's picture is drawn with.
-PictureOptions picture_options(const View& view, RasterPath path);
 
 // The same, and gives it its name.
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
                                     const Region& region, const std::optional<SeenPlace>& middle,
-                                    const Gpu& gpu, Scene& scene, const gpu::FrameStyle& style,
+                                    const Gpu& gpu, Scene& scene, const Style& style,
                                     const RenderProgress& progress);
 
 }  // namespace oro

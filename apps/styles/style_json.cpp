@@ -22,6 +22,8 @@ struct Measure {
     double low;
     double high;
 };
+constexpr double smallest_labels_px = 6.0, largest_labels_px = 100.0;
+
 constexpr std::array<Measure, 4> measures{{{"H_m", -largest_in_style, largest_in_style},
                                            {"slope_deg", 0.0, 90.0},
                                            {"aspect_deg", 0.0, 360.0},
@@ -165,16 +167,17 @@ void read_air(const json& object, gpu::FrameStyle& style) {
     style.no_data_colour = linear_light(colour_of(object, "no_data"));
 }
 
-// True where the interval is the view's to choose.
-bool read_contours(const json& object, gpu::FrameStyle& style) {
-    if (!object.contains("contours")) return false;
+void read_contours(const json& object, Style& style) {
+    if (!object.contains("contours")) return;
     const auto& lines = json_field(object, "contours");
-    style.contours.colour = linear_light(colour_of(lines, "colour"));
-    style.contours.width_px = style_number(lines, "width_px", 0.1, 20.0);
-    refuse_unknown(lines, "'contours'", {"colour", "width_px", "interval_m"});
-    if (!lines.contains("interval_m")) return true;
-    style.contours.interval_m = style_number(lines, "interval_m", 0.1, 1e5);
-    return false;
+    style.frame.contours.colour = linear_light(colour_of(lines, "colour"));
+    style.frame.contours.width_px = style_number(lines, "width_px", 0.1, 20.0);
+    if (lines.contains("labels_px"))
+        style.labels_px = json_number(lines, "labels_px", smallest_labels_px, largest_labels_px);
+    refuse_unknown(lines, "'contours'", {"colour", "width_px", "interval_m", "labels_px"});
+    style.contours_by_view = !lines.contains("interval_m");
+    if (!style.contours_by_view)
+        style.frame.contours.interval_m = style_number(lines, "interval_m", 0.1, 1e5);
 }
 
 }  // namespace
@@ -184,7 +187,7 @@ Style style_of_json(const json& object) {
     read_ground(object, style.frame);
     style.sun = read_light(object, style.frame);
     read_air(object, style.frame);
-    style.contours_by_view = read_contours(object, style.frame);
+    read_contours(object, style);
     style.frame.footprint = choice(object, "footprint",
                                    std::array<StyleChoice, 3>{{{"point", gpu::footprint_point},
                                                                {"mean", gpu::footprint_mean},

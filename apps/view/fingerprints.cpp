@@ -1,5 +1,7 @@
 #include "apps/view/fingerprints.h"
 
+#include <array>
+#include <bit>
 #include <filesystem>
 #include <span>
 #include <type_traits>
@@ -29,10 +31,13 @@ Fingerprints prints_of(const Region& region) {
     return prints;
 }
 
-std::uint64_t style_print(const gpu::FrameStyle& style) {
+std::uint64_t style_print(const Style& style) {
     static_assert(std::is_trivially_copyable_v<gpu::FrameStyle> && alignof(gpu::FrameStyle) == 4,
                   "no byte of it is padding");
-    return xxh64(std::as_bytes(std::span(&style, 1)));
+    const std::uint64_t frame = xxh64(std::as_bytes(std::span(&style.frame, 1)));
+    if (style.labels_px == 0.0) return frame;
+    const std::array both{frame, std::bit_cast<std::uint64_t>(style.labels_px)};
+    return xxh64(std::as_bytes(std::span(both)));
 }
 
 }  // namespace oro

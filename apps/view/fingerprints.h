@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/styles/style.h"
 #include "geo/region/region.h"
 #include "shaders/shared.h"
 
@@ -42,6 +43,6 @@ std::string program_print();
 
 // Of a region that was just opened. Without style and pixels.
 Fingerprints prints_of(const Region& region);
-std::uint64_t style_print(const gpu::FrameStyle& style);
+std::uint64_t style_print(const Style& style);
 
 }  // namespace oro

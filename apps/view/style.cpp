@@ -69,6 +69,21 @@ Result<void> surround(gpu::FrameStyle& style, const View& view, const HeightFiel
     return field.health();
 }
 
+// What the view says of labels.
+Result<void> label_by(const View& view, Style& style) {
+    constexpr double usual_px = 11.0;
+    const bool has_lines = style.contours_by_view || style.frame.contours.interval_m > 0.0F;
+    if (view.labels.value_or(false) && !has_lines)
+        return Error{ErrorKind::usage, "--labels on",
+                     "the style '" + view.style + "' has no contour lines that could be labelled"};
+    if (!view.labels) return {};
+    if (!*view.labels)
+        style.labels_px = 0.0;
+    else if (style.labels_px == 0.0)
+        style.labels_px = usual_px;
+    return {};
+}
+
 }  // namespace
 
 bool is_style_path(const std::string& style) {
@@ -109,6 +124,7 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     if (view.sky_openness.value_or(false) && style.frame.light != gpu::light_sun)
         return Error{ErrorKind::usage, "--sky-openness on",
                      "the style '" + name + "' has no light of the sky"};
+    ORO_CHECK(label_by(view, style));
     if (view.shadows) style.frame.shadows = *view.shadows ? 1 : 0;
     if (view.sky_openness) style.frame.sky_openness = *view.sky_openness ? 1 : 0;
     ORO_CHECK(surround(style.frame, view, field));

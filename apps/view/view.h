@@ -44,6 +44,7 @@ struct View {
     std::string style{"natural"};
     std::optional<bool> shadows;       // nothing: as the style has it
     std::optional<bool> sky_openness;  // likewise
+    std::optional<bool> labels;        // likewise: heights on contour lines
     Sea sea{Sea::level};
     Rim rim{Rim::skirt};
     std::vector<std::string> drape;  // images over the ground, the last on top

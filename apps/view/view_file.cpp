@@ -171,6 +171,10 @@ View read_fields(const nlohmann::json& json) {
     // Where nothing was asked for there is none.
     if (json.contains("shadows")) view.shadows = json_flag(json, "shadows");
     if (json.contains("sky_openness")) view.sky_openness = json_flag(json, "sky_openness");
+    // Views of before there were labels were drawn without.
+    view.labels = false;
+    if (json.contains("labels")) view.labels.reset();
+    if (json.contains("labels") && !json["labels"].is_null()) view.labels = json_flag(json, "labels");
     // Views of before there was a choice have none.
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
     if (!raster_request_named(view.pipeline))
@@ -233,6 +237,8 @@ std::string view_to_json(const View& view, bool pretty) {
     if (!view.drape.empty()) json["drape"] = drape_json(view);
     if (view.shadows) json["shadows"] = *view.shadows;
     if (view.sky_openness) json["sky_openness"] = *view.sky_openness;
+    json["labels"] = nullptr;
+    if (view.labels) json["labels"] = *view.labels;
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;
     json["accuracy"] = view.accuracy;

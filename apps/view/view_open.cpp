@@ -52,7 +52,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                              !view_options.style && !view_options.visibility_km && !view_options.sun &&
                                  !view_options.sun_time && !view_options.sea && !view_options.rim &&
                                  view_options.drape.empty() && !view_options.drape_opacity &&
-                                 !view_options.shadows && !view_options.sky_openness,
+                                 !view_options.shadows && !view_options.sky_openness && !view_options.labels,
                              view.prints};
         ORO_CHECK(change_view(view, view_options));
         // A sun that its file told stays where the file has it: the same view, the same bytes.

@@ -121,6 +121,9 @@ Result<void> apply_colours(View& view, const ViewOptions& options) {
     if (options.sky_openness) {
         ORO_TRY(view.sky_openness, switch_named("--sky-openness", *options.sky_openness));
     }
+    if (options.labels) {
+        ORO_TRY(view.labels, switch_named("--labels", *options.labels));
+    }
     return apply_drape(view, options);
 }
 

@@ -196,7 +196,7 @@ Result<void> take_picture(Viewer& viewer) {
     ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field));
     const auto written = write_picture(files, false, viewer.view, viewer.region, middle, viewer.gpu,
-                                       *viewer.scene, viewer.style.frame, {});
+                                       *viewer.scene, viewer.style, {});
     viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
     say(viewer.options.quiet && written.ok(), viewer.message);
     if (!written.ok() || viewer.options.quiet) return {};

@@ -118,8 +118,8 @@ TEST(Help, HidesWhatDoesNothing) {
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
           "--tolerance", "--samples"}},
         {"plan",
-         {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--samples", "--pipeline",
-          "--time"}},
+         {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--samples",
+          "--pipeline", "--time"}},
         {"view", {"--tolerance", "--time"}},
         {"compare", {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids"}}};
     const std::string shot = help_of({"shot"});

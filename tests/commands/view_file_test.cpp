@@ -24,6 +24,7 @@ oro::View unusual_view() {
     view.style = "other";
     view.sea = oro::Sea::low;
     view.rim = oro::Rim::none;
+    view.labels = true;
     view.pipeline = "compute";
     view.model = {oro::Earth::sphere, {-0.25}, oro::Precision::naive};
     view.has_geoid = false;
@@ -74,6 +75,24 @@ TEST(ViewFile, ViewsThatDoNotNameTheirAirHaveThatOfBefore) {
     const auto read = oro::view_from_json(text, "test");
     ASSERT_FALSE(read.ok());
     EXPECT_NE(read.error().line().find("'air' is 'thick'"), std::string::npos) << read.error().line();
+}
+
+TEST(ViewFile, ViewsOfBeforeThereWereLabelsHaveNone) {
+    oro::View view = unusual_view();
+    const auto labels_of = [&](const std::string& field, const std::string& instead) {
+        std::string text = oro::view_to_json(view, false);
+        EXPECT_NE(text.find(field), std::string::npos) << text;
+        text.replace(text.find(field), field.size(), instead);
+        const auto read = oro::view_from_json(text, "test");
+        EXPECT_TRUE(read.ok());
+        return read.ok() ? read->labels : std::nullopt;
+    };
+    EXPECT_EQ(labels_of(R"("labels":true,)", R"("labels":true,)"), true);
+    EXPECT_EQ(labels_of(R"("labels":true,)", R"("labels":false,)"), false);
+    EXPECT_EQ(labels_of(R"("labels":true,)", ""), false);
+    view.labels.reset();
+    EXPECT_EQ(labels_of(R"("labels":null,)", R"("labels":null,)"), std::nullopt);
+    EXPECT_EQ(labels_of(R"("labels":null,)", ""), false);
 }
 
 TEST(ViewFile, ViewsWithoutAPipelineAreAutomatic) {

@@ -1,0 +1,68 @@
+#include "apps/labels/labelled_picture.h"
+
+#include <cmath>
+
+#include "apps/text/inked_rows.h"
+#include "apps/text/text_face.h"
+
+namespace oro {
+namespace {
+
+constexpr double halo_share = 0.2;  // of the figures' size
+
+std::uint8_t code_of(float linear) {
+    // Source: IEC 61966-2-1:1999, 5.2.
+    const double value = static_cast<double>(linear);
+    const double encoded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+}
+
+Result<std::vector<TextMask>> masks_of(const TextFace& face, const std::vector<LineLabel>& labels,
+                                       double size_px) {
+    std::vector<TextMask> masks;
+    for (const LineLabel& label : labels) {
+        ORO_TRY(TextMask mask,
+                face.mask(label.text, {label.middle_px, label.angle_deg, size_px, halo_share * size_px}));
+        masks.push_back(std::move(mask));
+    }
+    return masks;
+}
+
+}  // namespace
+
+PictureOptions picture_options(const View& view, RasterPath path) {
+    PictureOptions options;
+    options.samples = view.samples;
+    options.tau_px = view.tau_px;
+    options.model = view.model;
+    options.path = path;
+    return options;
+}
+
+Result<LabelledPicture> render_labelled(const Gpu& gpu, Scene& scene, const View& view,
+                                        const HeightField& field, const Style& style, RasterPath path,
+                                        const RowSink& sink, const RenderProgress& progress) {
+    const PictureOptions options = picture_options(view, path);
+    const Camera& camera = view.camera;
+    LabelledPicture picture;
+    if (style.labels_px <= 0.0) {
+        ORO_TRY(picture.report, render_picture(gpu, scene, camera, style.frame, options, sink, progress));
+        return picture;
+    }
+    const gpu::ContourLines& lines = style.frame.contours;
+    ORO_TRY(const TextFace face, TextFace::open());
+    ORO_TRY(const SeenHeights seen, seen_heights(gpu, scene, camera, options, view.exaggeration, field));
+    ORO_TRY(picture.labels,
+            line_labels(seen, static_cast<double>(lines.interval_m), style.labels_px,
+                        [&](const std::string& text) { return face.width_px(text, style.labels_px); }));
+    ORO_TRY(std::vector<TextMask> masks, masks_of(face, picture.labels, style.labels_px));
+    const InkedRows::Colour ink{code_of(lines.colour.x), code_of(lines.colour.y), code_of(lines.colour.z)};
+    InkedRows inked(camera.width_px, camera.height_px, std::move(masks), ink, sink);
+    ORO_TRY(picture.report,
+            render_picture(
+                gpu, scene, camera, style.frame, options,
+                [&](std::span<const std::uint8_t> row) { return inked.take(row); }, progress));
+    return picture;
+}
+
+}  // namespace oro

@@ -1,0 +1,56 @@
+// Text as pixels: measured, turned to any angle, smooth at its edges, with a halo around it.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace oro {
+
+// Where text stands in a picture and how large it is.
+struct TextPlace {
+    glm::dvec2 middle_px;  // half way along it, at half the height of its capitals; from the top left corner
+    double angle_deg{};    // of its base line: clockwise, 0 to the right
+    double size_px{12.0};  // of the em, above 0; capitals have 0.73 of it
+    double halo_px{};      // how far the halo goes beyond the letters; 0: none
+};
+
+// What text covers of the pixels of a rectangle, 0 to 255, row by row.
+struct TextMask {
+    int x_px{};  // of its first pixel; may be outside the picture
+    int y_px{};
+    int width_px{};
+    int height_px{};
+    std::vector<std::uint8_t> ink;
+    std::vector<std::uint8_t> halo;  // the letters' own pixels, too
+};
+
+// The font that pictures are written in. The same text at the same place has the same pixels on every machine
+// (with one version of FreeType): shapes are not fitted to the pixels' grid.
+//     ORO_TRY(const TextFace face, TextFace::open());
+//     ORO_TRY(const TextMask mask, face.mask("Eiger", {{320.0, 100.0}, -12.5, 14.0, 2.0}));
+class TextFace {
+  public:
+    // Errors: no memory.
+    static Result<TextFace> open();
+
+    // How long a text is, from where its first letter begins to where the next one would. Text is UTF-8; a
+    // letter that the font does not have is a box. Errors: text that is no UTF-8; no memory.
+    [[nodiscard]] Result<double> width_px(const std::string& text, double size_px) const;
+    // Errors: likewise.
+    [[nodiscard]] Result<TextMask> mask(const std::string& text, const TextPlace& place) const;
+
+  private:
+    struct Parts;
+    struct Ending {
+        void operator()(Parts* parts) const;
+    };
+    explicit TextFace(std::unique_ptr<Parts, Ending> parts) : parts_(std::move(parts)) {}
+    std::unique_ptr<Parts, Ending> parts_;
+};
+
+}  // namespace oro
