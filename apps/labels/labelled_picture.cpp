@@ -1,6 +1,9 @@
 #include "apps/labels/labelled_picture.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 
 #include "apps/text/inked_rows.h"
 #include "apps/text/text_face.h"
@@ -17,12 +20,31 @@ std::uint8_t code_of(float linear) {
     return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
+// The line below a label is interrupted between its letters, too, where their halos leave a gap.
+void interrupt_line(const LineLabel& label, double size_px, TextMask& mask) {
+    const double radians = label.angle_deg * std::numbers::pi / 180.0;
+    const glm::dvec2 along(std::cos(radians), std::sin(radians)), across(-along.y, along.x);
+    const glm::dvec2 half(0.5 * label.length_px, most_line_off_share * size_px + 1.0);
+    for (int y = 0; y < mask.height_px; ++y) {
+        for (int x = 0; x < mask.width_px; ++x) {
+            const glm::dvec2 away = glm::dvec2(mask.x_px + x + 0.5, mask.y_px + y + 0.5) - label.middle_px;
+            const glm::dvec2 in = half - glm::abs(glm::dvec2(glm::dot(away, along), glm::dot(away, across)));
+            const double share = std::clamp(std::min(in.x, in.y) + 0.5, 0.0, 1.0);
+            std::uint8_t& halo =
+                mask.halo[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width_px) +
+                          static_cast<std::size_t>(x)];
+            halo = std::max(halo, static_cast<std::uint8_t>(std::lround(255.0 * share)));
+        }
+    }
+}
+
 Result<std::vector<TextMask>> masks_of(const TextFace& face, const std::vector<LineLabel>& labels,
                                        double size_px) {
     std::vector<TextMask> masks;
     for (const LineLabel& label : labels) {
         ORO_TRY(TextMask mask,
                 face.mask(label.text, {label.middle_px, label.angle_deg, size_px, halo_share * size_px}));
+        interrupt_line(label, size_px, mask);
         masks.push_back(std::move(mask));
     }
     return masks;

@@ -13,9 +13,8 @@
 namespace oro {
 namespace {
 
-constexpr double every_px = 2.0;        // places that are tried along a line
-constexpr double most_off_share = 0.2;  // of the size: how far a line may be from a straight one
-constexpr double most_H_share = 0.95;   // of an interval: how far H may be from the line's below a label
+constexpr double every_px = 2.0;       // places that are tried along a line
+constexpr double most_H_share = 0.95;  // of an interval: how far H may be from the line's below a label
 constexpr double own_apart = 20.0, turned_apart = 40.0, all_apart = 8.0;  // sizes between labels
 
 // One that could be written.
@@ -78,10 +77,10 @@ class Places {
     void add(const ContourLine& line, std::size_t number, const std::string& text, double length_px,
              std::vector<Candidate>& all) const {
         const std::vector<glm::dvec2> points = evenly(line.points_px);
-        const auto reach = static_cast<std::size_t>(std::ceil(0.5 * length_px + 0.2 * size_px_));
+        const auto reach = static_cast<std::size_t>(std::ceil(0.5 * length_px + 0.45 * size_px_));
         std::vector<Candidate> uphill, turned;
         for (std::size_t at = reach; at + reach < points.size(); at += static_cast<std::size_t>(every_px)) {
-            const auto straight = straight_at(points, at, reach, most_off_share * size_px_);
+            const auto straight = straight_at(points, at, reach, most_line_off_share * size_px_);
             if (!straight) continue;
             auto label = label_at(points[at], straight->along, length_px);
             if (!label) continue;
@@ -89,7 +88,7 @@ class Places {
             if (!crowd) continue;
             label->text = text;
             label->H_m = line.H_m;
-            const double cost = straight->off_px / (most_off_share * size_px_) + *crowd +
+            const double cost = straight->off_px / (most_line_off_share * size_px_) + *crowd +
                                 0.5 * std::abs(label->angle_deg) / 90.0 + (label->top_is_uphill ? 0.0 : 10.0);
             (label->top_is_uphill ? uphill : turned).push_back({cost, number, at, *label});
         }

@@ -18,6 +18,9 @@ struct LineLabel {
     bool top_is_uphill{};
 };
 
+// How far a line may be from a straight one below its label, in sizes.
+inline constexpr double most_line_off_share = 0.2;
+
 // Length of a text in pixels.
 using TextLength = std::function<Result<double>(const std::string& text)>;
 

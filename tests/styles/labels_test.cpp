@@ -117,7 +117,7 @@ class Labels : public test::StyleTest {
         EXPECT_LE(off_px, 0.5 + tau_px) << label.text << ": " << *H_m << " m there";
         const double askew_deg =
             std::asin(std::abs(glm::dot(rise, along)) / glm::length(rise)) * 180.0 / std::numbers::pi;
-        EXPECT_LE(askew_deg, 8.0) << label.text;
+        EXPECT_LE(askew_deg, 5.0) << label.text;
         EXPECT_EQ(glm::dot(rise, up) > 0.0, label.top_is_uphill) << label.text;
         EXPECT_LE(std::abs(label.angle_deg), 90.0);
         // One piece of ground, from end to end.
