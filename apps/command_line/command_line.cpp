@@ -134,7 +134,7 @@ void add_trade(CLI::App& app, TradeOptions& options) {
     add_view_options(command, options.view);
     command.get_option("--size")->description("Size of the pictures in pixels (default 640x360).");
     hide(command, {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights",
-                   "--accuracy", "--tolerance", "--samples"});
+                   "--accuracy", "--tolerance", "--labels", "--samples"});
     add_memory_options(command, options.memory);
     add_quiet(command, options.quiet, "the table and errors");
     set_help(command,

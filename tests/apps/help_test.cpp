@@ -116,7 +116,7 @@ TEST(Help, HidesWhatDoesNothing) {
     const std::map<std::string, Words> hidden{
         {"trade",
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
-          "--tolerance", "--samples"}},
+          "--tolerance", "--labels", "--samples"}},
         {"plan",
          {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--samples",
           "--pipeline", "--time"}},

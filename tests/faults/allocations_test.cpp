@@ -67,6 +67,12 @@ TEST(FailedAllocationsOfLibpng, ForAPicture) {
     expect_order_of_all(oro::test::shot_of_tiles(), "by:libpng", false);
 }
 
+// A picture with a letter missing would be another picture.
+TEST(FailedAllocationsOfFreetype, ForLabels) {
+    FaultRuns runs(oro::test::shot_with_labels(), 1);
+    expect_order(runs, Fault{"by:libfreetype"}, 0, runs_asked_for() >= 1000 ? 1000 : 24);
+}
+
 INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocationsOfC,
                          testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
                                          oro::test::shot_of_tiles),

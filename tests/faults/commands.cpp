@@ -69,9 +69,10 @@ const std::string& baked() {
     return bytes;
 }
 
-Command shot_of(const std::string& name, const std::string& bytes) {
-    const std::vector<std::string> words{"shot",   name,    "-q",    "--overwrite", "--pipeline", "mesh",
-                                         "--size", "64x48", "--out", "p.png",       "--style",    "default"};
+Command shot_of(const std::string& name, const std::string& bytes, const std::string& style = "default",
+                const std::string& size = "64x48") {
+    const std::vector<std::string> words{"shot",   name, "-q",    "--overwrite", "--pipeline", "mesh",
+                                         "--size", size, "--out", "p.png",       "--style",    style};
     std::vector<std::string> other = words;
     other[7] = "32x24";
     return {"shot " + name, words, {{name, bytes}}, made(other, name, bytes), false};
@@ -103,6 +104,10 @@ Command bake_again() {
 
 Command shot_of_tiles() {
     return shot_of("tile.tif", tile());
+}
+
+Command shot_with_labels() {
+    return shot_of("tile.tif", tile(), "contours", "160x120");
 }
 
 Command shot_of_baked() {

@@ -12,5 +12,6 @@ Command bake_new();
 Command bake_again();
 Command shot_of_tiles();
 Command shot_of_baked();
+Command shot_with_labels();  // one, of four figures at most
 
 }  // namespace oro::test
