@@ -141,6 +141,7 @@ struct FrameStyle {
     uint shadows;       // 1: terrain casts shadows (FrameConstants.casters)
     uint sky_openness;  // 1: the sky's light is that of the part of the sky that a place sees
     uint footprint;     // footprint_...
+    uint smooth_edges;  // 1: of pictures of one sample, see shaders/shade/edges.comp
 };
 
 #endif

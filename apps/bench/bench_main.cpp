@@ -115,6 +115,7 @@ Result<FrameRenderer> renderer_for(const Gpu& gpu, RasterPath path, const BenchO
     renderer_options.extent = {static_cast<std::uint32_t>(options.width_px),
                                static_cast<std::uint32_t>(options.height_px)};
     renderer_options.path = path;
+    renderer_options.smooth_edges = options.style.smooth_edges != 0;
     return FrameRenderer::create(gpu, renderer_options);
 }
 

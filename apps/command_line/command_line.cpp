@@ -108,7 +108,7 @@ void add_plan(CLI::App& app, PlanOptions& options) {
             "How far off the picture may be, 0.001 to 1000, e.g. 1px (default 1px). Errors are judged by "
             "it.");
     hide(command, {"--style", "--drape", "--drape-opacity", "--sun", "--sun-time", "--visibility", "--sea",
-                   "--rim", "--shadows", "--sky-openness", "--labels", "--samples", "--pipeline"});
+                   "--rim", "--shadows", "--sky-openness", "--labels", "--edges", "--samples", "--pipeline"});
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
@@ -134,7 +134,7 @@ void add_trade(CLI::App& app, TradeOptions& options) {
     add_view_options(command, options.view);
     command.get_option("--size")->description("Size of the pictures in pixels (default 640x360).");
     hide(command, {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights",
-                   "--accuracy", "--tolerance", "--labels", "--samples"});
+                   "--accuracy", "--tolerance", "--labels", "--edges", "--samples"});
     add_memory_options(command, options.memory);
     add_quiet(command, options.quiet, "the table and errors");
     set_help(command,

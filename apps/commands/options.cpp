@@ -94,6 +94,10 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
     looks.choice("--labels", options.labels, {"on", "off"},
                  "Whether every fifth contour line has its height written on it, in pictures; a window has "
                  "none. Default: as the style has it.");
+    looks.choice("--edges", options.edges, edges_words(),
+                 "Edges of the ground before the sky and before farther ground, in pictures of one sample: "
+                 "smooth, each pixel shows what it has of both; or steps, it shows what is in its middle. "
+                 "Default: as the style has it.");
     looks.whole_number("--samples", options.samples, static_cast<int>(view_limits::samples.low),
                        static_cast<int>(view_limits::samples.high), "N",
                        "How many samples make a pixel, " + span(view_limits::samples) +

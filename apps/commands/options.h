@@ -37,6 +37,7 @@ struct ViewOptions {
     std::optional<std::string> shadows;  // on, off
     std::optional<std::string> sky_openness;
     std::optional<std::string> labels;
+    std::optional<std::string> edges;  // smooth, steps
     std::optional<double> exaggeration;
     std::optional<int> samples;
     std::optional<std::string> style;

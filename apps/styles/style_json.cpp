@@ -192,11 +192,15 @@ Style style_of_json(const json& object) {
                                    std::array<StyleChoice, 3>{{{"point", gpu::footprint_point},
                                                                {"mean", gpu::footprint_mean},
                                                                {"finest", gpu::footprint_finest}}});
+    const StyleChoice steps{"steps", 0}, smooth{"smooth", 1};
+    const bool of_means = style.frame.footprint == gpu::footprint_mean;
+    style.frame.smooth_edges =
+        choice(object, "edges", std::array{of_means ? smooth : steps, of_means ? steps : smooth});
     refuse_unknown(
         object, "a style",
         {"name",   "licence",      "colour_by", "tints",        "flat",     "light",      "sun",  "ambient",
          "relief", "relief_light", "shadows",   "sky_openness", "contours", "background", "haze", "sky",
-         "air",    "no_data",      "cover",     "water",        "voids",    "footprint"});
+         "air",    "no_data",      "cover",     "water",        "voids",    "footprint",  "edges"});
     return style;
 }
 

@@ -28,6 +28,7 @@ constexpr Names<AirLaw, 2> air_laws{{{"constant", AirLaw::constant}, {"standard"
 constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16", HeightStorage::i16}}};
 constexpr Names<Sea, 3> seas{{{"level", Sea::level}, {"low", Sea::low}, {"voids", Sea::voids}}};
 constexpr Names<Rim, 2> rims{{{"skirt", Rim::skirt}, {"none", Rim::none}}};
+constexpr Names<Edges, 2> edges_of_ground{{{"smooth", Edges::smooth}, {"steps", Edges::steps}}};
 
 template <class Choice, std::size_t count>
 Result<Choice> named(const char* option, const Names<Choice, count>& names, const std::string& name) {
@@ -65,6 +66,9 @@ Result<Sea> sea_named(const std::string& name) {
 Result<Rim> rim_named(const std::string& name) {
     return named("--rim", rims, name);
 }
+Result<Edges> edges_named(const std::string& name) {
+    return named("--edges", edges_of_ground, name);
+}
 Result<Air> air_named(const std::string& name) {
     return named("--air", airs, name);
 }
@@ -84,11 +88,17 @@ std::vector<std::string> sea_words() {
 std::vector<std::string> rim_words() {
     return words_of(rims);
 }
+std::vector<std::string> edges_words() {
+    return words_of(edges_of_ground);
+}
 const char* name_of(Sea sea) {
     return name_in(seas, sea);
 }
 const char* name_of(Rim rim) {
     return name_in(rims, rim);
+}
+const char* name_of(Edges edges) {
+    return name_in(edges_of_ground, edges);
 }
 std::vector<std::string> geoid_words() {
     return words_of(geoids);

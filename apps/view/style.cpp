@@ -127,6 +127,7 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     ORO_CHECK(label_by(view, style));
     if (view.shadows) style.frame.shadows = *view.shadows ? 1 : 0;
     if (view.sky_openness) style.frame.sky_openness = *view.sky_openness ? 1 : 0;
+    if (view.edges) style.frame.smooth_edges = *view.edges == Edges::smooth ? 1 : 0;
     ORO_CHECK(surround(style.frame, view, field));
     ORO_CHECK(fit_to_view(style, view, field));
     return style;

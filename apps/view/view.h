@@ -33,6 +33,9 @@ struct ToldView {
 enum class Sea { level, low, voids };
 // What is below the rim of a region, in styles that draw voids: walls down to the ellipsoid, or nothing.
 enum class Rim { skirt, none };
+// Where ground ends before the sky or before farther ground, in pictures of one sample: a pixel shows what it
+// has of both, or what is in its middle.
+enum class Edges { smooth, steps };
 
 struct View {
     RegionRequest region;
@@ -45,6 +48,7 @@ struct View {
     std::optional<bool> shadows;       // nothing: as the style has it
     std::optional<bool> sky_openness;  // likewise
     std::optional<bool> labels;        // likewise: heights on contour lines
+    std::optional<Edges> edges;        // likewise
     Sea sea{Sea::level};
     Rim rim{Rim::skirt};
     std::vector<std::string> drape;  // images over the ground, the last on top

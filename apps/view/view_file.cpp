@@ -175,6 +175,10 @@ View read_fields(const nlohmann::json& json) {
     view.labels = false;
     if (json.contains("labels")) view.labels.reset();
     if (json.contains("labels") && !json["labels"].is_null()) view.labels = json_flag(json, "labels");
+    if (Edges edges{}; json.contains("edges")) {
+        read_choice(json, "edges", edges_named, edges);
+        view.edges = edges;
+    }
     // Views of before there was a choice have none.
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
     if (!raster_request_named(view.pipeline))
@@ -239,6 +243,7 @@ std::string view_to_json(const View& view, bool pretty) {
     if (view.sky_openness) json["sky_openness"] = *view.sky_openness;
     json["labels"] = nullptr;
     if (view.labels) json["labels"] = *view.labels;
+    if (view.edges) json["edges"] = name_of(*view.edges);
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;
     json["accuracy"] = view.accuracy;

@@ -124,6 +124,9 @@ Result<void> apply_colours(View& view, const ViewOptions& options) {
     if (options.labels) {
         ORO_TRY(view.labels, switch_named("--labels", *options.labels));
     }
+    if (options.edges) {
+        ORO_TRY(view.edges, edges_named(*options.edges));
+    }
     return apply_drape(view, options);
 }
 

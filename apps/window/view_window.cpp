@@ -382,6 +382,7 @@ Result<void> run_view(const WindowOptions& options) {
     renderer_options.extent = window->extent();
     ORO_TRY(renderer_options.path, choose_path(view.pipeline, *gpu));
     renderer_options.waits_for_images = false;
+    renderer_options.smooth_edges = style.frame.smooth_edges != 0;
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
     Viewer viewer{

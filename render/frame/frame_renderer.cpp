@@ -244,7 +244,7 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
         kind.edges_follow = options_.smooth_edges;
         ORO_TRY(shade_, shading_for(*gpu_, options_.path, kind, pipelines_));
         if (options_.smooth_edges) {
-            ORO_TRY(edges_, edges_for(*gpu_, kind, pipelines_));
+            ORO_TRY(edges_, edges_for(*gpu_, options_.path, kind, pipelines_));
         }
     }
     address_choice(constants);

@@ -8,7 +8,9 @@ namespace oro {
 namespace {
 
 constexpr int preferred_tile_px = 4096;
-constexpr int edge_margin_px = 20;  // around a tile: what its edges may depend on (shaders/shade/edges.comp)
+// Around a tile: what its edges depend on (shaders/shade/edges.comp) is 1 px; a multiple of 4, so that shadows
+// are looked for in the same pixels first (shaders/cast/shares.comp).
+constexpr int edge_margin_px = 4;
 
 // What a tile draws: counted once, not for each sample.
 void add_counts(PictureReport& sum, const FrameReport& part) {
@@ -118,7 +120,7 @@ Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera&
     int tile_width = static_cast<int>(renderer_options.extent.width);
     int tile_height = static_cast<int>(renderer_options.extent.height);
     renderer_options.several_samples = options.samples > 1;
-    renderer_options.smooth_edges = options.samples == 1 && style.footprint == gpu::footprint_mean;
+    renderer_options.smooth_edges = options.samples == 1 && style.smooth_edges != 0;
     const int margin_px = renderer_options.smooth_edges ? edge_margin_px : 0;
     if (tile_width < camera.width_px) tile_width = std::max(1, tile_width - 2 * margin_px);
     if (tile_height < camera.height_px) tile_height = std::max(1, tile_height - 2 * margin_px);

@@ -50,12 +50,14 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
     return shade.get();
 }
 
-Result<VkPipeline> edges_for(const Gpu& gpu, const ShadingKind& kind, Pipelines& pipelines) {
+Result<VkPipeline> edges_for(const Gpu& gpu, RasterPath path, const ShadingKind& kind, Pipelines& pipelines) {
     OwnedPipeline& edges = pipelines.edges[kind.in_air ? 1 : 0];
     if (edges) return edges.get();
-    const VkBool32 in_air = flag(kind.in_air);
-    const VkSpecializationMapEntry entry{2, 0, sizeof(in_air)};
-    const VkSpecializationInfo constants{1, &entry, sizeof(in_air), &in_air};
+    // By constant_id of edges.comp.
+    const std::array<VkBool32, 2> values{flag(path == RasterPath::compute), flag(kind.in_air)};
+    const std::array<VkSpecializationMapEntry, 2> entries{
+        {{0, 0, sizeof(values[0])}, {2, sizeof(values[0]), sizeof(values[1])}}};
+    const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
     ORO_TRY(edges, create_compute_pipeline(gpu, pipelines, edges_comp_spirv, "smooth edges", &constants));
     return edges.get();
 }

@@ -14,7 +14,7 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
                                Pipelines& pipelines);
 
 // The program that then smooths the edges of a picture, where edges_follow.
-Result<VkPipeline> edges_for(const Gpu& gpu, const ShadingKind& kind, Pipelines& pipelines);
+Result<VkPipeline> edges_for(const Gpu& gpu, RasterPath path, const ShadingKind& kind, Pipelines& pipelines);
 
 // What fills the tables that it reads, as far as that is not there: of air,
 Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines);

@@ -116,9 +116,9 @@ TEST(Help, HidesWhatDoesNothing) {
     const std::map<std::string, Words> hidden{
         {"trade",
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
-          "--tolerance", "--labels", "--samples"}},
+          "--tolerance", "--labels", "--edges", "--samples"}},
         {"plan",
-         {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--samples",
+         {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--edges", "--samples",
           "--pipeline", "--time"}},
         {"view", {"--tolerance", "--time"}},
         {"compare", {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids"}}};

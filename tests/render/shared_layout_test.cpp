@@ -169,6 +169,7 @@ const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameStyle, relief_light),
         ORO_MEMBER(FrameStyle, contours),
         ORO_MEMBER(FrameStyle, footprint),
+        ORO_MEMBER(FrameStyle, smooth_edges),
         ORO_MEMBER(ReliefLight, lit),
         ORO_MEMBER(ReliefLight, lit_share),
         ORO_MEMBER(ReliefLight, shadow),

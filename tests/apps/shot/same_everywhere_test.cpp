@@ -153,8 +153,26 @@ TEST_F(SameEverywhere, EachEffectIsInTheView) {
     const Pixels no_shadows = without("shadows", false), no_openness = without("sky_openness", false);
     EXPECT_EQ(differing(no_shadows, draw(tiles, joined(lake, {"--shadows", "off"}))), Places{});
     EXPECT_EQ(differing(no_openness, draw(tiles, joined(lake, {"--sky-openness", "off"}))), Places{});
+    const Pixels steps = without("edges", "steps");
+    EXPECT_EQ(differing(steps, draw(tiles, joined(lake, {"--edges", "steps"}))), Places{});
     without("footprint", "point");
     without("water", nullptr);
+}
+
+// Edges are the style's or as somebody asks for, in any style; samples stay samples; the view tells what was
+// asked for.
+TEST_F(SameEverywhere, EdgesByChoice) {
+    const Words smooth{"--edges", "smooth"}, steps{"--edges", "steps"}, sampled{"--samples", "2"};
+    const Pixels plain = draw(tiles, lake, "default");
+    EXPECT_EQ(differing(plain, draw(tiles, joined(lake, steps), "default")), Places{});
+    const Pixels asked = draw(tiles, joined(lake, smooth), "default");
+    EXPECT_NE(differing(plain, asked), Places{});
+    const Outcome again = run_orograph({"shot", "--view", folder / "p.png", "--out", folder / "q.png", "-q"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(differing(asked, oro::test::pixels_of(folder / "q.png")), Places{});
+    EXPECT_EQ(differing(draw(tiles, lake), draw(tiles, joined(lake, smooth))), Places{});
+    const Words two = joined(lake, sampled);
+    EXPECT_EQ(differing(draw(tiles, two), draw(tiles, joined(two, steps))), Places{});
 }
 
 }  // namespace

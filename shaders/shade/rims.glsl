@@ -1,0 +1,128 @@
+// Where the ground that a pixel shows ends before its neighbour, from the triangles themselves. Needs frame.glsl, levels.glsl,
+// place.glsl and surface.glsl.
+
+// A straight rim of the ground on the picture: pixels, from the middle of the pixel that shows the ground.
+struct Rim {
+    vec2 at;
+    vec2 inward;  // unit vector, towards the ground
+};
+const int rim_triangles = 16;  // that are followed
+
+// A triangle of a page's grid: two in each cell, as triangle_posts has them.
+struct GridTriangle {
+    ivec2 cell;  // row, column
+    uint odd;
+};
+
+const uint corners_here = 0u;
+const uint corners_none = 1u;     // no such triangle is drawn
+const uint corners_unknown = 2u;  // another page has it, or it is behind the eye
+
+// Where posts of a page are on the picture, in pixels from `origin`.
+uint corners_px(FramePage page, uvec2 posts[3], vec2 origin, out vec2 corners[3]) {
+    vec2 half_size = 0.5 * vec2(FRAME.width_px, FRAME.height_px);
+    for (int i = 0; i < 3; ++i) corners[i] = vec2(0.0);
+    for (int i = 0; i < 3; ++i) {
+        int height = post_height(PageBlocks(page.block), posts[i]);
+        if (height == void_height) return corners_none;
+        vec4 clip = project(place_in_view(page, posts[i], height));
+        if (clip.w < FRAME.near_m) return corners_unknown;
+        corners[i] = clip.xy / clip.w * half_size + (half_size - origin);
+    }
+    return corners_here;
+}
+
+uint corners_of_grid_px(FramePage page, GridTriangle triangle, vec2 origin, out vec2 corners[3]) {
+    ivec2 in_region = ivec2(page.first_row, page.first_column) + (triangle.cell << page.level);
+    if (any(lessThan(in_region, ivec2(0))) || any(greaterThanEqual(in_region, ivec2(FRAME.last_row, FRAME.last_column))))
+        return corners_none;
+    if (any(lessThan(triangle.cell, ivec2(0))) || any(greaterThanEqual(triangle.cell, ivec2(page_quads)))) return corners_unknown;
+    uvec2 posts[3];
+    triangle_posts(triangle.odd, posts[0], posts[1], posts[2]);
+    for (int i = 0; i < 3; ++i) posts[i] += uvec2(triangle.cell);
+    return corners_px(page, posts, origin, corners);
+}
+
+float crossed(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+// Twice the area; its sign tells which side of the ground is seen.
+float doubled_area_px(vec2 corners[3]) { return crossed(corners[1] - corners[0], corners[2] - corners[0]); }
+
+// The triangle beyond an edge, which goes from corner `edge` to the next.
+GridTriangle beyond(GridTriangle triangle, int edge) {
+    const ivec2 steps[6] = {ivec2(0, -1), ivec2(1, 0), ivec2(0), ivec2(0), ivec2(0, 1), ivec2(-1, 0)};
+    return GridTriangle(triangle.cell + steps[triangle.odd * 3u + uint(edge)], 1u - triangle.odd);
+}
+
+// The edge by which the way from the origin along `towards` leaves a triangle, if it does within a pixel; else -1. side: the sign of
+// its area.
+int edge_out(vec2 corners[3], float side, vec2 towards) {
+    int edge = -1;
+    float way_px = 1.0 + 1.0 / 128.0;  // triangles are drawn on a grid of 1/256 px
+    for (int i = 0; i < 3; ++i) {
+        vec2 along = side * (corners[(i + 1) % 3] - corners[i]);
+        float falls = -crossed(along, towards), inside = -crossed(along, corners[i]);
+        if (falls <= 0.0 || inside >= way_px * falls) continue;
+        way_px = inside / falls;
+        edge = i;
+    }
+    return edge;
+}
+
+// The edge that goes through the origin, within the grid that triangles are drawn on (1/256 px), or -1.
+int edge_at_middle(vec2 corners[3]) {
+    for (int i = 0; i < 3; ++i) {
+        vec2 along = corners[(i + 1) % 3] - corners[i];
+        if (abs(crossed(along, corners[i])) <= length(along) / 128.0) return i;
+    }
+    return -1;
+}
+
+// Goes from the middle of a pixel that shows triangle `id` (triangle_id() - 1) to the middle of its neighbour, `towards` a unit vector,
+// from triangle to triangle, as far as the first edge beyond which the ground turns its other side to the eye or ends. False where
+// there is none, and where it cannot be told: a page ends, or there are too many triangles.
+// The first triangle is as it is drawn; those after it are of the page's grid, whatever level is drawn there and however it is
+// stitched: all are within tau of the posts.
+bool finds_rim(uint id, vec2 middle, vec2 towards, out Rim rim) {
+    uint node = id / meshlet_triangles, meshlet = node % meshlets_per_page, in_node = id % meshlet_triangles;
+    FramePage page = frame_pages().at[node / meshlets_per_page];
+    uvec2 posts[3], cell = first_post(meshlet) + uvec2((in_node >> 1u) / meshlet_quads, (in_node >> 1u) % meshlet_quads);
+    triangle_posts(in_node, posts[0], posts[1], posts[2]);
+    for (int i = 0; i < 3; ++i) posts[i] = vertex_post(page, meshlet, posts[i], edges_of(node));
+    GridTriangle triangle = GridTriangle(ivec2(cell), id & 1u);
+    vec2 corners[3];
+    uint told = corners_px(page, posts, middle, corners);
+    float side = sign(FRAME.projection_scale.x * FRAME.projection_scale.y), area = doubled_area_px(corners);
+    if (told == corners_here && area * side < 0.0) {
+        // A pixel's middle on a rim may show either of its two triangles: both tell the same.
+        int edge = edge_at_middle(corners);
+        if (edge < 0) return false;
+        triangle = beyond(triangle, edge);
+        told = corners_of_grid_px(page, triangle, middle, corners);
+        area = doubled_area_px(corners);
+    }
+    for (int i = 0; i < rim_triangles && told == corners_here && area * side > 0.0; ++i) {
+        int edge = edge_out(corners, side, towards);
+        if (edge < 0) return false;
+        vec2 at = corners[edge], along = side * (corners[(edge + 1) % 3] - at);
+        triangle = beyond(triangle, edge);
+        told = corners_of_grid_px(page, triangle, middle, corners);
+        area = doubled_area_px(corners);
+        if (told == corners_none || (told == corners_here && area * side < 0.0)) {
+            rim = Rim(at, vec2(-along.y, along.x) / length(along));
+            return true;
+        }
+    }
+    return false;
+}
+
+// The share of a pixel on the ground's side of a rim. middle: the pixel's, as the rim's place.
+float inside_rim(Rim rim, vec2 middle) {
+    float away = dot(rim.inward, middle - rim.at), off = abs(away);
+    vec2 size = abs(rim.inward);
+    float high = max(size.x, size.y), low = min(size.x, size.y), reach = 0.5 * (high + low);
+    float share;
+    if (off <= 0.5 * (high - low)) share = 0.5 + off / high;
+    else if (off >= reach) share = 1.0;
+    else share = 1.0 - (reach - off) * (reach - off) / (2.0 * high * low);
+    return away >= 0.0 ? share : 1.0 - share;
+}
