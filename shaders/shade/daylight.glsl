@@ -38,6 +38,6 @@ vec3 sun_disc(vec3 direction) {
 // together instead of cut off.
 vec3 shown(vec3 radiance) {
     vec3 light = radiance * AirTable(FRAME.air).at[air_exposure_at].x;
-    light = 0.22 * pow(max(light, vec3(0.0)) / 0.22, vec3(1.2));
+    light = 0.22 * pow(max(light, vec3(0.0)) / 0.22, vec3(1.15));
     return mix(light, 0.35 + 0.65 * (1.0 - exp(-(light - 0.35) / 0.65)), greaterThan(light, vec3(0.35)));
 }
