@@ -28,6 +28,7 @@ constexpr Names<AirLaw, 2> air_laws{{{"constant", AirLaw::constant}, {"standard"
 constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16", HeightStorage::i16}}};
 constexpr Names<Sea, 3> seas{{{"level", Sea::level}, {"low", Sea::low}, {"voids", Sea::voids}}};
 constexpr Names<Rim, 2> rims{{{"skirt", Rim::skirt}, {"none", Rim::none}}};
+constexpr Names<std::optional<bool>, 3> labels_of_view{{{"style", {}}, {"on", true}, {"off", false}}};
 constexpr Names<Edges, 2> edges_of_ground{{{"smooth", Edges::smooth}, {"steps", Edges::steps}}};
 
 template <class Choice, std::size_t count>
@@ -68,6 +69,9 @@ Result<Rim> rim_named(const std::string& name) {
 }
 Result<Edges> edges_named(const std::string& name) {
     return named("--edges", edges_of_ground, name);
+}
+Result<std::optional<bool>> labels_named(const std::string& name) {
+    return named("--labels", labels_of_view, name);
 }
 Result<Air> air_named(const std::string& name) {
     return named("--air", airs, name);

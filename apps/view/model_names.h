@@ -17,6 +17,8 @@ Result<HeightStorage> heights_named(const std::string& name);  // "f32", "i16"
 Result<Sea> sea_named(const std::string& name);                // "level", "low", "voids"
 Result<Rim> rim_named(const std::string& name);                // "skirt", "none"
 Result<Edges> edges_named(const std::string& name);            // "smooth", "steps"
+Result<std::optional<bool>> labels_named(
+    const std::string& name);  // "on", "off", "style": as the style has it
 
 // The same words, as options list them.
 std::vector<std::string> earth_words();

@@ -173,8 +173,7 @@ View read_fields(const nlohmann::json& json) {
     if (json.contains("sky_openness")) view.sky_openness = json_flag(json, "sky_openness");
     // Views of before there were labels were drawn without.
     view.labels = false;
-    if (json.contains("labels")) view.labels.reset();
-    if (json.contains("labels") && !json["labels"].is_null()) view.labels = json_flag(json, "labels");
+    read_choice(json, "labels", labels_named, view.labels);
     if (Edges edges{}; json.contains("edges")) {
         read_choice(json, "edges", edges_named, edges);
         view.edges = edges;
@@ -241,8 +240,7 @@ std::string view_to_json(const View& view, bool pretty) {
     if (!view.drape.empty()) json["drape"] = drape_json(view);
     if (view.shadows) json["shadows"] = *view.shadows;
     if (view.sky_openness) json["sky_openness"] = *view.sky_openness;
-    json["labels"] = nullptr;
-    if (view.labels) json["labels"] = *view.labels;
+    json["labels"] = !view.labels ? "style" : *view.labels ? "on" : "off";
     if (view.edges) json["edges"] = name_of(*view.edges);
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;

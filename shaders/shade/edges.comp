@@ -26,31 +26,64 @@ uint id_at(ivec2 pixel) {
     return from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x : imageLoad(ids, pixel).x;
 }
 
-// The share of a neighbour in a pixel.
-float share_of(ivec2 pixel, ivec2 to_neighbour) {
+// Two pixels beside each other, by a number: those of each row of the workgroup's square and the ones before and behind it, then those of
+// each column.
+const int side_px = int(gl_WorkGroupSize.x), pairs_across = side_px * (side_px + 1), pair_count = 2 * pairs_across;
+struct Pair {
+    ivec2 first;
+    ivec2 to_second;
+};
+Pair pair_of(int number) {
+    bool across = number < pairs_across;
+    int within = across ? number : number - pairs_across, line = within / (side_px + 1), on = within % (side_px + 1) - 1;
+    ivec2 corner = ivec2(gl_WorkGroupID.xy) * side_px;
+    return across ? Pair(corner + ivec2(on, line), ivec2(1, 0)) : Pair(corner + ivec2(line, on), ivec2(0, 1));
+}
+
+// Pairs with an edge between them are listed first, so that whole subgroups look for rims together, and once for both pixels.
+shared uint listed_count;
+shared uint listed[pair_count];
+shared vec2 shares_of_pairs[pair_count];  // of the second pixel in the first, and of the first in the second
+
+void list_pair(int number) {
     // Depths that are closer to each other are no edge that is seen: the same ground, or ground just behind it.
     const float smallest_jump = 0.008;
-    ivec2 neighbour = pixel + to_neighbour;
-    if (!within(neighbour)) return 0.0;
-    float here = depth_at(pixel), there = depth_at(neighbour);
-    if (abs(there - here) <= smallest_jump * min(here, there)) return 0.0;
-    bool is_near = here > there;
-    ivec2 near = is_near ? pixel : neighbour;
-    vec2 towards = is_near ? vec2(to_neighbour) : -vec2(to_neighbour);
+    shares_of_pairs[number] = vec2(0.0);
+    Pair pair = pair_of(number);
+    ivec2 second = pair.first + pair.to_second;
+    if (!within(pair.first) || !within(second)) return;
+    float here = depth_at(pair.first), there = depth_at(second);
+    if (abs(there - here) > smallest_jump * min(here, there)) listed[atomicAdd(listed_count, 1u)] = uint(number);
+}
+
+vec2 shares_of(Pair pair) {
+    ivec2 second = pair.first + pair.to_second;
+    bool first_is_near = depth_at(pair.first) > depth_at(second);
+    ivec2 near = first_is_near ? pair.first : second;
+    vec2 towards = first_is_near ? vec2(pair.to_second) : -vec2(pair.to_second);
     Rim rim;
-    if (!finds_rim(id_at(near) - 1u, vec2(near) + 0.5, towards, rim)) return 0.0;
-    float inside = inside_rim(rim, is_near ? vec2(0.0) : towards);
-    return is_near ? 1.0 - inside : inside;
+    if (!finds_rim(id_at(near) - 1u, vec2(near) + 0.5, towards, rim)) return vec2(0.0);
+    vec2 shares = vec2(1.0 - inside_rim(rim, vec2(0.0)), inside_rim(rim, towards));
+    return first_is_near ? shares : shares.yx;
 }
 
 void keep(ivec2 pixel, vec4 colour) { imageStore(picture, pixel, vec4(dithered(srgb_from_linear(colour.rgb), pixel), colour.a)); }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (gl_LocalInvocationIndex == 0u) listed_count = 0u;
+    barrier();
+    const int lanes = side_px * side_px;
+    for (int i = int(gl_LocalInvocationIndex); i < pair_count; i += lanes) list_pair(i);
+    barrier();
+    for (uint i = gl_LocalInvocationIndex; i < listed_count; i += uint(lanes)) shares_of_pairs[listed[i]] = shares_of(pair_of(int(listed[i])));
+    barrier();
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), within_square = ivec2(gl_LocalInvocationID.xy);
     if (!within(pixel)) return;
-    vec4 own = imageLoad(shaded, pixel), colour = own, shares;
+    vec4 own = imageLoad(shaded, pixel), colour = own;
     const ivec2 steps[4] = {ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1)};
-    for (int i = 0; i < 4; ++i) shares[i] = share_of(pixel, steps[i]);
+    int before = within_square.y * (side_px + 1) + within_square.x;
+    int above = pairs_across + within_square.x * (side_px + 1) + within_square.y;
+    vec4 shares = vec4(shares_of_pairs[before + 1].x, shares_of_pairs[before].y, shares_of_pairs[above + 1].x, shares_of_pairs[above].y);
     // A slanting edge is seen beside and above: it counts once.
     float beside = shares.x + shares.y, above_below = shares.z + shares.w, all = max(max(beside, above_below), 1.0);
     int first = beside >= above_below ? 0 : 2;

@@ -89,12 +89,12 @@ TEST(ViewFile, ViewsOfBeforeThereWereLabelsHaveNone) {
         EXPECT_TRUE(read.ok());
         return read.ok() ? read->labels : std::nullopt;
     };
-    EXPECT_EQ(labels_of(R"("labels":true,)", R"("labels":true,)"), true);
-    EXPECT_EQ(labels_of(R"("labels":true,)", R"("labels":false,)"), false);
-    EXPECT_EQ(labels_of(R"("labels":true,)", ""), false);
+    EXPECT_EQ(labels_of(R"("labels":"on",)", R"("labels":"on",)"), true);
+    EXPECT_EQ(labels_of(R"("labels":"on",)", R"("labels":"off",)"), false);
+    EXPECT_EQ(labels_of(R"("labels":"on",)", ""), false);
     view.labels.reset();
-    EXPECT_EQ(labels_of(R"("labels":null,)", R"("labels":null,)"), std::nullopt);
-    EXPECT_EQ(labels_of(R"("labels":null,)", ""), false);
+    EXPECT_EQ(labels_of(R"("labels":"style",)", R"("labels":"style",)"), std::nullopt);
+    EXPECT_EQ(labels_of(R"("labels":"style",)", ""), false);
 }
 
 TEST(ViewFile, ViewsWithoutAPipelineAreAutomatic) {

@@ -191,7 +191,7 @@ class SmoothEdges : public test::GpuTest {
 
 TEST_F(SmoothEdges, AreThoseOfSixtyFourSamples) {
     hold("over Grindelwald", over_grindelwald(), 3.7);
-    hold("the same, half the angle", over(46.66, 8.06, 300.0, 205.0, 3.0, 7.0), 3.9);
+    hold("the same, half the angle", over(46.66, 8.06, 300.0, 205.0, 3.0, 7.0), 4.3);
     hold("over the lake of Brienz", over(46.72, 7.95, 500.0, 150.0, 2.0, 30.0), 1.3);
     hold("from 20 km", over(46.2, 8.0, 20000.0, 0.0, -10.0, 30.0), 1.5);
     hold("from a summit", over(46.5776, 8.0053, 100.0, 60.0, -3.0, 14.0), 2.1);
