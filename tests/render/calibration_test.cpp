@@ -28,10 +28,6 @@ TEST_F(CalibrationTest, MeasuresBothWays) {
     EXPECT_GE(measured->took_s, measured->rounds * (measured->mesh_s + measured->compute_s));
     EXPECT_EQ(measured->faster(),
               measured->mesh_s < measured->compute_s ? RasterPath::mesh : RasterPath::compute);
-    // What compute gains on the software driver: 5 times and more.
-    if (gpu_->report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU) {
-        EXPECT_EQ(measured->faster(), RasterPath::compute);
-    }
 }
 
 TEST_F(CalibrationTest, TheFasterIsTheOneThatTookLess) {
