@@ -2,6 +2,7 @@
 // tiles, and nothing changed where there are none. (Against the oracle: tests/scenes/shadow_test.cpp.)
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "core/base/parallel.h"
 #include "render/frame/picture_renderer.h"
@@ -101,6 +102,49 @@ TEST_F(CastShadows, AreTheSameBytesHoweverTheyAreDrawn) {
     if (gpu_->report().mesh_shader) {
         EXPECT_EQ(whole, draw(field, camera, style, RasterPath::mesh)) << "by mesh shaders";
     }
+}
+
+// A crest 1,000 m over a plain, the sun behind it, 30 degrees high: 1,732 m away its shadow ends, and the
+// sun's disc is uncovered over 2 x 0.00465 x 1,000 / sin(30 deg)^2 = 37 m. Worked from the angle between the
+// crest and the sun's middle, and the share of a disc above a straight edge: 1/2 + (x sqrt(1 - x^2) +
+// asin(x)) / pi, x in radii.
+TEST_F(CastShadows, EndInAPenumbraAsWideAsTheSun) {
+    constexpr double crest_deg = 46.1, crest_m = 1000.0, sun_deg = 30.0, sun_rad = 0.00465, eye_h_m = 220.0;
+    const HeightField field = test::made_field(46.2, 8.0, 1200.0, 240, 240, [](double lat_deg, double) {
+        const double off_m = std::abs(lat_deg - crest_deg) * 111170.0;
+        return static_cast<float>(std::max(0.0, crest_m - 2.0 * off_m));
+    });
+    const double radius_m = meridian_radius_m(crest_deg), away_m = 1732.0;
+    Camera camera;
+    camera.eye = {crest_deg + away_m / radius_m * 180.0 / std::numbers::pi, 8.1, eye_h_m};
+    camera.attitude = {0.0, -89.9, 0.0};
+    camera.vertical_fov_deg = 20.0;
+    camera.width_px = 16;
+    camera.height_px = 96;
+    const gpu::FrameStyle style = lit_from(180.0, sun_deg);
+    gpu::FrameStyle without = style;
+    without.shadows = 0;
+    const auto light = [&](const std::vector<std::uint8_t>& rgb, int row) {
+        const auto column = static_cast<std::size_t>(camera.width_px / 2);
+        const std::size_t at = 3 * (static_cast<std::size_t>(row) * 16 + column);
+        return std::pow((rgb[at] / 255.0 + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
+    };
+    const std::vector<std::uint8_t> lit = draw(field, camera, without), cast = draw(field, camera, style);
+    const double least = light(cast, camera.height_px - 1), most = light(lit, 0);
+    ASSERT_LT(least, 0.5 * most) << "the crest's shadow";
+    const glm::dmat3 enu_from_ecef = glm::transpose(ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg));
+    int within = 0;
+    for (int row = 0; row < camera.height_px; ++row) {
+        const glm::dvec3 down = enu_from_ecef * camera.ecef_direction_at({8.5, row + 0.5});
+        const double from_crest_m = away_m - eye_h_m * down.y / down.z;
+        const double crest_rad =
+            std::atan((crest_m - from_crest_m * from_crest_m / (2.0 * radius_m)) / from_crest_m);
+        const double x = std::clamp((sun_deg * std::numbers::pi / 180.0 - crest_rad) / sun_rad, -1.0, 1.0);
+        const double share = 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
+        EXPECT_NEAR((light(cast, row) - least) / (most - least), share, 0.03) << from_crest_m << " m";
+        if (std::abs(x) < 1.0) ++within;
+    }
+    EXPECT_GT(within, 40) << "rows in the penumbra";
 }
 
 // A straight valley with walls that rise `slope` metres a metre: in its bottom the horizon at an angle a from
