@@ -83,11 +83,14 @@ struct MeshletBounds {
 ORO_CONST uint means_apron = 4u;
 ORO_CONST uint means_stride = 136u;
 ORO_CONST float means_normal_steps = 1023.0f;
+struct MeansSquare {
+    uint normal;  // mean unit normal in steps: east 11 bits, north 11, up 10; 0 without a post
+    uint height;  // halves: mean height above the ellipsoid without exaggeration, and its spread
+    uint spread;  // of the normals' east and north: standard deviations, 11 bits each of 0 to 1, and their
+                  // correlation, 10 bits of -1 to 1
+};
 struct PageMeans {
-    uint normals[18496];  // mean unit normal in steps: east 11 bits, north 11, up 10; 0 without a post
-    uint heights[18496];  // halves: mean height above the ellipsoid without exaggeration, and its spread
-    uint spreads[18496];  // of the normals' east and north: standard deviations, 11 bits each of 0 to 1, and
-                          // their correlation, 10 bits of -1 to 1
+    MeansSquare squares[18496];
 };
 ORO_CONST float means_spread_steps = 2047.0f;
 ORO_CONST float means_correlation_steps = 511.0f;
@@ -324,6 +327,8 @@ struct FrameConstants {
     uvec2 live_pages;  // LivePages
     uvec2 counts;      // device address of FrameCounts
     uvec2 depths;      // float for each pixel, row by row: reversed depth of what is seen; 0 when not wanted
+    uvec2 tiles_in_parts;  // uint for each 8 x 8 pixels: 1 where some are left to the program for footprints of
+                           // several parts; 0 where there is none such
     uvec2 triangles;   // DrawnTriangle for each pixel of triangle_rows rows, row by row; 0 when not wanted
     uint triangle_rows;
     uvec2 recorded;    // device address of recorded positions, or 0 (tests only)

@@ -127,7 +127,7 @@ void GroundMeans::add_level(std::vector<Sums>& below, int threads) {
 }
 
 // See shaders/shared.h, PageMeans.
-GroundMeans::Packed GroundMeans::packed(const Sums& sums) {
+gpu::MeansSquare GroundMeans::packed(const Sums& sums) {
     if (sums.posts == 0.0F) return {};
     const auto part = [&](float sum) {
         return static_cast<std::int32_t>(std::lround(sum / sums.posts * gpu::means_normal_steps));
@@ -163,16 +163,14 @@ void GroundMeans::page(const PageIndex& index, gpu::PageMeans& means) const {
         const int row = index.row * static_cast<int>(gpu::page_quads) + i / stride - apron;
         int column = index.column * static_cast<int>(gpu::page_quads) + i % stride - apron;
         if (goes_round_) column = (column + level.columns) % level.columns;
-        Packed square{};
+        gpu::MeansSquare& square = means.squares[i];
+        square = {};
         if (row >= 0 && row < level.rows && column >= 0 && column < level.columns)
             square =
                 index.level == 0
                     ? packed(post(row, column, 0.0F))
                     : level.squares[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
                                     static_cast<std::size_t>(column)];
-        means.normals[i] = square.normal;
-        means.heights[i] = square.height;
-        means.spreads[i] = square.spread;
     }
 }
 

@@ -27,17 +27,12 @@ class GroundMeans {
 
   private:
     struct Sums;
-    struct Packed {
-        std::uint32_t normal;
-        std::uint32_t height;
-        std::uint32_t spread;
-    };
     struct Level {
         int rows{};
         int columns{};
-        std::vector<Packed> squares;  // none of level 0: its squares are the posts
+        std::vector<gpu::MeansSquare> squares;  // none of level 0: its squares are the posts
     };
-    static Packed packed(const Sums& sums);
+    static gpu::MeansSquare packed(const Sums& sums);
     static std::uint32_t packed_spread(const Sums& sums);
     [[nodiscard]] float rise(int row, int column, int rows, int columns) const;
     // beside: weight of the slopes of the posts beside it.

@@ -7,9 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/lod/ground_means.h"
 #include "render/frame/frame_layout.h"
-#include "render/shading/shading.h"
 
 namespace oro {
 namespace {
@@ -236,16 +234,7 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     if (options_.shades) {
         ORO_CHECK(air_.prepare(*gpu_, pipelines_, constants));
         ORO_CHECK(casters_.prepare(*gpu_, options_.path, pipelines_, plan, constants));
-        ShadingKind kind = shading_of(style);
-        kind.casts = casters_.casts();
-        kind.opens = casters_.opens();
-        kind.draped = drape_.is_on();
-        kind.by_means = plan.constants.has_means != 0 && asks_for_means(style);
-        kind.edges_follow = options_.smooth_edges;
-        ORO_TRY(shade_, shading_for(*gpu_, options_.path, kind, pipelines_));
-        if (options_.smooth_edges) {
-            ORO_TRY(edges_, edges_for(*gpu_, options_.path, kind, pipelines_));
-        }
+        ORO_CHECK(choose_shading(constants));
     }
     address_choice(constants);
     if (compute_) compute_->address(constants);

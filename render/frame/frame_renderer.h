@@ -102,6 +102,7 @@ class FrameRenderer {
     void record_upload(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_choice(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
+    Result<void> choose_shading(gpu::FrameConstants& constants);
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
@@ -114,7 +115,7 @@ class FrameRenderer {
     const Gpu* gpu_;
     FrameRendererOptions options_;
     Pipelines pipelines_;
-    VkPipeline shade_{VK_NULL_HANDLE}, edges_{VK_NULL_HANDLE};  // of the frame
+    VkPipeline shade_{VK_NULL_HANDLE}, shade_parts_{VK_NULL_HANDLE}, edges_{VK_NULL_HANDLE};  // of the frame
     std::optional<ComputeRaster> compute_;
     AirTables air_;
     DrapeWants drape_;
@@ -128,6 +129,7 @@ class FrameRenderer {
     Buffer frame_data_;  // the same on the device
     Buffer choice_;      // what the choice of levels hands on, see address_choice()
     Buffer depths_;
+    Buffer tiles_in_parts_;
     Buffer triangles_;
     Buffer counts_;       // on the device
     Buffer counts_read_;  // for the host

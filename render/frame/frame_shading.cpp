@@ -1,11 +1,53 @@
 // The part of FrameRenderer that turns triangle ids into colours. Which tiles of images over the ground these
 // need is known when the triangles are drawn, so a frame with images is submitted in two parts.
 #include <cstddef>
+#include <utility>
 
+#include "core/lod/ground_means.h"
 #include "render/frame/frame_layout.h"
 #include "render/frame/frame_renderer.h"
+#include "render/shading/shading.h"
 
 namespace oro {
+namespace {
+
+constexpr std::uint32_t tile_px = 8;
+std::uint32_t tiles_of(std::uint32_t pixels) {
+    return (pixels + tile_px - 1) / tile_px;
+}
+
+}  // namespace
+
+// The programs of a frame, and what they hand to each other. In air, near ground has a program without the
+// code for footprints of several parts: those are few, and the code takes registers from all pixels.
+Result<void> FrameRenderer::choose_shading(gpu::FrameConstants& constants) {
+    const gpu::FrameStyle& style = constants.style;
+    ShadingKind kind = shading_of(style);
+    kind.casts = casters_.casts();
+    kind.opens = casters_.opens();
+    kind.draped = drape_.is_on();
+    kind.by_means = constants.has_means != 0 && asks_for_means(style);
+    kind.edges_follow = options_.smooth_edges;
+    kind.parts_follow = kind.by_means && kind.in_air && style.footprint == gpu::footprint_mean;
+    ORO_TRY(shade_, shading_for(*gpu_, options_.path, kind, pipelines_));
+    if (kind.edges_follow) {
+        ORO_TRY(edges_, edges_for(*gpu_, options_.path, kind, pipelines_));
+    }
+    shade_parts_ = VK_NULL_HANDLE;
+    if (!kind.parts_follow) return {};
+    std::swap(kind.parts_follow, kind.parts_alone);
+    ORO_TRY(shade_parts_, shading_for(*gpu_, options_.path, kind, pipelines_));
+    const VkDeviceSize bytes =
+        sizeof(gpu::uint) * VkDeviceSize{tiles_of(options_.extent.width)} * tiles_of(options_.extent.height);
+    if (tiles_in_parts_.size < bytes) {
+        ORO_TRY(tiles_in_parts_,
+                create_buffer(*gpu_, bytes,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                              MemoryKind::device, "tiles in parts"));
+    }
+    constants.tiles_in_parts = address_words(tiles_in_parts_.address);
+    return {};
+}
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
     air_.record(commands, pipelines_);
@@ -19,15 +61,17 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade_);
-    const std::uint32_t columns = (plan.constants.width_px + 7) / 8,
-                        rows = (plan.constants.height_px + 7) / 8;
-    vkCmdDispatch(commands, columns, rows, 1);
-    if (!options_.smooth_edges) return;
-    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, edges_);
-    vkCmdDispatch(commands, columns, rows, 1);
+    bool before = false;
+    for (VkPipeline const pass : {shade_, shade_parts_, options_.smooth_edges ? edges_ : VK_NULL_HANDLE}) {
+        if (pass == VK_NULL_HANDLE) continue;
+        if (before)
+            memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                           VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                           VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass);
+        vkCmdDispatch(commands, tiles_of(plan.constants.width_px), tiles_of(plan.constants.height_px), 1);
+        before = true;
+    }
 }
 
 // For those who read them instead of the shading pass.

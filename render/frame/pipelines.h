@@ -27,6 +27,8 @@ struct ShadingKind {
     bool draped{};        // images lie over the ground
     bool by_means{};      // pixels are coloured by what FrameStyle.footprint says
     bool edges_follow{};  // the picture is left to `edges`
+    bool parts_follow{};  // pixels whose footprint has several parts are left to a program of their own,
+    bool parts_alone{};   // which this is
     auto operator<=>(const ShadingKind&) const = default;
 };
 

@@ -136,7 +136,7 @@ void CasterBuffers::record(VkCommandBuffer commands, const Pipelines& pipelines)
     }
     if (!casts_) return;
     for (std::uint32_t turn = 0; turn < pipelines.sun_shares.size(); ++turn) {
-        const std::uint32_t side_px = 32U >> turn;  // of a workgroup's square
+        const std::uint32_t side_px = 16U >> turn;  // of a workgroup's square
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.sun_shares[turn].get());
         vkCmdDispatch(commands, (width_px_ + side_px - 1) / side_px, (height_px_ + side_px - 1) / side_px, 1);
         written();

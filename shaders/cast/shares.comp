@@ -7,6 +7,8 @@ const bool as_map = false;
 const bool in_air = false;
 const bool draped = false;
 const bool by_means = false;
+const bool parts_follow = false;
+const bool parts_alone = false;
 const bool casts = true;
 const bool opens = false;
 #include "shaders/place/frame.glsl"
@@ -18,7 +20,7 @@ const bool opens = false;
 #include "shaders/cast/shadow.glsl"
 #include "shaders/cast/shown.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
 layout(constant_id = 1) const int apart_px = 2;  // of the pixels of this turn: 2, then 1
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;

@@ -1,6 +1,6 @@
 // What covers the ground by nature, without any map of it: FrameStyle.cover. Needs ground.glsl's tints.
 
-// Found once for a pixel (seen_ground): all of it has one latitude.
+// Found once for a pixel (look_for_snow): all of it has one latitude.
 float snow_line_m(float lat_deg) {
     uint first = 0u, last = FRAME.style.cover.snow_line_count - 1u;
     while (first < last) {

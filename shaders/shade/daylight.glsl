@@ -9,14 +9,21 @@ vec3 sun_at(vec3 view) {
     return vec3(dot(sun, east), dot(sun, cross(up, east)), dot(sun, up));
 }
 
-// What a place on the ground sends to the eye, before the air between.
-vec3 ground_radiance(vec3 albedo, vec3 normal, float h_m, vec3 sun) {
-    vec3 from_sun = sunlight(h_m, sun.z), from_sky = skylight(h_m, sun.z);
-    // Of slopes, the part that does not see the sky sees other ground.
-    vec3 from_ground = AIR.ground_albedo * (from_sun * max(sun.z, 0.0) + from_sky);
-    float open = 0.5 + 0.5 * normal.z;
-    return albedo / pi * (from_sun * sun_share() * facing(normal, sun) + mix(from_ground, from_sky, open * sky_share()));
-}
+// A pixel's ground: its colour; in air what it sends back of any light, of light from the sun, and of light from an open sky.
+struct GroundLight {
+    vec3 colour;
+    vec3 lit;
+    vec3 open;
+};
+// ... and where it is. One place in the code reckons with light and air for all that is no sky: copies of that fill the processors' memory
+// for code, and take a driver long to compile.
+struct LitPlace {
+    GroundLight ground;
+    vec3 view;
+    float h_m;
+    vec3 sun;     // towards it: east, north, up there
+    float water;  // share of water
+};
 
 // As a place is seen through the air from the eye.
 vec3 through_air(vec3 colour, vec3 view) {

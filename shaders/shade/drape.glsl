@@ -151,18 +151,3 @@ vec4 drape_sample(SurfacePoint point) {
     }
     return sum / float(footprint.taps);
 }
-
-#ifdef ORO_DRAPE_MIXES
-// The ground's colour under the images. They were lit when they were taken: where they lie, the ground's normal is turned towards the
-// vertical, so that slopes are not lit twice.
-vec3 with_drape(vec3 colour, inout SurfacePoint point, bool as_codes) {
-    if (!draped) return colour;
-    vec4 image = drape_sample(point);
-    float share = image.a * FRAME.drape.opacity;
-    if (share <= 0.0) return colour;
-    vec3 codes = image.rgb / image.a;
-    float upright = share * (1.0 - FRAME.drape.relief);
-    point.normal = normalize(mix(point.normal, vec3(0.0, 0.0, 1.0), upright));
-    return mix(colour, as_codes ? codes : linear_from_srgb(codes), share);
-}
-#endif

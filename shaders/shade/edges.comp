@@ -8,6 +8,8 @@ layout(constant_id = 2) const bool in_air = false;        // FrameStyle.air
 const bool as_map = false;
 const bool draped = false;
 const bool by_means = false;
+const bool parts_follow = false;
+const bool parts_alone = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

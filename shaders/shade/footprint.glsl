@@ -16,16 +16,16 @@ GroundSum no_ground() { return GroundSum(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0); }
 void add_square(inout GroundSum sum, uvec2 means, ivec2 square, float share, float origin_m, bool are_posts) {
     uvec2 at = uvec2(clamp(square + int(means_apron), ivec2(0), ivec2(int(means_stride) - 1)));
     uint place = at.x * means_stride + at.y;
-    uint normal = MeansOfPages(means).at[0].normals[place];
+    MeansSquare square_of = MeansOfPages(means).at[0].squares[place];
+    uint normal = square_of.normal, spread = square_of.spread;
     if (normal == 0u) return;
-    vec2 height = unpackHalf2x16(MeansOfPages(means).at[0].heights[place]);
+    vec2 height = unpackHalf2x16(square_of.height);
     vec3 mean = vec3(bitfieldExtract(int(normal), 0, 11), bitfieldExtract(int(normal), 11, 11), int(normal >> 22)) / means_normal_steps;
     float h_m = height.x - origin_m;
     sum.normal += share * mean;
     sum.h_m += share * h_m;
     sum.share += share;
     if (are_posts) return;  // one by one nothing is spread
-    uint spread = MeansOfPages(means).at[0].spreads[place];
     vec2 apart = vec2(spread & 2047u, bitfieldExtract(spread, 11, 11)) / means_spread_steps;
     float correlation = float(int(spread) >> 22) / means_correlation_steps;
     sum.second += share * (mean.xxy * mean.xyy + apart.xxy * apart.xyy * vec3(1.0, correlation, 1.0));
@@ -246,6 +246,17 @@ float wide_level_at(SurfacePoint point) {
     return 1.0 - smoothstep(0.015, 0.05, sine2);  // 7 and 13 degrees
 }
 
+// True where all of a pixel's footprint is narrower than two posts, so that the smooth slope in its middle stands for it.
+bool one_place_will_do(uint number, vec2 region, float origin_m, vec2 post_m, inout SurfacePoint point) {
+    float round_posts = length(point.view) / (FRAME.pixels_per_tangent * min(post_m.x, post_m.y));
+    uint finest = page_over(number, 0u, region);
+    if (round_posts >= 1.0 || frame_pages().at[finest].level > 0u) return false;
+    GroundSum here = no_ground();
+    add_smooth(here, frame_pages().at[finest].means, among_squares(finest, region), origin_m);
+    point.normal = here.share > 0.0 ? normalize(here.normal) : vec3(0.0, 0.0, 1.0);
+    return round_posts < 1.8 * dot(point.normal, normalize(-point.view) * axes_at(point.view));
+}
+
 // Takes what the pixel's triangle says of its middle and puts the mean of its footprint in its place. number: of the triangle's page.
 void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     float H_ex = FRAME.exaggeration, undulation_m = undulation_at(region), origin_m = (point.h_m) / H_ex;
@@ -259,6 +270,10 @@ void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     if (FRAME.style.footprint == footprint_finest) {
         point.normal = finest_normal(number, region, origin_m);
         return;
+    }
+    if (parts_follow || parts_alone) {
+        point.is_left = one_place_will_do(number, region, origin_m, post_m, point) != parts_follow;
+        if (parts_follow || point.is_left) return;
     }
     mat3 axes = axes_at(point.view);
     vec3 to_eye = normalize(-point.view) * axes;

@@ -89,7 +89,7 @@ vec3 with_contours(vec3 colour, SurfacePoint point) {
     return mix(colour, FRAME.style.contours.colour, there * room);
 }
 
-// What images over the ground do to its colour and its normals: as with_drape(), for all of a pixel's ground at once.
+// What images over the ground do to its colour and its normals: found once for all of a pixel's ground.
 struct Images {
     vec3 colour;
     float share;
@@ -123,12 +123,6 @@ vec3 place_colour(Images images, SurfacePoint point) {
     return as_map ? with_contours(colour, point) : colour;
 }
 
-// A pixel's ground: its colour; in air what it sends back of any light, of light from the sun, and of light from an open sky.
-struct GroundLight {
-    vec3 colour;
-    vec3 lit;
-    vec3 open;
-};
 void add_place(inout GroundLight sum, Images images, SurfacePoint point, vec3 sun, float share) {
     if (!in_air) {
         sum.colour += share * place_colour(images, point);
@@ -168,7 +162,7 @@ GroundLight pixel_light(SurfacePoint point, vec3 sun) {
     GroundLight sum = GroundLight(vec3(0.0), vec3(0.0), vec3(0.0));
     Images images = images_over(point);
     if (in_air) point.mean_H_m = land_H_m(point.mean_H_m);
-    if (!by_means || point.parts == 0) {
+    if (!by_means || parts_follow || point.parts == 0) {
         add_place(sum, images, point, sun, 1.0);
         return sum;
     }
@@ -187,46 +181,46 @@ vec3 ground_colour(SurfacePoint point) {
     return pixel_light(point, FRAME.style.sun_enu).colour;
 }
 
-// By the light of the sun in the air, as a camera shows it. Of slopes, the part that does not see the sky sees other ground.
-vec3 daylit_ground(SurfacePoint point) {
-    vec3 sun = sun_at(point.view);
-    vec3 ground;
-    if (by_means) {
-        GroundLight light = pixel_light(point, sun);
-        vec3 from_sun = sunlight(point.h_m, sun.z), from_sky = skylight(point.h_m, sun.z);
-        vec3 from_ground = AIR.ground_albedo * (from_sun * max(sun.z, 0.0) + from_sky);
-        ground = (from_sun * sun_share() * light.lit + from_ground * light.colour
-                  + (from_sky - from_ground) * sky_share() * light.open) / pi;
-    } else {
-        point.mean_H_m = land_H_m(point.mean_H_m);
-        vec3 normal = steeper(point.normal, FRAME.style.relief);
-        ground = ground_radiance(with_drape(ground_tint(point), point, false), normal, point.h_m, sun);
-    }
-    if (point.water > 0.0) ground = mix(ground, water_radiance(point.view, point.h_m, sun), point.water);
-    return shown(through_air(ground, point.view));
-}
-vec3 daylit_background(vec3 direction) {
-    float horizon, distance_m = bare_sea_m(direction, horizon);
-    vec3 view = distance_m * direction;
-    if (distance_m >= 0.0)
-        return shown(through_air(bare_radiance(direction, view), view));
-    float above_rad = asin(clamp(dot(direction, FRAME.up_view), -1.0, 1.0)) - asin(horizon);
-    return shown(sky_radiance(direction, above_rad) + sun_disc(direction));
+// By the light of the sun and of the sky, before the air between. Of slopes, the part that does not see the sky sees other ground.
+vec3 sent_by(LitPlace place) {
+    vec3 from_sun = sunlight(place.h_m, place.sun.z), from_sky = skylight(place.h_m, place.sun.z);
+    vec3 from_ground = AIR.ground_albedo * (from_sun * max(place.sun.z, 0.0) + from_sky);
+    vec3 ground = (from_sun * sun_share() * place.ground.lit + from_ground * place.ground.colour
+                   + (from_sky - from_ground) * sky_share() * place.ground.open) / pi;
+    return place.water > 0.0 ? mix(ground, water_radiance(place.view, place.sun, from_sun, from_sky), place.water) : ground;
 }
 
-vec3 seen_ground(SurfacePoint point) {
-    if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
-        point.snow_line_m = snow_line_m(point.lat_deg);
-        // Far below it nothing is ice, and far above it everything is.
-        float above_m = point.mean_H_m - point.snow_line_m, level_m = FRAME.style.cover.level_m;
-        if (by_means && level_m > 0.0 && above_m > -1.6 * level_m - 1000.0 && above_m < 2000.0) point.wide_level = wide_level_at(point);
+LitPlace ground_place(SurfacePoint point) {
+    vec3 sun = sun_at(point.view);
+    return LitPlace(pixel_light(point, sun), point.view, point.h_m, sun, point.water);
+}
+
+// What the sky sends where a line of sight meets nothing; else false, and the place that it meets.
+bool sees_sky(vec3 direction, out vec3 sky, out LitPlace place) {
+    float horizon, distance_m = bare_sea_m(direction, horizon);
+    if (distance_m >= 0.0) {
+        place = bare_place(direction, distance_m);
+        return false;
     }
-    if (in_air) return daylit_ground(point);
+    float above_rad = asin(clamp(dot(direction, FRAME.up_view), -1.0, 1.0)) - asin(horizon);
+    sky = sky_radiance(direction, above_rad) + sun_disc(direction);
+    return true;
+}
+
+// What covers the ground follows from these; found once for a pixel.
+void look_for_snow(inout SurfacePoint point) {
+    if (!(as_map || in_air) || FRAME.style.colour_by != colour_by_cover) return;
+    point.snow_line_m = snow_line_m(point.lat_deg);
+    // Far below it nothing is ice, and far above it everything is.
+    float above_m = point.mean_H_m - point.snow_line_m, level_m = FRAME.style.cover.level_m;
+    if (by_means && level_m > 0.0 && above_m > -1.6 * level_m - 1000.0 && above_m < 2000.0) point.wide_level = wide_level_at(point);
+}
+
+// Without air.
+vec3 seen_ground(SurfacePoint point) {
     vec3 colour = ground_colour(point);
     return as_map && FRAME.style.is_map == 1u ? colour : in_haze(colour, point.h_m, length(point.view));
 }
-
 vec3 seen_background(vec3 direction) {
-    if (in_air) return daylit_background(direction);
     return as_map && FRAME.style.is_map == 1u ? FRAME.style.no_data_colour : background(direction);
 }

@@ -1,4 +1,4 @@
-// Where no terrain is: outside the region the bare Earth at the sea's level, inside it voids. Needs surface.glsl, ground_radiance() and water.glsl.
+// Where no terrain is: outside the region the bare Earth at the sea's level, inside it voids. Needs surface.glsl and daylight.glsl.
 
 // Where a direction meets the sea's level near the eye (the geoid there; of an eye that is far from the region, at its rim), as
 // bare_earth_m.
@@ -152,20 +152,28 @@ int wall_on_way(vec3 direction, float end_m, out float distance_m, out vec3 norm
 
 // What there is where no ground is: the bare ellipsoid, quiet; hatched where the region has no height; and below its rim, where one
 // would see under the ground, a wall that makes a block of it. `view`: the ellipsoid there; moves to the wall.
-vec3 bare_radiance(vec3 direction, inout vec3 view) {
-    vec3 sun = sun_at(view), normal = vec3(0.0, 0.0, 1.0), colour = FRAME.style.no_data_colour;
-    if (FRAME.style.voids.on == 0u && FRAME.style.water.voids_are_sea == 0u) return ground_radiance(colour, normal, 0.0, sun);
-    float end_m = length(view), distance_m;
-    int wall = wall_on_way(direction, end_m, distance_m, normal);
-    if (wall == 1) {
-        if ((FRAME.style.voids.on & voids_with_skirt) == 0u) return ground_radiance(colour, vec3(0.0, 0.0, 1.0), 0.0, sun);
+void look_outside(vec3 direction, inout vec3 view, inout vec3 colour, inout vec3 normal, out float water) {
+    water = 0.0;
+    float distance_m;
+    vec3 wall_normal;
+    if (wall_on_way(direction, length(view), distance_m, wall_normal) == 1) {
+        if ((FRAME.style.voids.on & voids_with_skirt) == 0u) return;
         view = distance_m * direction;
-        return ground_radiance(mix(FRAME.style.voids.colour, FRAME.style.voids.lines, 0.5), normal, 0.0, sun_at(view));
+        normal = wall_normal;
+        colour = mix(FRAME.style.voids.colour, FRAME.style.voids.lines, 0.5);
+        return;
     }
     vec2 post = region_post_at(view);
-    if (!is_in_region(post)) return ground_radiance(colour, normal, 0.0, sun);
-    if (FRAME.style.water.voids_are_sea == 1u) return water_radiance(view, 0.0, sun);
-    if ((FRAME.style.voids.on & voids_hatched) == 0u) return ground_radiance(colour, normal, 0.0, sun);
-    colour = mix(FRAME.style.voids.colour, FRAME.style.voids.lines, hatch_share(direction, view, post));
-    return ground_radiance(colour, normal, 0.0, sun);
+    if (!is_in_region(post)) return;
+    if (FRAME.style.water.voids_are_sea == 1u) water = 1.0;
+    else if ((FRAME.style.voids.on & voids_hatched) != 0u)
+        colour = mix(FRAME.style.voids.colour, FRAME.style.voids.lines, hatch_share(direction, view, post));
+}
+
+LitPlace bare_place(vec3 direction, float distance_m) {
+    vec3 view = distance_m * direction, colour = FRAME.style.no_data_colour, normal = vec3(0.0, 0.0, 1.0);
+    float water = 0.0;
+    if (FRAME.style.voids.on != 0u || FRAME.style.water.voids_are_sea != 0u) look_outside(direction, view, colour, normal, water);
+    vec3 sun = sun_at(view);
+    return LitPlace(GroundLight(colour, colour * facing(normal, sun), colour * (0.5 + 0.5 * normal.z)), view, 0.0, sun, water);
 }

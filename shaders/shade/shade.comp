@@ -8,6 +8,9 @@ layout(constant_id = 3) const bool casts = false;   // FrameStyle.shadows
 layout(constant_id = 4) const bool opens = false;   // FrameStyle.sky_openness
 layout(constant_id = 5) const bool draped = false;  // FrameConstants.drape
 layout(constant_id = 6) const bool by_means = false;  // FrameStyle.footprint
+// Two programs share the pixels of a style in air: near ground and what is no ground, in small code, then footprints of several parts.
+layout(constant_id = 8) const bool parts_follow = false;
+layout(constant_id = 9) const bool parts_alone = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
@@ -23,7 +26,6 @@ layout(constant_id = 6) const bool by_means = false;  // FrameStyle.footprint
 #include "shaders/shade/srgb.glsl"
 #include "shaders/shade/water.glsl"
 #include "shaders/shade/outside.glsl"
-#define ORO_DRAPE_MIXES
 #include "shaders/shade/drape.glsl"
 #include "shaders/shade/ground.glsl"
 #include "shaders/cast/cast_on.glsl"
@@ -41,26 +43,12 @@ void keep_depth(ivec2 pixel, float depth) {
     if (FRAME.depths != uvec2(0u)) Depths(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)] = depth;
 }
 
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return;
-    vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
-    vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
-    uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
-                           : imageLoad(ids, pixel).x;
-    float depth = 0.0;
-    float ground = id == 0u ? 0.0 : 1.0;
-    vec3 colour;
-    if (id == 0u) {
-        colour = seen_background(normalize(ray));
-    } else {
-        SurfacePoint point = surface_at(id - 1u, ray);
-        depth = FRAME.near_m / -point.view.z;
-        cast_on(id - 1u, point, pixel);
-        colour = seen_ground(point);
-    }
-    // From the triangle and the pixel alone, so that both ways of drawing give the same.
-    keep_depth(pixel, depth);
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer TilesInParts { uint at[]; };
+uint tile_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+bool tile_has_parts() { return TilesInParts(FRAME.tiles_in_parts).at[tile_number()] != 0u; }
+void keep_tile(uint has_parts) { TilesInParts(FRAME.tiles_in_parts).at[tile_number()] = has_parts; }
+
+void keep_colour(ivec2 pixel, vec3 colour, float ground) {
     if (edges_follow) {
         imageStore(sum, pixel, vec4(colour, ground));
         return;
@@ -73,4 +61,50 @@ void main() {
         ground = total.a / float(FRAME.sample_count);
     }
     imageStore(picture, pixel, vec4(dithered(srgb_from_linear(colour), pixel), ground));
+}
+
+// False where the pixel is left to the other of two programs.
+bool shade(ivec2 pixel) {
+    if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return true;
+    vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
+    vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
+    uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
+                           : imageLoad(ids, pixel).x;
+    if (id == 0u && parts_alone) return false;
+    float depth = 0.0;
+    vec3 colour;
+    LitPlace place;
+    bool is_sky = false;
+    if (id == 0u) {
+        if (in_air) is_sky = sees_sky(normalize(ray), colour, place);
+        else colour = seen_background(normalize(ray));
+    } else {
+        SurfacePoint point = surface_at(id - 1u, ray);
+        if (point.is_left) return false;
+        depth = FRAME.near_m / -point.view.z;
+        cast_on(id - 1u, point, pixel);
+        look_for_snow(point);
+        if (in_air) place = ground_place(point);
+        else colour = seen_ground(point);
+    }
+    if (in_air) {
+        if (!is_sky) colour = through_air(sent_by(place), place.view);
+        colour = shown(colour);
+    }
+    // From the triangle and the pixel alone, so that both ways of drawing give the same.
+    keep_depth(pixel, depth);
+    keep_colour(pixel, colour, id == 0u ? 0.0 : 1.0);
+    return true;
+}
+
+shared uint has_parts;
+
+void main() {
+    if (parts_alone && !tile_has_parts()) return;
+    if (gl_LocalInvocationIndex == 0u) has_parts = 0u;
+    if (parts_follow) barrier();
+    if (!shade(ivec2(gl_GlobalInvocationID.xy))) atomicOr(has_parts, 1u);
+    if (!parts_follow) return;
+    barrier();
+    if (gl_LocalInvocationIndex == 0u) keep_tile(has_parts);
 }

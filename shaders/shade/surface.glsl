@@ -7,13 +7,14 @@ struct SurfacePoint {
     float h_m;      // above the ellipsoid, as drawn
     vec3 normal;    // east, north, up at the place
     float lat_deg;  // where the style asks for it
-    float snow_line_m; // H, likewise; of seen_ground()
+    float snow_line_m; // H, likewise; of look_for_snow()
     float wide_level;  // likewise: 1 on ground that is level for half a kilometre around, 0 on slopes and crests
     uint page;         // of the triangle,
     vec2 region;       // the place in the region,
     float post_m;      // and metres from its row to the next: where the pixel has means
     float mean_H_m; // as H_m, of a part of the pixel's footprint
     int parts;      // of the footprint (footprint.glsl, pixel_ground); 0: the place alone colours the pixel
+    bool is_left;   // to the other program of the two that share the pixels (footprint.glsl, one_place_will_do)
     float H_per_px; // how fast H changes on the picture; 0 where no contours are asked for
     float water;    // share of water; 0 where none is looked for
     ivec2 drape_post;  // for images over the ground: (row, column) in the region, whole posts ...
@@ -199,7 +200,9 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     if (draped) drape_place(page, point.post, point.drape_post, point.drape_part);
     point.mean_H_m = point.H_m;
     point.parts = 0;
+    point.is_left = false;
     if (by_means) average_over_pixel(id / (meshlet_triangles * meshlets_per_page), region_post(page, point.post), point);
+    if (point.is_left) return point;
     vec2 post = point.post;
     if (!by_means || in_air || draped) descend(page, post, length(point.view));
     if (!by_means) point.normal = shading_normal_at(PageBlocks(page.block), page, post);

@@ -5,6 +5,8 @@ const bool as_map = false;
 const bool in_air = false;
 const bool draped = false;
 const bool by_means = false;
+const bool parts_follow = false;
+const bool parts_alone = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

@@ -7,17 +7,16 @@ float land_H_m(float H_m) {
 }
 
 // What water sends to the eye, before the air between: the sky and the sun on its waves, and what comes out of the deep. `view`: where
-// it is; sun: towards it in the place's own frame.
+// it is; sun: towards it in the place's own frame; what comes from there and from the sky.
 // Source: C. Schlick, An inexpensive BRDF model for physically-based rendering, Computer Graphics Forum 13(3), 1994 (Fresnel's share;
 // 0.02 of a ray straight down); C. Cox, W. Munk, Measurement of the roughness of the sea surface from photographs of the sun's glitter,
 // J. Optical Society of America 44(11), 1954 (slopes).
-vec3 water_radiance(vec3 view, float h_m, vec3 sun) {
+vec3 water_radiance(vec3 view, vec3 sun, vec3 from_sun, vec3 from_sky) {
     WaterModel water = FRAME.style.water;
     vec3 up = normalize(view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view), to_eye = -normalize(view);
     // Along the water waves that lean towards the eye are seen.
     float steep = clamp(dot(to_eye, up), 0.0, 1.0), rise = min(sqrt(steep * steep + water.wave_variance), 1.0);
     float mirrored = 0.02 + 0.98 * pow(1.0 - rise, 5.0);
-    vec3 from_sun = sunlight(h_m, sun.z), from_sky = skylight(h_m, sun.z);
     // The sky of the water's place: the eye's own where that is low, else its mean.
     vec3 sky = from_sky / pi;
     float high = smoothstep(3000.0, 15000.0, FRAME.eye_h_m);

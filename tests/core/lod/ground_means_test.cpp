@@ -27,12 +27,12 @@ std::optional<Square> square_of(const gpu::PageMeans& means, int row, int column
     const auto at = static_cast<std::size_t>((row + static_cast<int>(gpu::means_apron)) *
                                                  static_cast<int>(gpu::means_stride) +
                                              column + static_cast<int>(gpu::means_apron));
-    const std::uint32_t word = means.normals[at];
+    const std::uint32_t word = means.squares[at].normal;
     if (word == 0) return std::nullopt;
     const auto part = [&](unsigned shift) { return static_cast<std::int32_t>(word << (21U - shift)) >> 21; };
-    const glm::vec2 height = glm::unpackHalf2x16(means.heights[at]);
+    const glm::vec2 height = glm::unpackHalf2x16(means.squares[at].height);
     const glm::dvec3 normal = glm::dvec3(part(0), part(11), static_cast<int>(word >> 22U)) / 1023.0;
-    const std::uint32_t spread = means.spreads[at];
+    const std::uint32_t spread = means.squares[at].spread;
     const double x = (spread & 2047U) / 2047.0, y = (spread >> 11U & 2047U) / 2047.0;
     const double correlation = (static_cast<std::int32_t>(spread) >> 22) / 511.0;
     const glm::dvec3 second{normal.x * normal.x + x * x, normal.x * normal.y + x * y * correlation,
@@ -131,9 +131,12 @@ TEST(GroundMeans, PagesAgreeBesideEachOther) {
     constexpr int stride = static_cast<int>(gpu::means_stride), quads = static_cast<int>(gpu::page_quads);
     for (int row = 0; row < stride; ++row) {
         for (int column = 0; column < stride - quads; ++column) {
-            EXPECT_EQ(west->normals[row * stride + column + quads], east->normals[row * stride + column]);
-            EXPECT_EQ(west->heights[row * stride + column + quads], east->heights[row * stride + column]);
-            EXPECT_EQ(west->spreads[row * stride + column + quads], east->spreads[row * stride + column]);
+            EXPECT_EQ(west->squares[row * stride + column + quads].normal,
+                      east->squares[row * stride + column].normal);
+            EXPECT_EQ(west->squares[row * stride + column + quads].height,
+                      east->squares[row * stride + column].height);
+            EXPECT_EQ(west->squares[row * stride + column + quads].spread,
+                      east->squares[row * stride + column].spread);
         }
     }
 }
