@@ -246,7 +246,7 @@ float wide_level_at(SurfacePoint point) {
     return 1.0 - smoothstep(0.015, 0.05, sine2);  // 7 and 13 degrees
 }
 
-// True where all of a pixel's footprint is narrower than two posts, so that the smooth slope in its middle stands for it.
+// True where all of a pixel's footprint is narrower than from post to post, so that the smooth slope in its middle stands for it.
 bool one_place_will_do(uint number, vec2 region, float origin_m, vec2 post_m, inout SurfacePoint point) {
     float round_posts = length(point.view) / (FRAME.pixels_per_tangent * min(post_m.x, post_m.y));
     uint finest = page_over(number, 0u, region);
@@ -254,7 +254,7 @@ bool one_place_will_do(uint number, vec2 region, float origin_m, vec2 post_m, in
     GroundSum here = no_ground();
     add_smooth(here, frame_pages().at[finest].means, among_squares(finest, region), origin_m);
     point.normal = here.share > 0.0 ? normalize(here.normal) : vec3(0.0, 0.0, 1.0);
-    return round_posts < 1.8 * dot(point.normal, normalize(-point.view) * axes_at(point.view));
+    return round_posts < dot(point.normal, normalize(-point.view) * axes_at(point.view));
 }
 
 // Takes what the pixel's triangle says of its middle and puts the mean of its footprint in its place. number: of the triangle's page.
