@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <optional>
+#include <limits>
+#include <utility>
 
 namespace oro {
 namespace {
@@ -16,38 +17,36 @@ constexpr double below_base_share = 0.24;     // of the em: how far letters reac
 constexpr double above_capitals_share = 0.2;  // accents of capitals
 constexpr double apart_share = 0.35;          // of the em: between the two lines
 constexpr double gap_share = 0.9;             // of the em: the shortest leader
-constexpr int steps_up = 14;
+constexpr int steps_up = 24;
+constexpr double cost_of_name_in_way = 2.5;  // in steps up, each as long as an em
 constexpr int column_px = 64;
 
-// All boxes that are taken, found by the columns of the picture that they stand in.
-class Taken {
+// Things of a picture by the columns that they stand in.
+template <class Thing>
+class ByColumn {
   public:
-    explicit Taken(int width_px) : columns_(static_cast<std::size_t>(width_px / column_px + 1)) {}
+    explicit ByColumn(int width_px) : columns_(static_cast<std::size_t>(width_px / column_px + 1)) {}
 
-    void add(const Box& box) {
-        each_column(box, [&](std::vector<Box>& column) {
-            column.push_back(box);
-            return false;
-        });
+    void add(double left, double right, const Thing& thing) {
+        for (std::size_t i = column(left); i <= column(right); ++i) columns_[i].push_back(thing);
     }
-    [[nodiscard]] bool touched_by(const Box& box) {
-        return each_column(box, [&](const std::vector<Box>& column) {
-            return std::ranges::any_of(column, [&](const Box& other) { return box.touches(other); });
-        });
-    }
-
-  private:
+    // Until one gives true; those that stand in several columns may be visited several times.
     template <class Visit>
-    bool each_column(const Box& box, const Visit& visit) {
-        const int last = static_cast<int>(columns_.size()) - 1;
-        const int from = std::clamp(static_cast<int>(box.left) / column_px, 0, last),
-                  to = std::clamp(static_cast<int>(box.right) / column_px, 0, last);
-        for (int i = from; i <= to; ++i) {
-            if (visit(columns_[static_cast<std::size_t>(i)])) return true;
+    bool any(double left, double right, const Visit& visit) const {
+        for (std::size_t i = column(left); i <= column(right); ++i) {
+            for (const Thing& thing : columns_[i]) {
+                if (visit(thing)) return true;
+            }
         }
         return false;
     }
-    std::vector<std::vector<Box>> columns_;
+
+  private:
+    [[nodiscard]] std::size_t column(double x) const {
+        const double number = std::clamp(x / column_px, 0.0, static_cast<double>(columns_.size() - 1));
+        return static_cast<std::size_t>(number);
+    }
+    std::vector<std::vector<Thing>> columns_;
 };
 
 // How large a label is, and where its lines stand in it.
@@ -92,34 +91,65 @@ void put(const Shape& shape, double gap_px, double lean, NameLabel& label) {
 
 class Layout {
   public:
-    Layout(int width_px, int height_px) : width_px_(width_px), height_px_(height_px), taken_(width_px) {}
+    Layout(const std::vector<SeenPoint>& points, int width_px, int height_px)
+        : width_px_(width_px), height_px_(height_px), taken_(width_px), waiting_(width_px) {
+        for (const SeenPoint& point : points)
+            waiting_.add(point.place_px.x, point.place_px.x, point.place_px);
+    }
 
     // True where there is room; the label is then where that is.
     bool find_room(const Shape& shape, NameLabel& label) {
         constexpr std::array leans{0.5, 0.0, 1.0};
         const double gap = gap_share * shape.size_px, step = shape.size_px;
+        double least = std::numeric_limits<double>::infinity();
+        NameLabel best;
+        const auto offer = [&](double gap_px, double lean, double cost) {
+            if (cost >= least) return;
+            put(shape, gap_px, lean, label);
+            if (!fits(label)) return;
+            cost += cost_of_name_in_way * in_the_way_of(shape, label, least - cost);
+            if (cost >= least) return;
+            least = cost;
+            best = label;
+        };
         for (int up = 0; up < steps_up; ++up) {
-            for (const double lean : leans) {
-                if (fits(shape, gap + up * step, lean, label)) return true;
-            }
+            for (const double lean : leans) offer(gap + up * step, lean, up);
         }
-        return std::ranges::any_of(leans, [&](double lean) { return fits(shape, -gap, lean, label); });
+        for (const double lean : leans) offer(-gap, lean, steps_up);
+        if (!std::isfinite(least)) return false;
+        label = std::move(best);
+        taken_.add(label.box.left, label.box.right, label.box);
+        taken_.add(label.leader.left, label.leader.right, label.leader);
+        return true;
     }
 
   private:
-    bool fits(const Shape& shape, double gap_px, double lean, NameLabel& label) {
-        put(shape, gap_px, lean, label);
+    [[nodiscard]] bool fits(const NameLabel& label) const {
         const Box& box = label.box;
         if (box.left < 0.0 || box.top < 0.0 || box.right > width_px_ || box.bottom > height_px_) return false;
-        if (taken_.touched_by(box) || taken_.touched_by(label.leader)) return false;
-        taken_.add(box);
-        taken_.add(label.leader);
-        return true;
+        const auto touched = [&](const Box& one) {
+            return taken_.any(one.left, one.right, [&](const Box& other) { return one.touches(other); });
+        };
+        return !touched(box) && !touched(label.leader);
+    }
+    // How many points have no room for a name between them and this one, and so none at all right above them.
+    [[nodiscard]] double in_the_way_of(const Shape& shape, const NameLabel& label, double enough) const {
+        const double room_px = shape.height_px + gap_share * shape.size_px;
+        double count = 0.0;
+        waiting_.any(label.box.left, label.box.right, [&](glm::dvec2 place) {
+            const bool above = place.x > label.box.left && place.x < label.box.right &&
+                               place.y > label.box.top && place.y - room_px < label.box.bottom &&
+                               place != label.point.place_px;
+            count += above ? 1.0 : 0.0;
+            return cost_of_name_in_way * count > enough;
+        });
+        return count;
     }
 
     int width_px_;
     int height_px_;
-    Taken taken_;
+    ByColumn<Box> taken_;
+    ByColumn<glm::dvec2> waiting_;
 };
 
 }  // namespace
@@ -141,7 +171,7 @@ std::string heights_words(double H_m, double distance_m) {
 Result<std::vector<NameLabel>> name_labels(const std::vector<SeenPoint>& points, int width_px, int height_px,
                                            const NameWidth& width) {
     std::vector<NameLabel> labels;
-    Layout layout(width_px, height_px);
+    Layout layout(points, width_px, height_px);
     for (const SeenPoint& point : points) {
         NameLabel label;
         label.point = point;

@@ -43,9 +43,10 @@ std::string heights_words(double H_m, double distance_m);
 
 using NameWidth = std::function<Result<double>(const std::string& text, double size_px)>;
 
-// Goes through the points in their order. Each label stands above its point, as near as there is room, or
-// below where there is none above; it touches neither a text nor a line of those before it, nor the picture's
-// border. Points without room go without. The same for the same points. Errors: those of `width`.
+// Goes through the points in their order. Each label stands above its point, near to it but not where it
+// leaves others without room, or below it where there is none above; it touches neither a text nor a line of
+// those before it, nor the picture's border. Points without room go without. The same for the same points.
+// Errors: those of `width`.
 Result<std::vector<NameLabel>> name_labels(const std::vector<SeenPoint>& points, int width_px, int height_px,
                                            const NameWidth& width);
 

@@ -54,14 +54,12 @@ Result<std::vector<InkedText>> inked_names(const TextFace& face, const std::vect
                       std::max(label.box.right, label.leader.right),
                       std::max(label.box.bottom, label.leader.bottom)};
         TextMask mask = empty_mask(all);
-        ORO_TRY(const TextMask name, face.level_mask(label.point.name, {label.name_px, 0.0, em, halo}));
-        ORO_TRY(const TextMask heights, face.level_mask(label.heights, {label.heights_px, 0.0, small, halo}));
+        ORO_CHECK(face.add_level(label.point.name, {label.name_px, 0.0, em, halo}, mask));
+        ORO_CHECK(face.add_level(label.heights, {label.heights_px, 0.0, small, halo}, mask));
         const double at = label.point.place_px.x,
                      half = 0.5 * std::max(thinnest_leader_px, leader_width_share * em);
         fill(label.leader, &TextMask::halo, mask);
         fill({at - half, label.leader.top, at + half, label.leader.bottom}, &TextMask::ink, mask);
-        merge(name, 0, 0, mask);
-        merge(heights, 0, 0, mask);
         texts.push_back({std::move(mask), name_ink, name_halo});
     }
     return texts;

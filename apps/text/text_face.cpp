@@ -241,19 +241,10 @@ Result<const TextFace::Letter*> TextFace::letter(std::uint32_t glyph, int quarte
     return &parts_->letters.emplace(key, std::move(made)).first->second;
 }
 
-Result<TextMask> TextFace::level_mask(const std::string& text, const TextPlace& place) const {
+Result<void> TextFace::add_level(const std::string& text, const TextPlace& place, TextMask& mask) const {
     ORO_TRY(const ShapedText* const letters, parts_->shape(text));
-    const double length_px = letters->width_em * place.size_px;
-    const double begin_px = place.middle_px.x - 0.5 * length_px;
+    const double begin_px = place.middle_px.x - 0.5 * letters->width_em * place.size_px;
     const int base = static_cast<int>(std::lround(place.middle_px.y + 0.5 * capital_share * place.size_px));
-    const int reach = static_cast<int>(std::ceil(place.size_px + place.halo_px)) + 1;
-    TextMask mask;
-    mask.x_px = static_cast<int>(std::floor(begin_px)) - reach;
-    mask.y_px = base - 2 * reach;
-    mask.width_px = static_cast<int>(std::ceil(length_px)) + 2 * reach + 1;
-    mask.height_px = 3 * reach;
-    mask.ink.resize(static_cast<std::size_t>(mask.width_px) * static_cast<std::size_t>(mask.height_px));
-    mask.halo.resize(mask.ink.size());
     for (const ShapedLetter& one : letters->letters) {
         const auto quarters = static_cast<int>(std::lround(4.0 * (begin_px + place.size_px * one.x_em)));
         const int whole = static_cast<int>(std::floor(quarters / 4.0));
@@ -261,7 +252,7 @@ Result<TextMask> TextFace::level_mask(const std::string& text, const TextPlace& 
         const int down = base - static_cast<int>(std::lround(place.size_px * one.y_em));
         merge(drawn->mask, whole, down, mask);
     }
-    return mask;
+    return {};
 }
 
 }  // namespace oro

@@ -35,9 +35,10 @@ class TextFace {
     // Greek, Cyrillic, Arabic, Hebrew, Armenian and Georgian, and no Chinese, Japanese, Korean, Thai or
     // scripts of India. Errors: text that is no UTF-8; no memory.
     [[nodiscard]] Result<double> width_px(const std::string& text, double size_px) const;
-    // The same for level text, the angle counts for nothing: letters stand on whole pixels and on quarters of
-    // them along the line, so that each is drawn once however often it is asked for.
-    [[nodiscard]] Result<TextMask> level_mask(const std::string& text, const TextPlace& place) const;
+    // Adds level text to a mask, the angle counts for nothing: letters stand on whole pixels and on quarters
+    // of them along the line, so that each is drawn once however often it is asked for. What lies beyond the
+    // mask is left out. Errors: likewise.
+    Result<void> add_level(const std::string& text, const TextPlace& place, TextMask& mask) const;
     // Whether the font has all of its letters. Errors: likewise.
     [[nodiscard]] Result<bool> has_all(const std::string& text) const;
     // Errors: likewise.

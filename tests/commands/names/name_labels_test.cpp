@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
 #include <random>
 
@@ -120,13 +121,19 @@ TEST(NameLabels, AreTheSameEachTimeAndQuick) {
     const std::vector<SeenPoint> points = made_points(500, 11);
     std::vector<NameLabel> first = labels_of(points, *face);
     const auto before = inked_names(*face, first);
-    const auto start = Clock::now();
-    const std::vector<NameLabel> again = labels_of(points, *face);
-    const double placed_s = seconds_since(start);
-    const auto inked = inked_names(*face, again);
-    const double all_s = seconds_since(start);
+    std::vector<NameLabel> again;
+    Result<std::vector<InkedText>> inked = before;
+    double placed_s = 1e9, all_s = 1e9;
+    for (int i = 0; i < 10; ++i) {
+        const auto start = Clock::now();
+        again = labels_of(points, *face);
+        const double so_far_s = seconds_since(start);
+        inked = inked_names(*face, again);
+        placed_s = std::min(placed_s, so_far_s);
+        all_s = std::min(all_s, seconds_since(start));
+    }
     std::cout << "500 names at 1920x1080: " << again.size() << " have room; placed in " << 1e3 * placed_s
-              << " ms, with their pixels " << 1e3 * all_s << " ms\n";
+              << " ms, with their pixels " << 1e3 * all_s << " ms (the best of ten)\n";
     ASSERT_EQ(first.size(), again.size());
     for (std::size_t i = 0; i < first.size(); ++i) {
         EXPECT_EQ(first[i].box.left, again[i].box.left);

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
 #include <random>
 
+#include "apps/names/names_in_view.h"
 #include "core/base/parallel.h"
 #include "core/terrain/ground.h"
 #include "geo/region/region.h"
@@ -104,6 +106,44 @@ TEST(SeenPoints, StandWhereTheCameraLooksAtThem) {
     }
     EXPECT_GT(looked_at, 30);
     EXPECT_FALSE(view.place_px({47.5, 10.0, 1000.0})) << "behind the eye";
+}
+
+// None of the names on a picture of real peaks is of one that the walk finds hidden.
+TEST(SeenPoints, NoRealPeakIsNamedThatIsHidden) {
+    const auto stage = alps();
+    const auto peaks = test::real_data("vector/tirol_peaks.geojson");
+    if (!stage || !peaks) GTEST_SKIP() << "needs alps/N46E010 and vector/tirol_peaks.geojson";
+    const auto file = read_vectors(peaks->string());
+    ASSERT_TRUE(file.ok());
+    const auto face = TextFace::open();
+    ASSERT_TRUE(face.ok());
+    const WorldModel model{Earth::ellipsoid, {0.13, AirLaw::constant}, {}};
+    const std::vector<NamedPoint> points = named_points(*file, "name");
+    const PointsInView view(*stage->surface, stage->camera, model);
+    NamesInView names;
+    double seeing_s = 1e9, placing_s = 1e9;
+    for (int i = 0; i < 5; ++i) {
+        auto found = names_in_view(points, view, stage->camera, *face);
+        ASSERT_TRUE(found.ok());
+        names = std::move(*found);
+        seeing_s = std::min(seeing_s, names.seeing_s);
+        placing_s = std::min(placing_s, names.placing_s);
+    }
+    const std::size_t asked =
+        names.labels.size() + static_cast<std::size_t>(names.without_room + names.counts.hidden);
+    for (const NameLabel& label : names.labels) {
+        Geodetic above = label.point.place;
+        above.h_m += seen_above_m;
+        EXPECT_GT(lowest_passage_m(*stage, model, above), -0.01) << label.point.name;
+    }
+    std::printf(
+        "%zu points of a file; %zu in the picture: %zu named, %d seen without room, %d hidden; told in %.2f "
+        "ms which are seen, placed and drawn in %.2f ms (the best of five)\n",
+        points.size(), asked, names.labels.size(), names.without_room, names.counts.hidden, 1e3 * seeing_s,
+        1e3 * placing_s);
+    EXPECT_GT(names.labels.size(), 10U);
+    EXPECT_GT(names.counts.hidden, 20);
+    EXPECT_EQ(names.without_letters, 0);
 }
 
 NamedPoint named(const char* name, double lat_deg, double lon_deg) {
