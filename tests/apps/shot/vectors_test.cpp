@@ -39,14 +39,14 @@ class Vectors : public testing::Test {
 
     Vectors() {
         fs::copy_file(oro::test::bundled_data() / "jacksboro.tif", land);
-        write_bytes(points, collection(point("Cumberland Mountain", -84.27, 36.38) + "," +
-                                       point("Żółta Góra", -84.22, 36.40) + "," +
-                                       point("جبل", -84.30, 36.35) + "," + point("Elsewhere", 8.0, 46.0)));
+        write_bytes(points, collection(point("Cumberland Mountain", -84.27, 36.60) + "," +
+                                       point("Żółta Góra", -84.22, 36.62) + "," +
+                                       point("جبل", -84.30, 36.55) + "," + point("Elsewhere", 8.0, 46.0)));
         write_bytes(
             line, collection(R"({"type":"Feature","properties":{"stroke":"#00ff00"},"geometry":)"
-                             R"({"type":"LineString","coordinates":[[-84.35,36.36],[-84.15,36.37]]}},)"
+                             R"({"type":"LineString","coordinates":[[-84.35,36.56],[-84.15,36.57]]}},)"
                              R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon",)"
-                             R"("coordinates":[[[-84.3,36.3],[-84.2,36.3],[-84.2,36.42],[-84.3,36.3]]]}})"));
+                             R"("coordinates":[[[-84.3,36.5],[-84.2,36.5],[-84.2,36.62],[-84.3,36.5]]]}})"));
     }
     [[nodiscard]] std::string path(const char* name) const { return (folder / name).string(); }
     static Outcome shoot(const Words& more) {
@@ -86,7 +86,7 @@ TEST_F(Vectors, LeavePicturesWithoutThemAsTheyWere) {
 
 TEST_F(Vectors, ThatChangedAreTold) {
     ASSERT_EQ(shoot({land, "--names", points, "-q", "--out", path("a.png")}).exit_code, 0);
-    write_bytes(points, collection(point("Another", -84.27, 36.38)));
+    write_bytes(points, collection(point("Another", -84.27, 36.60)));
     expect_refusal(shoot({"--view", path("a.png"), "--out", path("b.png")}), failed,
                    {"points.geojson", "another vector file"});
     EXPECT_EQ(shoot({"--view", path("a.png"), "--data-changed", "-q", "--out", path("b.png")}).exit_code, 0);
@@ -128,7 +128,7 @@ TEST_F(Vectors, AFieldThatNoPointHasIsTold) {
 // Notes of what was left out, and paths that a picture is not to tell.
 TEST_F(Vectors, NotesAndPathsAreKeptTo) {
     write_bytes(path("odd.geojson"),
-                collection(point("good", -84.27, 36.38) + "," + point("bad", -84.2, 95.0)));
+                collection(point("good", -84.27, 36.60) + "," + point("bad", -84.2, 95.0)));
     const Outcome drawn =
         shoot({land, "--names", path("odd.geojson"), "--no-paths", "--out", path("secret.png")});
     EXPECT_EQ(drawn.exit_code, 0);
