@@ -5,7 +5,7 @@ build_packages=(
   glslang-tools libvulkan-dev
   libgdal-dev libgeographiclib-dev libproj-dev proj-data libsqlite3-dev
   libglm-dev libglfw3-dev libcli11-dev nlohmann-json3-dev
-  libpng-dev libjpeg-dev libtiff-dev libexif-dev libfreetype-dev fonts-dejavu-core
+  libpng-dev libjpeg-dev libtiff-dev libexif-dev libfreetype-dev libharfbuzz-dev fonts-dejavu-core
   libzstd-dev libxxhash-dev libpugixml-dev libutfcpp-dev
 )
 

@@ -51,6 +51,27 @@ void add_eye_options(CLI::App& command, ViewOptions& options) {
         "Size of the picture in pixels, each side " + span(view_limits::side_px) + " (default 1280x720).");
 }
 
+void add_vector_options(OptionGroup& looks, ViewOptions& options) {
+    looks
+        .option("--names", options.names, "FILE",
+                "Name the points of a vector file (GPX, KML, GeoJSON, GeoPackage) that the eye sees, with "
+                "height and distance, in pictures; a window has none. May be given several times.")
+        .allow_extra_args(false);  // what follows its file is elevation data
+    looks.option("--names-field", options.names_field, "FIELD",
+                 "The field of such files that holds the name (default: name). Needs --names or --overlay.");
+    looks
+        .option("--overlay", options.overlay, "FILE",
+                "Lay the lines and polygons of a vector file on the ground, and name its points, in "
+                "pictures; a window has none. May be given several times.")
+        .allow_extra_args(false);
+    looks.option("--overlay-colour", options.overlay_colour, "COLOUR",
+                 "Colour of these lines, such as #e2252b (default). A feature with a field stroke has that "
+                 "colour. Needs --overlay.");
+    looks.number("--overlay-width", options.overlay_width_px, "PIXELS",
+                 "Width of these lines, " + span(view_limits::overlay_width_px) +
+                     " (default 2). A feature with a field stroke-width has that width. Needs --overlay.");
+}
+
 void add_look_options(CLI::App& command, ViewOptions& options) {
     OptionGroup looks(command, "Looks");
     looks.option(
@@ -66,6 +87,7 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
     looks.number("--drape-opacity", options.drape_opacity, "SHARE",
                  "How much images hide of the style's colours, " + span(view_limits::drape_opacity) +
                      " (default 1: all). Needs --drape.");
+    add_vector_options(looks, options);
     CLI::Option& sun = looks.option(
         "--sun", options.sun, "AZIMUTH,ELEVATION",
         "Where light comes from, in degrees: clockwise from north, and above the horizon; 315,45 is from the "

@@ -63,6 +63,7 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
     if (const std::string holes = note_of_voids(shot.region); !holes.empty())
         say(options.quiet, "note: " + holes);
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
+    if (shot.view.vectors_read) say_vectors(*shot.view.vectors_read, shot.view.vectors, options.quiet);
     const Geodetic& eye = shot.view.camera.eye;
     const auto ground = ground_h_m(shot.region.field, eye.lat_deg, eye.lon_deg, shot.view.exaggeration);
     if (ground && eye.h_m < *ground) {
@@ -237,6 +238,9 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     shot.beside = beside.found();
     shot.picture = picture.report;
     shot.labels = picture.labels;
+    shot.names = picture.names;
+    shot.overlay = picture.overlay;
+    for (const std::string& note : notes_of(shot.names)) say(options.quiet, "note: " + note);
     shot.view.prints = picture.prints;
     shot.times.draw_s = seconds_since(drawing);
     if (shot.picture.ground_px == 0)

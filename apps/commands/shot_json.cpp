@@ -71,6 +71,22 @@ ordered_json labels_json(const std::vector<LineLabel>& labels) {
     return json;
 }
 
+// Those that are in the picture, the most prominent first, and how many were not named.
+ordered_json names_json(const NamesInView& names) {
+    ordered_json json = ordered_json::array();
+    for (const NameLabel& label : names.labels) {
+        const SeenPoint& point = label.point;
+        json.push_back(
+            json_object("name", point.name, "lat_deg", point.lat_deg, "lon_deg", point.lon_deg, "h_m",
+                        point.place.h_m, "H_m", point.H_m, "distance_m", point.distance_m, "place_px",
+                        json_list(point.place_px.x, point.place_px.y), "box_px",
+                        json_list(label.box.left, label.box.top, label.box.right, label.box.bottom)));
+    }
+    return json_object("named", std::move(json), "hidden", names.counts.hidden, "outside",
+                       names.counts.outside, "beyond_data", names.counts.beyond_data, "without_room",
+                       names.without_room, "without_letters", names.without_letters);
+}
+
 // Null where neither --accuracy nor --tolerance chose.
 ordered_json accuracy_json(const ShotResult& shot) {
     const bool named = !shot.view.accuracy.empty();
@@ -90,6 +106,11 @@ ordered_json times_json(const ShotResult& shot) {
     json["read"] = shot.times.read_s;
     json["pages"] = shot.times.pages_s;
     json["draw_and_write"] = shot.times.draw_s;
+    if (shot.view.vectors_read) {
+        json["overlay"] = shot.overlay.seconds;
+        json["names_seen"] = shot.names.seeing_s;
+        json["names_placed"] = shot.names.placing_s;
+    }
     json["gpu_choose"] = shot.picture.choose_s;
     json["gpu_raster"] = shot.picture.raster_s;
     json["gpu_shade"] = shot.picture.shade_s;
@@ -122,6 +143,10 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["contour_interval_m"] = nullptr;
     if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
     json["labels"] = labels_json(shot.labels);
+    if (shot.view.vectors_read) {
+        json["names"] = names_json(shot.names);
+        json["overlay"] = json_object("lines", shot.overlay.lines, "seen_px", shot.overlay.seen_px);
+    }
     json["time"] = time_text(shot.view.time_utc_s);
     json["destination"] = destination_json(shot.middle);
     json["attribution"] = tags.attribution;

@@ -32,6 +32,8 @@ struct ShotResult {
     std::optional<SeenPlace> middle;  // what the picture sees there
     PictureReport picture;
     std::vector<LineLabel> labels;
+    NamesInView names;
+    OverlayInView overlay;
     std::uint64_t pages{};
     std::uint64_t pages_on_gpu{};
     std::uint64_t page_bytes{};

@@ -7,6 +7,7 @@
 
 #include "apps/text/inked_rows.h"
 #include "apps/text/text_face.h"
+#include "core/base/parallel.h"
 
 namespace oro {
 namespace {
@@ -38,16 +39,47 @@ void interrupt_line(const LineLabel& label, double size_px, TextMask& mask) {
     }
 }
 
-Result<std::vector<TextMask>> masks_of(const TextFace& face, const std::vector<LineLabel>& labels,
-                                       double size_px) {
-    std::vector<TextMask> masks;
+bool touches(const TextMask& mask, const std::vector<NameLabel>& names) {
+    const Box box{static_cast<double>(mask.x_px), static_cast<double>(mask.y_px),
+                  static_cast<double>(mask.x_px + mask.width_px),
+                  static_cast<double>(mask.y_px + mask.height_px)};
+    return std::ranges::any_of(
+        names, [&](const NameLabel& name) { return box.touches(name.box) || box.touches(name.leader); });
+}
+
+// Finds the labels of contour lines, without those in the way of names, and adds them to `texts`.
+Result<std::vector<LineLabel>> add_line_labels(const TextFace& face, const SeenHeights& seen,
+                                               const Style& style, const std::vector<NameLabel>& names,
+                                               std::vector<InkedText>& texts) {
+    const gpu::ContourLines& lines = style.frame.contours;
+    const double size_px = style.labels_px;
+    const InkedRows::Colour ink{code_of(lines.colour.x), code_of(lines.colour.y), code_of(lines.colour.z)};
+    ORO_TRY(const std::vector<LineLabel> labels,
+            line_labels(seen, static_cast<double>(lines.interval_m), size_px,
+                        [&](const std::string& text) { return face.width_px(text, size_px); }));
+    std::vector<LineLabel> written;
     for (const LineLabel& label : labels) {
         ORO_TRY(TextMask mask,
                 face.mask(label.text, {label.middle_px, label.angle_deg, size_px, halo_share * size_px}));
+        if (touches(mask, names)) continue;
         interrupt_line(label, size_px, mask);
-        masks.push_back(std::move(mask));
+        texts.push_back({std::move(mask), ink, {}});
+        written.push_back(label);
     }
-    return masks;
+    return written;
+}
+
+// What a view's vector files put on its picture.
+Result<void> find_vectors(const View& view, const HeightField& field, const TextFace& face,
+                          LabelledPicture& picture) {
+    const std::vector<NamedPoint> points = points_of(view);
+    if (points.empty() && view.vectors_read->overlay.empty()) return {};
+    const TrueSurface surface(field, view.exaggeration, thread_count());
+    const PointsInView in_view(surface, view.camera, view.model);
+    picture.overlay = overlay_in_view(view, surface, in_view);
+    ORO_TRY(picture.names, names_in_view(points, in_view, view.camera, face));
+    // What could not be read counts as void: sight lines went through it.
+    return field.health();
 }
 
 }  // namespace
@@ -67,23 +99,25 @@ Result<LabelledPicture> render_labelled(const Gpu& gpu, Scene& scene, const View
     const PictureOptions options = picture_options(view, path);
     const Camera& camera = view.camera;
     LabelledPicture picture;
-    if (style.labels_px <= 0.0) {
+    if (style.labels_px <= 0.0 && !view.vectors_read) {
         ORO_TRY(picture.report, render_picture(gpu, scene, camera, style.frame, options, sink, progress));
         return picture;
     }
-    const gpu::ContourLines& lines = style.frame.contours;
     ORO_TRY(const TextFace face, TextFace::open());
-    ORO_TRY(const SeenHeights seen, seen_heights(gpu, scene, camera, options, view.exaggeration, field));
-    ORO_TRY(picture.labels,
-            line_labels(seen, static_cast<double>(lines.interval_m), style.labels_px,
-                        [&](const std::string& text) { return face.width_px(text, style.labels_px); }));
-    ORO_TRY(std::vector<TextMask> masks, masks_of(face, picture.labels, style.labels_px));
-    const InkedRows::Colour ink{code_of(lines.colour.x), code_of(lines.colour.y), code_of(lines.colour.z)};
-    InkedRows inked(camera.width_px, camera.height_px, std::move(masks), ink, sink);
+    if (view.vectors_read) ORO_CHECK(find_vectors(view, field, face, picture));
+    std::vector<InkedText> texts = std::move(picture.names.inked);
+    if (style.labels_px > 0.0) {
+        ORO_TRY(const SeenHeights seen, seen_heights(gpu, scene, camera, options, view.exaggeration, field));
+        ORO_TRY(picture.labels, add_line_labels(face, seen, style, picture.names.labels, texts));
+    }
+    // Lines first, what is written over them.
+    InkedRows written(camera.width_px, camera.height_px, std::move(texts), sink);
+    InkedRows lined(camera.width_px, camera.height_px, std::move(picture.overlay.inked),
+                    [&](std::span<const std::uint8_t> row) { return written.take(row); });
     ORO_TRY(picture.report,
             render_picture(
                 gpu, scene, camera, style.frame, options,
-                [&](std::span<const std::uint8_t> row) { return inked.take(row); }, progress));
+                [&](std::span<const std::uint8_t> row) { return lined.take(row); }, progress));
     return picture;
 }
 

@@ -26,6 +26,8 @@ Result<void> spare_inputs(const std::vector<std::string>& written, const View& v
     std::vector<std::string> inputs{view.style};
     for (const std::string& path : view.region.paths) inputs.push_back(path);
     inputs.insert(inputs.end(), view.drape.begin(), view.drape.end());
+    VectorChoices vectors = view.vectors;
+    for (const std::string* const file : vectors.paths()) inputs.push_back(*file);
     for (const SourceReport& source : region.sources) {
         inputs.push_back(source.path);
         inputs.insert(inputs.end(), source.files.begin(), source.files.end());

@@ -84,7 +84,12 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
         drawn.prints->pixels = pixels.print();
         ORO_CHECK(replace_in_view(file, files.picture, pixels_field(0), pixels_field(pixels.print())));
     }
-    return DrawnPicture{report, std::move(labelled.labels), std::move(file), drawn.prints};
+    return DrawnPicture{report,
+                        std::move(labelled.labels),
+                        std::move(labelled.names),
+                        std::move(labelled.overlay),
+                        std::move(file),
+                        drawn.prints};
 }
 
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,

@@ -26,6 +26,8 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
 struct DrawnPicture {
     PictureReport report;
     std::vector<LineLabel> labels;
+    NamesInView names;
+    OverlayInView overlay;
     WholeFile file;
     std::optional<Fingerprints> prints;  // those in it
 };

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/text/text_mask.h"
 #include "core/base/result.h"
 
 namespace oro {
@@ -19,18 +20,9 @@ struct TextPlace {
     double halo_px{};      // how far the halo goes beyond the letters; 0: none
 };
 
-// What text covers of the pixels of a rectangle, 0 to 255, row by row.
-struct TextMask {
-    int x_px{};  // of its first pixel; may be outside the picture
-    int y_px{};
-    int width_px{};
-    int height_px{};
-    std::vector<std::uint8_t> ink;
-    std::vector<std::uint8_t> halo;  // the letters' own pixels, too
-};
-
 // The font that pictures are written in. The same text at the same place has the same pixels on every machine
-// (with one version of FreeType): shapes are not fitted to the pixels' grid.
+// (with one version of FreeType): shapes are not fitted to the pixels' grid. Not for several threads at a
+// time: what was shaped and drawn once is kept.
 //     ORO_TRY(const TextFace face, TextFace::open());
 //     ORO_TRY(const TextMask mask, face.mask("Eiger", {{320.0, 100.0}, -12.5, 14.0, 2.0}));
 class TextFace {
@@ -38,14 +30,25 @@ class TextFace {
     // Errors: no memory.
     static Result<TextFace> open();
 
-    // How long a text is, from where its first letter begins to where the next one would. Text is UTF-8; a
-    // letter that the font does not have is a box. Errors: text that is no UTF-8; no memory.
+    // How long a text is, from where its first letter begins to where the next one would. Text is UTF-8, in
+    // any script and direction (shaping.h); a letter that the font does not have is a box: it has Latin,
+    // Greek, Cyrillic, Arabic, Hebrew, Armenian and Georgian, and no Chinese, Japanese, Korean, Thai or
+    // scripts of India. Errors: text that is no UTF-8; no memory.
     [[nodiscard]] Result<double> width_px(const std::string& text, double size_px) const;
+    // Adds level text to a mask, the angle counts for nothing: letters stand on whole pixels and on quarters
+    // of them along the line, so that each is drawn once however often it is asked for. What lies beyond the
+    // mask is left out. Errors: likewise.
+    Result<void> add_level(const std::string& text, const TextPlace& place, TextMask& mask) const;
+    // Whether the font has all of its letters. Errors: likewise.
+    [[nodiscard]] Result<bool> has_all(const std::string& text) const;
     // Errors: likewise.
     [[nodiscard]] Result<TextMask> mask(const std::string& text, const TextPlace& place) const;
 
   private:
     struct Parts;
+    struct Letter;
+    [[nodiscard]] Result<const Letter*> letter(std::uint32_t glyph, int quarters,
+                                               const TextPlace& place) const;
     struct Ending {
         void operator()(Parts* parts) const;
     };

@@ -78,6 +78,7 @@ ordered_json prints_json(const Fingerprints& prints) {
     json["sources"] = sources_json(prints.sources);
     json["geoid"] = json_object("name", prints.geoid, "undulation", digits_of(prints.undulation));
     if (!prints.images.empty()) json["images"] = sources_json(prints.images);
+    if (!prints.vectors.empty()) json["vectors"] = sources_json(prints.vectors);
     put(json, "style", prints.style);
     put(json, "pixels", prints.pixels);
     if (prints.data_changed) json["data_changed"] = true;
@@ -91,6 +92,7 @@ Fingerprints prints_from(const nlohmann::json& json) {
     prints.posts = print_if_any(json, "posts");
     prints.sources = sources_from(json, "sources");
     if (json.contains("images")) prints.images = sources_from(json, "images");
+    if (json.contains("vectors")) prints.vectors = sources_from(json, "vectors");
     const nlohmann::json& geoid = json_field(json, "geoid");
     prints.geoid = json_string(geoid, "name");
     prints.undulation = print_from(geoid, "undulation");

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/commands/options.h"
 #include "apps/light/sun.h"
+#include "apps/vectors/view_vectors.h"
 #include "apps/view/fingerprints.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
@@ -53,9 +55,11 @@ struct View {
     Rim rim{Rim::skirt};
     std::vector<std::string> drape;  // images over the ground, the last on top
     double drape_opacity{1.0};
-    std::vector<ImageSource> images;  // these files, from open_view on
-    std::string pipeline{"auto"};     // or "mesh", "compute": written views name the one that drew them
-    double tau_px{1.0};               // largest error of what is drawn; 0: full resolution
+    std::vector<ImageSource> images;                  // these files, from open_view on
+    VectorChoices vectors;                            // names and lines from files
+    std::shared_ptr<const VectorsRead> vectors_read;  // what is in them, from open_view on; null: no files
+    std::string pipeline{"auto"};  // or "mesh", "compute": written views name the one that drew them
+    double tau_px{1.0};            // largest error of what is drawn; 0: full resolution
     WorldModel model;
     bool has_geoid{true};  // false: N is 0 everywhere, heights are above the ellipsoid
     HeightStorage heights{HeightStorage::f32};

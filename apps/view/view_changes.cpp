@@ -89,14 +89,15 @@ void add_geoid(const Fingerprints& told, const Fingerprints& here, const std::st
     changes.push_back({ChangeOf::geoid, {ErrorKind::failed, "geoid", what}});
 }
 
-void add_images(const Fingerprints& told, const Fingerprints& here, const std::string& file,
-                std::vector<Change>& changes) {
-    for (std::size_t i = 0; i < std::min(told.images.size(), here.images.size()); ++i) {
-        const OfSource &was = told.images[i], &is = here.images[i];
+// Files that a view names one by one: images, vectors.
+void add_files(const std::vector<OfSource>& told, const std::vector<OfSource>& here, const std::string& what,
+               const std::string& file, std::vector<Change>& changes) {
+    for (std::size_t i = 0; i < std::min(told.size(), here.size()); ++i) {
+        const OfSource &was = told[i], &is = here[i];
         if (was.posts == is.posts) continue;
         changes.push_back({ChangeOf::data,
                            {ErrorKind::failed, is.name.empty() ? was.name : is.name,
-                            "is another image than the one that " + file + " was drawn with"}});
+                            "is another " + what + " than the one that " + file + " was drawn with"}});
     }
 }
 
@@ -149,7 +150,8 @@ std::vector<Change> changes_of(const View& view) {
     const Fingerprints &told = *view.told->prints, &here = *view.prints;
     add_data(told, here, view.told->file, changes);
     add_geoid(told, here, view.told->file, changes);
-    add_images(told, here, view.told->file, changes);
+    add_files(told.images, here.images, "image", view.told->file, changes);
+    add_files(told.vectors, here.vectors, "vector file", view.told->file, changes);
     if (told.program != here.program)
         changes.push_back({ChangeOf::program,
                            {ErrorKind::failed, view.told->file,

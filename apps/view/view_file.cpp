@@ -168,6 +168,7 @@ View read_fields(const nlohmann::json& json) {
     read_choice(json, "sea", sea_named, view.sea);
     read_choice(json, "rim", rim_named, view.rim);
     read_drape(json, view);
+    view.vectors = vectors_from(json);
     // Where nothing was asked for there is none.
     if (json.contains("shadows")) view.shadows = json_flag(json, "shadows");
     if (json.contains("sky_openness")) view.sky_openness = json_flag(json, "sky_openness");
@@ -238,6 +239,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["sea"] = name_of(view.sea);
     json["rim"] = name_of(view.rim);
     if (!view.drape.empty()) json["drape"] = drape_json(view);
+    put_vectors(view.vectors, json);
     if (view.shadows) json["shadows"] = *view.shadows;
     if (view.sky_openness) json["sky_openness"] = *view.sky_openness;
     json["labels"] = !view.labels ? "style" : *view.labels ? "on" : "off";

@@ -41,6 +41,13 @@ Result<void> open_images(View& view) {
     return {};
 }
 
+// The same for all that a view names beside its elevation data.
+Result<void> open_files(View& view) {
+    ORO_CHECK(open_images(view));
+    ORO_TRY(view.vectors_read, open_vectors(view.vectors, view.prints->vectors));
+    return {};
+}
+
 }  // namespace
 
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
@@ -48,13 +55,15 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                        Region& region) {
     if (!view_file.empty()) {
         ORO_TRY(view, read_view(view_file));
-        view.told =
-            ToldView{view_file, view.camera.width_px, view.camera.height_px,
-                     !view_options.style && !view_options.visibility_km && !view_options.sun &&
-                         !view_options.sun_time && !view_options.sea && !view_options.rim &&
-                         view_options.drape.empty() && !view_options.drape_opacity && !view_options.shadows &&
-                         !view_options.sky_openness && !view_options.labels && !view_options.edges,
-                     view.prints};
+        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px,
+                             !view_options.style && !view_options.visibility_km && !view_options.sun &&
+                                 !view_options.sun_time && !view_options.sea && !view_options.rim &&
+                                 view_options.drape.empty() && !view_options.drape_opacity &&
+                                 !view_options.shadows && view_options.names.empty() &&
+                                 !view_options.names_field && view_options.overlay.empty() &&
+                                 !view_options.overlay_colour && !view_options.overlay_width_px &&
+                                 !view_options.sky_openness && !view_options.labels && !view_options.edges,
+                             view.prints};
         ORO_CHECK(change_view(view, view_options));
         // A sun that its file told stays where the file has it: the same view, the same bytes.
         if (view_options.sun_time) aim_sun(view.sun, view.camera.eye);
@@ -69,13 +78,15 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         if (!view.has_geoid) leave_geoid_out(region);
         // Those that somebody names instead are others on purpose.
         if (!view_options.drape.empty() && view.told->prints) view.told->prints->images.clear();
-        return open_images(view);
+        if ((!view_options.names.empty() || !view_options.overlay.empty()) && view.told->prints)
+            view.told->prints->vectors.clear();
+        return open_files(view);
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     ORO_TRY(region, open_region(view.region, progress));
     view.prints = prints_of(region);
-    ORO_CHECK(open_images(view));
+    ORO_CHECK(open_files(view));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
     if (placed.ok()) aim_sun(view.sun, view.camera.eye);

@@ -127,6 +127,7 @@ Result<void> apply_colours(View& view, const ViewOptions& options) {
     if (options.edges) {
         ORO_TRY(view.edges, edges_named(*options.edges));
     }
+    ORO_CHECK(choose_vectors(options, view.vectors));
     return apply_drape(view, options);
 }
 

@@ -97,8 +97,10 @@ Result<View> view_told_by(const View& view, const std::string& picture) {
         if (told.prints) {
             for (Fingerprints::OfSource& source : told.prints->sources) source.name.clear();
             for (Fingerprints::OfSource& image : told.prints->images) image.name.clear();
+            for (Fingerprints::OfSource& vectors : told.prints->vectors) vectors.name.clear();
         }
         for (std::string& image : told.drape) image = fs::path(image).filename().string();
+        for (std::string* const file : told.vectors.paths()) *file = fs::path(*file).filename().string();
         if (is_style_path(told.style)) told.style = fs::path(told.style).filename().string();
         return told;
     }
@@ -113,6 +115,9 @@ Result<View> view_told_by(const View& view, const std::string& picture) {
     }
     for (std::string& image : told.drape) {
         ORO_TRY(image, from_folder(folder, image));
+    }
+    for (std::string* const file : told.vectors.paths()) {
+        ORO_TRY(*file, from_folder(folder, *file));
     }
     if (is_style_path(told.style)) {
         ORO_TRY(told.style, from_folder(folder, told.style));
@@ -133,6 +138,7 @@ Result<void> lead_from_working_folder(View& view, const std::string& file) {
     };
     for (std::string& path : view.region.paths) ORO_CHECK(lead(path));
     for (std::string& image : view.drape) ORO_CHECK(lead(image));
+    for (std::string* const path : view.vectors.paths()) ORO_CHECK(lead(*path));
     if (is_style_path(view.style)) ORO_CHECK(lead(view.style));
     return {};
 }

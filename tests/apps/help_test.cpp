@@ -116,10 +116,12 @@ TEST(Help, HidesWhatDoesNothing) {
     const std::map<std::string, Words> hidden{
         {"trade",
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
-          "--tolerance", "--labels", "--edges", "--samples"}},
+          "--tolerance", "--labels", "--edges", "--samples", "--names", "--names-field", "--overlay",
+          "--overlay-colour", "--overlay-width"}},
         {"plan",
          {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--edges", "--samples",
-          "--pipeline", "--time"}},
+          "--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width", "--pipeline",
+          "--time"}},
         {"view", {"--tolerance", "--time"}},
         {"compare", {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids"}}};
     const std::string shot = help_of({"shot"});

@@ -112,7 +112,7 @@ TEST(InkedRows, InterruptALineAndKeepTheGround) {
     const TextFace text = face();
     const TextMask mask = *text.mask("15", {{40.0, 30.0}, 0.0, 26.0, 3.0});
     std::vector<std::vector<std::uint8_t>> rows;
-    InkedRows inked(width, height, {mask}, ink, [&](std::span<const std::uint8_t> row) {
+    InkedRows inked(width, height, {{mask, ink, {}}}, [&](std::span<const std::uint8_t> row) {
         rows.emplace_back(row.begin(), row.end());
         return Result<void>();
     });
@@ -150,7 +150,7 @@ TEST(InkedRows, InterruptALineAndKeepTheGround) {
 TEST(InkedRows, HandOnRowsThatNoTextNeeds) {
     int handed_on = 0;
     const TextFace text = face();
-    InkedRows inked(40, 200, {*text.mask("7", {{20.0, 150.0}, 0.0, 11.0, 2.0})}, {0, 0, 0},
+    InkedRows inked(40, 200, {{*text.mask("7", {{20.0, 150.0}, 0.0, 11.0, 2.0}), {}, {}}},
                     [&](std::span<const std::uint8_t>) {
                         ++handed_on;
                         return Result<void>();

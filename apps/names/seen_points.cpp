@@ -1,0 +1,164 @@
+#include "apps/names/seen_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <tuple>
+
+#include "core/base/parallel.h"
+
+namespace oro {
+namespace {
+
+constexpr double hit_slack_m = 0.01;  // a hit so near the point is the point's own ground
+constexpr double behind_all_m = 1e6;  // H counts for so much less than a prominence
+
+double H_over(double h_m, double N_m, double exaggeration) {
+    return (h_m - N_m) / exaggeration;
+}
+
+// By what the point tells itself, above the ellipsoid and not exaggerated; nothing where it tells none.
+std::optional<double> own_h_m(const NamedPoint& point, double ground_h_m, double N_m) {
+    switch (point.heights) {
+        case HeightAbove::nothing:
+            return std::nullopt;
+        case HeightAbove::sea_level:
+            return point.height_m + N_m;
+        case HeightAbove::ellipsoid:
+            return point.height_m;
+        case HeightAbove::ground:
+            return ground_h_m + point.height_m;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+PointsInView::PointsInView(const TrueSurface& surface, const Camera& camera, const WorldModel& model)
+    : surface_(surface),
+      camera_(camera),
+      model_(model),
+      view_from_ecef_(camera.view_from_ecef()),
+      oracle_(surface, sight_of(model, camera.eye)) {}
+
+glm::dvec3 PointsInView::view_m(const Geodetic& point) const {
+    return view_from_ecef_ * model_offset_m(model_, camera_.eye, point);
+}
+
+glm::dvec2 PointsInView::projected_px(const glm::dvec3& view_m) const {
+    const glm::dvec2 tangent = glm::dvec2(view_m.x, -view_m.y) / -view_m.z;
+    return 0.5 * glm::dvec2(camera_.width_px, camera_.height_px) *
+           (1.0 + tangent / camera_.half_fov_tangent());
+}
+
+std::optional<glm::dvec2> PointsInView::place_px(const Geodetic& point) const {
+    const glm::dvec3 in_view_m = view_m(point);
+    if (in_view_m.z >= -near_plane_m) return std::nullopt;
+    return projected_px(in_view_m);
+}
+
+bool PointsInView::sees(const Geodetic& point, double above_m) const {
+    const glm::dvec3 offset_m =
+        model_offset_m(model_, camera_.eye, {point.lat_deg, point.lon_deg, point.h_m + above_m});
+    const double distance_m = glm::length(offset_m);
+    if (distance_m <= hit_slack_m) return true;
+    const auto hit = oracle_.first_hit(offset_m / distance_m, distance_m);
+    return !hit || hit->distance_m >= distance_m - hit_slack_m;
+}
+
+void PointsInView::put_at(const Geodetic& place, SeenPoint& point) const {
+    constexpr glm::dvec2 nowhere(-1.0);
+    point.place = place;
+    point.place_px = place_px(place).value_or(nowhere);
+    point.distance_m = glm::length(model_offset_m(model_, camera_.eye, place));
+}
+
+bool PointsInView::in_picture(const SeenPoint& point) const {
+    const glm::dvec2 at = point.place_px;
+    return at.x >= 0.0 && at.y >= 0.0 && at.x < camera_.width_px && at.y < camera_.height_px;
+}
+
+std::optional<Geodetic> PointsInView::summit_near(const Geodetic& place) const {
+    const PostGrid& grid = surface_.field().grid;
+    const double row = grid.lat.index_at(place.lat_deg), column = grid.column_at(place.lon_deg);
+    std::optional<Geodetic> highest;
+    for (int down = -posts_to_summit; down <= posts_to_summit; ++down) {
+        for (int right = -posts_to_summit; right <= posts_to_summit; ++right) {
+            const int r = static_cast<int>(std::lround(row)) + down,
+                      c = static_cast<int>(std::lround(column)) + right;
+            if (r < 0 || c < 0 || r >= grid.rows() || c >= grid.columns()) continue;
+            const auto h_m = surface_.post_h_m(r, c);
+            if (h_m && *h_m > (highest ? highest->h_m : place.h_m))
+                highest = Geodetic{grid.lat.at_deg(r), normalised_lon_deg(grid.lon.at_deg(c)), *h_m};
+        }
+    }
+    return highest;
+}
+
+bool PointsInView::sees_or_moves(SeenPoint& point) const {
+    if (sees(point.place, seen_above_m)) return true;
+    const auto summit = summit_near(point.place);
+    if (!summit || !sees(*summit, seen_above_m)) return false;
+    put_at(*summit, point);
+    if (!point.tells_H) {
+        const double N_m = surface_.field().undulation.at_m(summit->lat_deg, summit->lon_deg);
+        point.H_m = H_over(summit->h_m, N_m, surface_.exaggeration());
+    }
+    return in_picture(point);
+}
+
+std::optional<SeenPoint> PointsInView::placed(const NamedPoint& point, PointCounts& counts) const {
+    const auto ground_h_m = surface_.h_m(point.lat_deg, point.lon_deg);
+    if (!ground_h_m) {
+        ++counts.beyond_data;
+        return std::nullopt;
+    }
+    const double N_m = surface_.field().undulation.at_m(point.lat_deg, point.lon_deg),
+                 exaggeration = surface_.exaggeration(), ground_H_m = H_over(*ground_h_m, N_m, exaggeration);
+    SeenPoint seen{point.name, point.lat_deg, point.lon_deg, {}, ground_H_m, false, 0.0, 0.0, {}};
+    double h_m = *ground_h_m;
+    const auto tell = [&](double H_m) {
+        seen.H_m = H_m;
+        seen.tells_H = true;
+    };
+    if (const auto own = own_h_m(point, ground_H_m + N_m, N_m)) {
+        const double H_m = *own - N_m, above_m = H_m - ground_H_m;
+        const bool stands_there = above_m >= 0.0 && above_m <= highest_above_ground_m;
+        if (stands_there) h_m = H_m * exaggeration + N_m;
+        if (stands_there || std::abs(above_m) <= most_off_ground_m) tell(H_m);
+    }
+    if (point.told_H_m && std::abs(*point.told_H_m - ground_H_m) <= most_off_ground_m) tell(*point.told_H_m);
+    put_at({seen.lat_deg, seen.lon_deg, h_m}, seen);
+    if (!in_picture(seen)) {
+        ++counts.outside;
+        return std::nullopt;
+    }
+    seen.rank = point.prominence_m ? *point.prominence_m : seen.H_m - behind_all_m;
+    return seen;
+}
+
+std::vector<SeenPoint> PointsInView::seen(const std::vector<NamedPoint>& points, PointCounts& counts) const {
+    std::vector<SeenPoint> all;
+    for (const NamedPoint& point : points) {
+        if (auto one = placed(point, counts)) all.push_back(std::move(*one));
+    }
+    std::vector<char> is_seen(all.size());
+    in_parallel(static_cast<int>(all.size()), thread_count(), [&](int number) {
+        const auto i = static_cast<std::size_t>(number);
+        is_seen[i] = sees_or_moves(all[i]) ? 1 : 0;
+    });
+    std::vector<SeenPoint> seen;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (is_seen[i] != 0)
+            seen.push_back(std::move(all[i]));
+        else
+            ++counts.hidden;
+    }
+    std::ranges::stable_sort(seen, [](const SeenPoint& a, const SeenPoint& b) {
+        return std::tie(b.rank, a.distance_m, a.name, a.lat_deg, a.lon_deg) <
+               std::tie(a.rank, b.distance_m, b.name, b.lat_deg, b.lon_deg);
+    });
+    return seen;
+}
+
+}  // namespace oro

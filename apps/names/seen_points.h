@@ -1,0 +1,80 @@
+// Which named points a view sees, and where on its picture.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/names/named_points.h"
+#include "core/earth/camera.h"
+#include "core/earth/world_model.h"
+#include "core/truth/oracle.h"
+#include "core/truth/true_surface.h"
+
+namespace oro {
+
+// A point is seen where something so high on it is: a person, or the cross of a summit. It lets a point that
+// lies some metres behind the highest post of its summit be named.
+inline constexpr double seen_above_m = 2.0;
+// Mapped summits stand beside those of a grid of posts, and then behind them. A point that is hidden is moved
+// to the highest post so few posts from it, if that is higher than the ground below the point and is seen.
+inline constexpr int posts_to_summit = 2;
+// A point's own height is where it is placed when it is at most so far above the ground; else the ground is.
+inline constexpr double highest_above_ground_m = 300.0;
+// The height that a point tells is what is written of it when it is so near the ground's there.
+inline constexpr double most_off_ground_m = 100.0;
+
+struct SeenPoint {
+    std::string name;
+    double lat_deg{};
+    double lon_deg{};
+    Geodetic place;  // above the ellipsoid, exaggerated as the view is
+    double H_m{};    // what is written: its own where it tells one, else the ground's
+    bool tells_H{};
+    double distance_m{};  // along the sight line
+    double rank{};        // greater ones are named first
+    glm::dvec2 place_px;  // from the picture's top left corner
+};
+
+// What stands in a picture and is hidden or not, beside what is named.
+struct PointCounts {
+    int beyond_data{};  // of the region
+    int outside{};      // of the picture
+    int hidden{};       // by the terrain
+};
+
+// Tells which points an eye sees; safe to ask from one thread at a time, and shares its work between several.
+class PointsInView {
+  public:
+    // `surface` outlives it: of the view's region and exaggeration. The model is the view's: Earth and air.
+    PointsInView(const TrueSurface& surface, const Camera& camera, const WorldModel& model);
+
+    // Where a place is on the picture; nothing behind the eye.
+    [[nodiscard]] std::optional<glm::dvec2> place_px(const Geodetic& point) const;
+    // The two steps of place_px: in view coordinates (x right, y up, z backwards), where light shows it; and
+    // from there to the picture, for z < 0.
+    [[nodiscard]] glm::dvec3 view_m(const Geodetic& point) const;
+    [[nodiscard]] glm::dvec2 projected_px(const glm::dvec3& view_m) const;
+    // Whether a place is seen, or something up to `above_m` over it.
+    [[nodiscard]] bool sees(const Geodetic& point, double above_m) const;
+    // Those that are in the picture and seen, the highest rank first; the same for the same points. Rank:
+    // prominence, and H below all that have one.
+    [[nodiscard]] std::vector<SeenPoint> seen(const std::vector<NamedPoint>& points,
+                                              PointCounts& counts) const;
+
+  private:
+    [[nodiscard]] std::optional<SeenPoint> placed(const NamedPoint& point, PointCounts& counts) const;
+    void put_at(const Geodetic& place, SeenPoint& point) const;
+    [[nodiscard]] bool in_picture(const SeenPoint& point) const;
+    // Whether a point is seen, moved to its summit where it must be.
+    [[nodiscard]] bool sees_or_moves(SeenPoint& point) const;
+    [[nodiscard]] std::optional<Geodetic> summit_near(const Geodetic& place) const;
+
+    const TrueSurface& surface_;
+    Camera camera_;
+    WorldModel model_;
+    glm::dmat3 view_from_ecef_;
+    Oracle oracle_;
+};
+
+}  // namespace oro

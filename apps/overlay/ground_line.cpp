@@ -1,0 +1,79 @@
+#include "apps/overlay/ground_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace oro {
+namespace {
+
+// A place among a grid's posts.
+struct GridPlace {
+    double row;
+    double column;
+};
+
+// The part of a way that is over a grid, as shares of it; first > last where there is none.
+std::pair<double, double> part_over(const PostGrid& grid, const GridPlace& from, const GridPlace& to) {
+    double first = 0.0, last = 1.0;
+    const auto clip = [&](double begin, double end, double most) {
+        const double step = end - begin;
+        if (step == 0.0) {
+            if (begin < 0.0 || begin > most) first = 2.0;
+            return;
+        }
+        const double one = -begin / step, other = (most - begin) / step;
+        first = std::max(first, std::min(one, other));
+        last = std::min(last, std::max(one, other));
+    };
+    clip(from.row, to.row, grid.rows() - 1);
+    clip(from.column, to.column, grid.columns() - 1);
+    return {first, last};
+}
+
+// Adds the shares at which something that goes from `begin` to `end` is a whole number.
+void add_crossings(double begin, double end, double first, double last, std::vector<double>& shares) {
+    const double step = end - begin;
+    if (step == 0.0) return;
+    const double low = begin + first * step, high = begin + last * step;
+    for (double whole = std::ceil(std::min(low, high)); whole <= std::max(low, high); whole += 1.0)
+        shares.push_back((whole - begin) / step);
+}
+
+}  // namespace
+
+void follow_ground(const TrueSurface& surface, const VectorPlace& from, const VectorPlace& to,
+                   const GroundSink& sink) {
+    const PostGrid& grid = surface.field().grid;
+    const double turn_deg = std::remainder(to.lon_deg - from.lon_deg, 360.0);
+    const GridPlace a{grid.lat.index_at(from.lat_deg), grid.column_at(from.lon_deg)},
+        b{grid.lat.index_at(to.lat_deg), a.column + turn_deg * grid.lon.posts_per_deg};
+    const auto [first, last] = part_over(grid, a, b);
+    if (first > last) {
+        sink(std::nullopt);
+        return;
+    }
+    if (first > 0.0) sink(std::nullopt);
+    std::vector<double> shares{first, last};
+    add_crossings(a.row, b.row, first, last, shares);
+    add_crossings(a.column, b.column, first, last, shares);
+    // Diagonals go from north-west to south-east.
+    add_crossings(a.row - a.column, b.row - b.column, first, last, shares);
+    std::ranges::sort(shares);
+    double before = -1.0;
+    for (const double share : shares) {
+        if (share < first || share > last || share == before) continue;
+        before = share;
+        const double row = std::clamp(std::lerp(a.row, b.row, share), 0.0, grid.rows() - 1.0),
+                     column = std::clamp(std::lerp(a.column, b.column, share), 0.0, grid.columns() - 1.0);
+        if (const auto h_m = surface.h_at_m(row, column))
+            sink(Geodetic{std::lerp(from.lat_deg, to.lat_deg, share),
+                          normalised_lon_deg(from.lon_deg + share * turn_deg), *h_m});
+        else
+            sink(std::nullopt);
+    }
+    if (last < 1.0) sink(std::nullopt);
+}
+
+}  // namespace oro

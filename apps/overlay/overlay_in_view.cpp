@@ -1,0 +1,76 @@
+#include "apps/overlay/overlay_in_view.h"
+
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+
+#include "apps/names/named_points.h"
+#include "apps/overlay/line_masks.h"
+#include "apps/vectors/colour_text.h"
+#include "apps/view/view_limits.h"
+#include "core/base/elapsed.h"
+
+namespace oro {
+namespace {
+
+struct Stroke {
+    InkedText::Colour colour;
+    double width_px;
+};
+
+InkedText::Colour codes_of(const ColourCodes& colour) {
+    return {static_cast<std::uint8_t>(colour.red), static_cast<std::uint8_t>(colour.green),
+            static_cast<std::uint8_t>(colour.blue)};
+}
+
+Stroke stroke_of(const VectorLayer& layer, const VectorShape& shape, const VectorChoices& choices) {
+    Stroke stroke{codes_of(choices.overlay_colour), choices.overlay_width_px};
+    if (const auto colour = colour_from(std::string(layer.text(shape, "stroke"))))
+        stroke.colour = codes_of(*colour);
+    const auto width_px = metres_from(layer.text(shape, "stroke-width"));  // a number
+    if (width_px && view_limits::overlay_width_px.hold(*width_px)) stroke.width_px = *width_px;
+    return stroke;
+}
+
+double length_px(const std::vector<glm::dvec2>& places_px) {
+    double all_px = 0.0;
+    for (std::size_t i = 0; i + 1 < places_px.size(); ++i)
+        all_px += glm::length(places_px[i + 1] - places_px[i]);
+    return all_px;
+}
+
+}  // namespace
+
+OverlayInView overlay_in_view(const View& view, const TrueSurface& surface, const PointsInView& in_view) {
+    const auto start = Clock::now();
+    OverlayInView overlay;
+    std::vector<const VectorShape*> shapes;
+    std::vector<Stroke> strokes;
+    for (const VectorFile& file : view.vectors_read->overlay) {
+        for (const VectorLayer& layer : file.layers) {
+            for (const VectorShape& shape : layer.shapes) {
+                if (shape.kind == VectorKind::point) continue;
+                overlay.lines += shape.paths.size();
+                shapes.push_back(&shape);
+                strokes.push_back(stroke_of(layer, shape, view.vectors));
+            }
+        }
+    }
+    const Camera& camera = view.camera;
+    const double margin_px = view_limits::overlay_width_px.high;
+    std::vector<InkedText::Colour> order;
+    std::map<InkedText::Colour, LineMask> masks;
+    for (const SeenLine& line : seen_lines(shapes, surface, in_view, camera, margin_px)) {
+        const Stroke& stroke = strokes[line.shape];
+        const auto [mask, is_new] =
+            masks.try_emplace(stroke.colour, LineMask(camera.width_px, camera.height_px));
+        if (is_new) order.push_back(stroke.colour);
+        mask->second.add(line.places_px, stroke.width_px);
+        overlay.seen_px += length_px(line.places_px);
+    }
+    for (const InkedText::Colour& colour : order) masks.at(colour).give(colour, overlay.inked);
+    overlay.seconds = seconds_since(start);
+    return overlay;
+}
+
+}  // namespace oro

@@ -1,0 +1,140 @@
+#include "apps/vectors/view_vectors.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "apps/command_line/refusals.h"
+#include "apps/names/named_points.h"
+#include "apps/report/json_fields.h"
+#include "apps/report/json_object.h"
+#include "apps/report/progress_bar.h"
+#include "apps/styles/style_fields.h"
+#include "apps/vectors/colour_text.h"
+#include "apps/view/path_json.h"
+#include "apps/view/view_limits.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr Limits width_px = view_limits::overlay_width_px;
+
+ordered_json files_json(const std::vector<std::string>& files) {
+    ordered_json json = ordered_json::array();
+    for (const std::string& file : files) json.push_back(path_json(file));
+    return json;
+}
+
+std::vector<std::string> files_from(const nlohmann::json& json, const char* of) {
+    const nlohmann::json& files = json_field(json, "files");
+    if (!files.is_array() || files.empty() || files.size() > most_vector_files)
+        throw JsonFault{"'files' of '" + std::string(of) + "' must be a list of 1 to " +
+                        std::to_string(most_vector_files)};
+    std::vector<std::string> all;
+    for (const nlohmann::json& file : files)
+        all.push_back(path_from(json_object<nlohmann::json>("files", file), "files"));
+    return all;
+}
+
+Result<std::vector<VectorFile>> read_all(const std::vector<std::string>& files,
+                                         std::vector<Fingerprints::OfSource>& prints) {
+    std::vector<VectorFile> all;
+    for (const std::string& name : files) {
+        ORO_TRY(VectorFile file, read_vectors(name));
+        prints.push_back({std::filesystem::path(name).filename().string(), file.print});
+        all.push_back(std::move(file));
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<std::string*> VectorChoices::paths() {
+    std::vector<std::string*> all;
+    for (auto* const files : {&names, &overlay}) {
+        for (std::string& file : *files) all.push_back(&file);
+    }
+    return all;
+}
+
+Result<void> choose_vectors(const ViewOptions& options, VectorChoices& choices) {
+    for (const auto& [option, files] :
+         {std::pair{"--names", &options.names}, {"--overlay", &options.overlay}}) {
+        if (files->size() > most_vector_files)
+            return refused(option, "", "at most " + std::to_string(most_vector_files) + " files");
+    }
+    if (!options.names.empty()) choices.names = options.names;
+    if (!options.overlay.empty()) choices.overlay = options.overlay;
+    if (options.names_field) {
+        if (!choices.any()) return refused("--names-field", "", "says nothing without --names FILE");
+        choices.names_field = *options.names_field;
+    }
+    for (const auto& [option, is_given] : {std::pair{"--overlay-colour", options.overlay_colour.has_value()},
+                                           {"--overlay-width", options.overlay_width_px.has_value()}}) {
+        if (is_given && choices.overlay.empty())
+            return refused(option, "", "says nothing without --overlay FILE");
+    }
+    if (options.overlay_colour) {
+        const auto colour = colour_from(*options.overlay_colour);
+        if (!colour)
+            return refused("--overlay-colour", *options.overlay_colour, "must be a colour such as #e2252b");
+        choices.overlay_colour = *colour;
+    }
+    if (options.overlay_width_px) {
+        if (!width_px.hold(*options.overlay_width_px)) {
+            char text[40];
+            std::snprintf(text, sizeof text, "%.15g", *options.overlay_width_px);
+            return refused("--overlay-width", text, between_words(width_px.low, width_px.high));
+        }
+        choices.overlay_width_px = *options.overlay_width_px;
+    }
+    return {};
+}
+
+void put_vectors(const VectorChoices& choices, ordered_json& json) {
+    if (!choices.names.empty()) json["names"] = json_object("files", files_json(choices.names));
+    if (!choices.overlay.empty())
+        json["overlay"] =
+            json_object("files", files_json(choices.overlay), "colour", colour_text(choices.overlay_colour),
+                        "width_px", choices.overlay_width_px);
+    if (choices.any()) json["names_field"] = path_json(choices.names_field);
+}
+
+VectorChoices vectors_from(const nlohmann::json& json) {
+    VectorChoices choices;
+    if (json.contains("names")) choices.names = files_from(json_field(json, "names"), "names");
+    if (json.contains("overlay")) {
+        const nlohmann::json& overlay = json_field(json, "overlay");
+        choices.overlay = files_from(overlay, "overlay");
+        choices.overlay_colour = colour_of(overlay, "colour");
+        choices.overlay_width_px = json_number(overlay, "width_px", width_px.low, width_px.high);
+    }
+    if (choices.any() && json.contains("names_field")) choices.names_field = path_from(json, "names_field");
+    return choices;
+}
+
+Result<std::shared_ptr<const VectorsRead>> open_vectors(const VectorChoices& choices,
+                                                        std::vector<Fingerprints::OfSource>& prints) {
+    if (!choices.any()) return std::shared_ptr<const VectorsRead>();
+    auto vectors = std::make_shared<VectorsRead>();
+    ORO_TRY(vectors->names, read_all(choices.names, prints));
+    ORO_TRY(vectors->overlay, read_all(choices.overlay, prints));
+    return std::shared_ptr<const VectorsRead>(std::move(vectors));
+}
+
+void say_vectors(const VectorsRead& vectors, const VectorChoices& choices, bool quiet) {
+    for (const auto* const files : {&vectors.names, &vectors.overlay}) {
+        for (const VectorFile& file : *files) {
+            for (const std::string& note : file.notes) say(quiet, "note: " + note);
+        }
+    }
+    for (const VectorFile& file : vectors.names) {
+        if (named_points(file, choices.names_field).empty())
+            say(quiet, "note: " + file.file + ": has no point with something in the field '" +
+                           choices.names_field + "': nothing of it is named");
+    }
+}
+
+}  // namespace oro
