@@ -162,6 +162,30 @@ void add_sun(CLI::App& app, SunOptions& options) {
     set_help(command, {{"sun --at PLACE [PATH...] [OPTIONS]"}, "", "docs/commands/sun.md"});
 }
 
+void add_sight(CLI::App& app, SightOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("sight", "Tell whether one place is seen from another, and by how many metres");
+    OptionGroup line(command, "The line");
+    line.option("--from", options.from, "PLACE",
+                "Where the eye is: latitude,longitude as in 46.57,7.99, or in another way that shot takes.");
+    line.option("--to", options.to, "PLACE", "What is looked at, as --from.");
+    CLI::Option& above = line.number("--above", options.above_m, "METRES",
+                                     "Height of the eye over the ground at --from (default 2). Not with "
+                                     "--altitude.");
+    line.number("--altitude", options.altitude_m, "METRES",
+                "Height of the eye above sea level instead. Not with --above.")
+        .excludes(&above);
+    line.number("--target", options.target_m, "METRES",
+                "Height of what is looked at over the ground at --to (default 0: the ground itself).");
+    add_region_options(command, options.region);
+    add_air_options(command, options.air);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"sight PATH... --from PLACE --to PLACE [OPTIONS]"},
+                       "The Earth's curvature always counts. Hidden is an answer, too: the exit code is 0.",
+                       "docs/commands/sight.md"});
+}
+
 void add_bake(CLI::App& app, BakingOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "bake", "Write elevation data into one file (.oro) that opens at once, however large it is");
@@ -206,6 +230,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_plan(app, line.plan);
     add_trade(app, line.trade);
     add_sun(app, line.sun);
+    add_sight(app, line.sight);
     add_bake(app, line.bake);
     add_info(app, line.info);
     add_doctor(app, line.doctor);

@@ -13,6 +13,7 @@ struct CommandLine {
     PlanOptions plan;
     TradeOptions trade;
     SunOptions sun;
+    SightOptions sight;
     BakingOptions bake;
     InfoOptions info;
     DoctorOptions doctor;

@@ -123,6 +123,24 @@ struct SunOptions {
     bool quiet{false};
 };
 
+// How light goes.
+struct AirOptions {
+    std::optional<double> refraction_k;
+    std::optional<std::string> air;
+};
+
+struct SightOptions {
+    RegionOptions region;
+    AirOptions air;
+    std::string from;
+    std::string to;
+    std::optional<double> above_m;
+    std::optional<double> altitude_m;
+    std::optional<double> target_m;
+    bool json{false};
+    bool quiet{false};
+};
+
 struct WindowOptions {
     RegionOptions region;
     ViewOptions view;
@@ -156,6 +174,8 @@ void add_region_options(CLI::App& command, RegionOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
 // A place to stand at and the air around it, without a direction to look in.
 void add_place_options(CLI::App& command, ViewOptions& options);
+// Air alone, for commands without a view.
+void add_air_options(CLI::App& command, AirOptions& options);
 // How high ground may be where there are no data, above sea level. It decides nothing that is drawn, and so
 // is no part of a view.
 void add_unseen_ceiling(CLI::App& command, const std::string& heading, std::optional<double>& ceiling_m);
