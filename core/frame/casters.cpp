@@ -232,7 +232,7 @@ void CasterChoice::list(FramePlan& plan) const {
     for (const auto& [index, address] : wanted_) {
         if (address != 0)
             add(index, {static_cast<gpu::uint>(address), static_cast<gpu::uint>(address >> 32U)});
-        else if (std::ranges::none_of(plan.missing, [&](const PageIndex& there) {
+        else if (std::ranges::none_of(plan.missing, [&, &index = index](const PageIndex& there) {
                      return there.level == index.level && there.row == index.row &&
                             there.column == index.column;
                  }))

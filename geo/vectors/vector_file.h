@@ -1,0 +1,80 @@
+// Points, lines and polygons of GPX, KML, GeoJSON and GeoPackage files, as latitudes and longitudes of WGS84.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace oro {
+
+// What the heights of a shape count from. GPX, KML's absolute ones and compound CRSs say sea level (whichever
+// geoid they mean), GeoJSON (RFC 7946) and CRSs of three axes the ellipsoid. Those of a GeoPackage whose CRS
+// says nothing are taken to count from sea level. KML's clampToGround, its default, has none.
+enum class HeightAbove { nothing, sea_level, ellipsoid, ground };
+
+struct VectorPlace {
+    double lat_deg{};  // -90 .. 90
+    double lon_deg{};  // (-180, 180]; a line goes the shorter way round from each place to the next
+    double height_m{std::numeric_limits<double>::quiet_NaN()};  // no number: none
+};
+
+enum class VectorKind { point, line, polygon };
+
+// A point has one path of one place; a line one path of two or more places; a polygon its outer ring and
+// then its holes, each of three or more places, the first not told again at the end.
+struct VectorShape {
+    VectorKind kind{};
+    HeightAbove heights{HeightAbove::nothing};
+    std::vector<std::vector<VectorPlace>> paths;
+    std::size_t record{};  // of its layer: shapes that are split from one feature share theirs
+};
+
+// A field of a feature that holds something.
+struct VectorField {
+    std::size_t name{};  // number of VectorLayer::fields
+    std::string text;    // UTF-8
+};
+using VectorRecord = std::vector<VectorField>;
+
+struct VectorLayer {
+    std::string name;
+    std::vector<std::string> fields;  // names
+    std::vector<VectorRecord> records;
+    std::vector<VectorShape> shapes;
+
+    // What a field says of a shape, or "". Where no field has the name in these letters one that has it in
+    // others of upper or lower case will do.
+    [[nodiscard]] std::string_view text(const VectorShape& shape, std::string_view field) const;
+    // The number of such a field; or -1.
+    [[nodiscard]] int field_number(std::string_view field) const;
+};
+
+struct VectorFile {
+    std::string file;
+    std::vector<VectorLayer> layers;  // those that have shapes
+    std::uint64_t print{};            // fingerprint of the file's bytes
+    std::vector<std::string> notes;   // what a user must know, one line each: what was left out, and why
+
+    [[nodiscard]] std::size_t count(VectorKind kind) const;
+};
+
+// A file of text may be so long, ...
+inline constexpr std::uint64_t longest_vector_text = std::uint64_t{1} << 30U;
+// ... and all shapes of a file have so many places.
+inline constexpr std::size_t most_vector_places = 50'000'000;
+
+// Reads all of a file: GPX (waypoints, routes, tracks), KML, GeoJSON, GeoPackage. Collections are split,
+// curves become lines (an arc one for each degree). Places are turned into WGS84's by PROJ's best operation
+// for the layer's CRS (one that GeoJSON names as it did before RFC 7946, too). Shapes that have no place on
+// the Earth are left out, a line is broken where one of its places is none, and notes tell of it. Opens
+// regular files of this machine, and no other; takes limit_s at most, and a second more for each MiB. Errors:
+// a file that is not there, empty, packed, damaged or of another format; one that has nothing with a place; a
+// CRS that PROJ does not know.
+Result<VectorFile> read_vectors(const std::string& file, double limit_s = 30.0);
+
+}  // namespace oro

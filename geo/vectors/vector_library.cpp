@@ -1,0 +1,56 @@
+#include "geo/vectors/vector_library.h"
+
+#include <ogrsf_frmts.h>
+#include <sqlite3.h>
+
+#include <array>
+
+#include "geo/files/guarded_files.h"
+#include "geo/sources/raster_library.h"
+
+namespace oro {
+namespace {
+
+constexpr int steps_between_looks = 100'000;  // of SQLite's machine: some milliseconds
+
+int stop_when_spent(void*) {
+    FileWatch* const watch = FileWatch::innermost();
+    return watch != nullptr && watch->spent() ? 1 : 0;
+}
+
+// SQLite calls it for each database that is opened from now on.
+int watch_database(sqlite3* database, char**, const void*) {
+    sqlite3_progress_handler(database, steps_between_looks, &stop_when_spent, nullptr);
+    return SQLITE_OK;
+}
+
+}  // namespace
+
+void start_vectors() {
+    static const bool is_started = [] {
+        start_gdal();
+        RegisterOGRGPX();
+        RegisterOGRLIBKML();
+        RegisterOGRGeoJSON();
+        RegisterOGRGeoPackage();
+        return true;
+    }();
+    (void)is_started;
+    sqlite3_auto_extension(reinterpret_cast<void (*)()>(&watch_database));  // once, however often
+}
+
+const char* const* text_vector_drivers() {
+    static constexpr std::array<const char*, 4> names{"GPX", "LIBKML", "GeoJSON", nullptr};
+    return names.data();
+}
+
+const char* const* database_vector_drivers() {
+    static constexpr std::array<const char*, 2> names{"GPKG", nullptr};
+    return names.data();
+}
+
+std::string trusted_vector_formats() {
+    return "GPX, KML, GeoJSON, GeoPackage";
+}
+
+}  // namespace oro
