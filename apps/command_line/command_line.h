@@ -14,6 +14,8 @@ struct CommandLine {
     TradeOptions trade;
     SunOptions sun;
     SightOptions sight;
+    ProfileOptions profile;
+    ViewshedOptions viewshed;
     BakingOptions bake;
     InfoOptions info;
     DoctorOptions doctor;

@@ -141,6 +141,31 @@ struct SightOptions {
     bool quiet{false};
 };
 
+struct ProfileOptions {
+    RegionOptions region;
+    std::string along;
+    std::optional<int> line;  // of a file with several, from 1
+    std::optional<double> step_m;
+    std::string out;
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct ViewshedOptions {
+    RegionOptions region;
+    AirOptions air;
+    std::vector<std::string> at;
+    std::optional<double> above_m;
+    std::optional<double> altitude_m;
+    std::optional<double> target_m;
+    std::optional<double> radius_km;
+    std::string out;
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
 struct WindowOptions {
     RegionOptions region;
     ViewOptions view;

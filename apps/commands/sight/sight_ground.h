@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/commands/options.h"
 #include "apps/eye/standpoint.h"
@@ -24,6 +25,10 @@ struct SightGround {
 };
 Result<std::unique_ptr<const SightGround>> open_sight_ground(const RegionOptions& options,
                                                              const Progress& progress);
+
+// Errors (usage): a file to be written is one of those that the ground is made of.
+Result<void> spare_ground(const std::vector<std::string>& written, const RegionOptions& options,
+                          const Region& region);
 
 // Notes about a region on standard error, unless quiet.
 void say_notes(const Region& region, bool quiet);
