@@ -82,6 +82,9 @@ int run_command(const CLI::App& app, oro::CommandLine& line, const std::vector<s
         return exit_code(oro::run_trade(line.trade));
     }
     if (app.got_subcommand("sun")) return exit_code(oro::run_sun(line.sun));
+    if (app.got_subcommand("sight")) return exit_code(oro::run_sight(line.sight));
+    if (app.got_subcommand("profile")) return exit_code(oro::run_profile(line.profile));
+    if (app.got_subcommand("viewshed")) return exit_code(oro::run_viewshed(line.viewshed));
     if (app.got_subcommand("bake")) return exit_code(oro::run_bake(line.bake));
     if (app.got_subcommand("info")) return exit_code(oro::run_info(line.info));
     return exit_code(oro::run_doctor(line.doctor));

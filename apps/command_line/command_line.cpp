@@ -164,6 +164,79 @@ void add_sun(CLI::App& app, SunOptions& options) {
     set_help(command, {{"sun --at PLACE [PATH...] [OPTIONS]"}, "", "docs/commands/sun.md"});
 }
 
+void add_sight(CLI::App& app, SightOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("sight", "Tell whether one place is seen from another, and by how many metres");
+    OptionGroup line(command, "The line");
+    line.option("--from", options.from, "PLACE",
+                "Where the eye is: latitude,longitude as in 46.57,7.99, or in another way that shot takes.");
+    line.option("--to", options.to, "PLACE", "What is looked at, as --from.");
+    CLI::Option& above = line.number("--above", options.above_m, "METRES",
+                                     "Height of the eye over the ground at --from (default 2). Not with "
+                                     "--altitude.");
+    line.number("--altitude", options.altitude_m, "METRES",
+                "Height of the eye above sea level instead. Not with --above.")
+        .excludes(&above);
+    line.number("--target", options.target_m, "METRES",
+                "Height of what is looked at over the ground at --to (default 0: the ground itself).");
+    add_region_options(command, options.region);
+    add_air_options(command, options.air);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"sight PATH... --from PLACE --to PLACE [OPTIONS]"},
+                       "The Earth's curvature always counts. Hidden is an answer, too: the exit code is 0.",
+                       "docs/commands/sight.md"});
+}
+
+void add_profile(CLI::App& app, ProfileOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("profile", "Tell how high the ground is along a line, as text, table or drawing");
+    OptionGroup line(command, "The line");
+    line.option("--along", options.along, "LINE",
+                "A file with a line (GPX, KML, GeoJSON, GeoPackage); or two places or more with ; between "
+                "them, as in \"46.57,7.99; 46.62,8.05\". From place to place it is the shortest way.");
+    line.whole_number("--line", options.line, 1, 1000000000, "N",
+                      "Which line of a file that has several, from 1. Default: the only one.");
+    line.number("--step", options.step_m, "METRES",
+                "Ask for heights so far apart. Default: wherever the line passes from one triangle of the "
+                "ground to the next: between those the ground is straight.");
+    line.option("--out", options.out, "FILE",
+                "The file to write: .csv, .svg or .geojson. Without it the sums alone are told.");
+    line.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command,
+             {{"profile PATH... --along LINE [--out FILE] [OPTIONS]"}, "", "docs/commands/profile.md"});
+}
+
+void add_viewshed(CLI::App& app, ViewshedOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("viewshed", "Write which places are seen from one or several others (GeoTIFF)");
+    OptionGroup shed(command, "The viewshed");
+    shed.option("--at", options.at, "PLACE",
+                "Where the observer is: latitude,longitude as in 46.57,7.99, or in another way that shot "
+                "takes. Give it again for each further observer.")
+        .allow_extra_args(false);  // what follows the place is elevation data
+    CLI::Option& above = shed.number("--above", options.above_m, "METRES",
+                                     "Height of observers over the ground (default 2). Not with --altitude.");
+    shed.number("--altitude", options.altitude_m, "METRES",
+                "Height of observers above sea level instead. Not with --above.")
+        .excludes(&above);
+    shed.number("--target", options.target_m, "METRES",
+                "Height of what is looked at over the ground of each post (default 0: the ground itself).");
+    shed.number("--radius", options.radius_km, "KM", "How far to look, 0.01 to 1000 (default 20).");
+    shed.option("--out", options.out, "FILE", "The GeoTIFF to write (.tif).");
+    shed.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    add_air_options(command, options.air);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"viewshed PATH... --at PLACE --out FILE.tif [OPTIONS]"},
+                       "The Earth's curvature always counts.",
+                       "docs/commands/viewshed.md"});
+}
+
 void add_bake(CLI::App& app, BakingOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "bake", "Write elevation data into one file (.oro) that opens at once, however large it is");
@@ -208,6 +281,9 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_plan(app, line.plan);
     add_trade(app, line.trade);
     add_sun(app, line.sun);
+    add_sight(app, line.sight);
+    add_profile(app, line.profile);
+    add_viewshed(app, line.viewshed);
     add_bake(app, line.bake);
     add_info(app, line.info);
     add_doctor(app, line.doctor);

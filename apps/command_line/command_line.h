@@ -13,6 +13,9 @@ struct CommandLine {
     PlanOptions plan;
     TradeOptions trade;
     SunOptions sun;
+    SightOptions sight;
+    ProfileOptions profile;
+    ViewshedOptions viewshed;
     BakingOptions bake;
     InfoOptions info;
     DoctorOptions doctor;

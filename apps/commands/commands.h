@@ -16,6 +16,12 @@ Result<void> run_plan(const PlanOptions& options);
 Result<void> run_trade(const TradeOptions& options);
 // Tells when the sun first and last shows at a place.
 Result<void> run_sun(const SunOptions& options);
+// Tells whether one place is seen from another, and by how much.
+Result<void> run_sight(const SightOptions& options);
+// Tells how high the ground is along a line, and draws it.
+Result<void> run_profile(const ProfileOptions& options);
+// Writes which places are seen from others, as a GeoTIFF.
+Result<void> run_viewshed(const ViewshedOptions& options);
 // Opens a window to fly over a region.
 Result<void> run_view(const WindowOptions& options);
 // Writes a region with all its levels into a file, or goes on with one that was broken off.

@@ -138,7 +138,8 @@ std::string bundle_words() {
 }
 
 // How light goes. `values` says what K means there.
-void add_air_options(OptionGroup& detail, ViewOptions& options, const std::string& values) {
+template <class Options>
+void add_air_options(OptionGroup& detail, Options& options, const std::string& values) {
     CLI::Option& refraction =
         detail.number("--refraction", options.refraction_k, "K",
                       "How much the air bends light (a surveyor's coefficient of refraction), the same at "
@@ -222,6 +223,11 @@ void add_place_options(CLI::App& command, ViewOptions& options) {
     eye.number("--altitude", options.altitude_m, "METRES",
                "Height of the eye above sea level instead. Needs elevation data. Not with --above.")
         .excludes(&above);
+    OptionGroup detail(command, "Detail and models");
+    add_air_options(detail, options, "0 is not at all, 0.13 is usual by day (default: --air standard)");
+}
+
+void add_air_options(CLI::App& command, AirOptions& options) {
     OptionGroup detail(command, "Detail and models");
     add_air_options(detail, options, "0 is not at all, 0.13 is usual by day (default: --air standard)");
 }

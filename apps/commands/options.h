@@ -128,6 +128,49 @@ struct SunOptions {
     bool quiet{false};
 };
 
+// How light goes.
+struct AirOptions {
+    std::optional<double> refraction_k;
+    std::optional<std::string> air;
+};
+
+struct SightOptions {
+    RegionOptions region;
+    AirOptions air;
+    std::string from;
+    std::string to;
+    std::optional<double> above_m;
+    std::optional<double> altitude_m;
+    std::optional<double> target_m;
+    bool json{false};
+    bool quiet{false};
+};
+
+struct ProfileOptions {
+    RegionOptions region;
+    std::string along;
+    std::optional<int> line;  // of a file with several, from 1
+    std::optional<double> step_m;
+    std::string out;
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct ViewshedOptions {
+    RegionOptions region;
+    AirOptions air;
+    std::vector<std::string> at;
+    std::optional<double> above_m;
+    std::optional<double> altitude_m;
+    std::optional<double> target_m;
+    std::optional<double> radius_km;
+    std::string out;
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
 struct WindowOptions {
     RegionOptions region;
     ViewOptions view;
@@ -161,6 +204,8 @@ void add_region_options(CLI::App& command, RegionOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
 // A place to stand at and the air around it, without a direction to look in.
 void add_place_options(CLI::App& command, ViewOptions& options);
+// Air alone, for commands without a view.
+void add_air_options(CLI::App& command, AirOptions& options);
 // How high ground may be where there are no data, above sea level. It decides nothing that is drawn, and so
 // is no part of a view.
 void add_unseen_ceiling(CLI::App& command, const std::string& heading, std::optional<double>& ceiling_m);

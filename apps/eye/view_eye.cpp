@@ -4,69 +4,22 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/eye/overview.h"
+#include "apps/eye/standpoint.h"
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
 #include "core/terrain/ground.h"
-#include "geo/places/place.h"
 
 namespace oro {
 namespace {
 
-std::string place_name(double lat_deg, double lon_deg) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.6f,%.6f", lat_deg, lon_deg);
-    return text;
-}
-
-bool holds(const PostGrid& grid, double lat_deg, double lon_deg) {
-    const double row = grid.lat.index_at(lat_deg), column = grid.column_at(lon_deg);
-    return row >= 0.0 && row <= grid.rows() - 1 && column >= 0.0 && column <= grid.columns() - 1;
-}
-
-// The data's extent, for who asked for a place without any; and whether the place lies inside when its
-// latitude and longitude change places.
-std::string where_data_are(const PostGrid& grid, double lat_deg, double lon_deg) {
-    if (holds(grid, lat_deg, lon_deg)) return " (a hole in the data)";
-    char text[200];
-    std::snprintf(text, sizeof text, " (the data's box is %.6g,%.6g,%.6g,%.6g: west,south,east,north)",
-                  grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg());
-    if (std::abs(lon_deg) > 90.0 || !holds(grid, lon_deg, lat_deg)) return text;
-    return text + (". " + place_name(lon_deg, lat_deg)) + " lies inside: latitude comes first";
-}
-
-Result<Place> place_of(const char* option, const std::string& text) {
-    Result<Place> place = parse_place(text);
-    if (!place.ok()) return refused(option, text, place.error().what);
-    return place;
-}
-
 Result<void> stand_at(View& view, const ViewOptions& options, const Region& region) {
-    ORO_TRY(const Place place, place_of("--at", *options.at));
-    Geodetic& eye = view.camera.eye;
-    eye = {place.lat_deg, place.lon_deg, 0.0};
-    if (place.height_m) {
-        if (options.altitude_m || options.above_m)
-            return refused("--at", *options.at,
-                           "gives a height of its own: leave --above and --altitude out");
-        eye.h_m = *place.height_m;  // of WGS84, as geo: places are: above the ellipsoid
-        return {};
-    }
-    if (options.altitude_m) {
-        eye.h_m = *options.altitude_m + region.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
-        return {};
-    }
-    const std::optional<double> ground =
-        ground_h_m(region.field, eye.lat_deg, eye.lon_deg, view.exaggeration);
-    if (!ground)
-        return Error{ErrorKind::no_data, "--at " + place_name(eye.lat_deg, eye.lon_deg),
-                     "no elevation data there to stand on; give --altitude METRES or another place" +
-                         where_data_are(region.field.grid, eye.lat_deg, eye.lon_deg)};
-    eye.h_m = *ground + options.above_m.value_or(2.0);
+    const Standing standing{"--at", *options.at, "--above", options.above_m, 2.0, options.altitude_m};
+    ORO_TRY(view.camera.eye, standpoint(standing, region.field, view.exaggeration));
     return {};
 }
 
 Result<void> turn_to(View& view, const std::string& text, const Region& region) {
-    ORO_TRY(const Place place, place_of("--look-at", text));
+    ORO_TRY(const Place place, place_at("--look-at", text));
     const std::optional<double> ground =
         ground_h_m(region.field, place.lat_deg, place.lon_deg, view.exaggeration);
     if (!ground && !place.height_m)

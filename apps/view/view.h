@@ -75,6 +75,10 @@ struct View {
 // What to read, from the options. Usage errors: no path, a malformed box or tile.
 Result<RegionRequest> region_request(const RegionOptions& options);
 
+// The air that options ask for, `usual` where they say nothing.
+Result<Air> air_asked_for(const std::optional<double>& refraction_k, const std::optional<std::string>& air,
+                          const Air& usual);
+
 // Everything of a view that needs no terrain, checked: sizes, ranges, times. The camera has no eye yet, and a
 // sun by time no direction: aim_sun() gives it one.
 Result<View> view_without_eye(const ViewOptions& options, RegionRequest region);

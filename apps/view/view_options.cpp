@@ -54,13 +54,7 @@ Result<void> apply_models(View& view, const ViewOptions& options) {
     if (options.earth) {
         ORO_TRY(view.model.earth, earth_named(*options.earth));
     }
-    if (options.air) {
-        ORO_TRY(view.model.air, air_named(*options.air));
-    }
-    if (options.refraction_k) {
-        ORO_TRY(const double k, within("--refraction", *options.refraction_k, view_limits::refraction_k));
-        view.model.air = {k, AirLaw::constant};
-    }
+    ORO_TRY(view.model.air, air_asked_for(options.refraction_k, options.air, view.model.air));
     if (options.precision) {
         ORO_TRY(view.model.precision, precision_named(*options.precision));
     }
@@ -157,6 +151,15 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
 }
 
 }  // namespace
+
+Result<Air> air_asked_for(const std::optional<double>& refraction_k, const std::optional<std::string>& air,
+                          const Air& usual) {
+    if (refraction_k) {
+        ORO_TRY(const double k, within("--refraction", *refraction_k, view_limits::refraction_k));
+        return Air{k, AirLaw::constant};
+    }
+    return air ? air_named(*air) : Result<Air>(usual);
+}
 
 std::int64_t time_now_s() {
     std::int64_t fixed = 0;

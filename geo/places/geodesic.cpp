@@ -12,4 +12,11 @@ GeodesicPath geodesic_between(double from_lat_deg, double from_lon_deg, double t
     return {distance_m, start_deg < 0.0 ? start_deg + 360.0 : start_deg};
 }
 
+LatLon geodesic_towards(double from_lat_deg, double from_lon_deg, double bearing_deg, double distance_m) {
+    LatLon there{};
+    GeographicLib::Geodesic::WGS84().Direct(from_lat_deg, from_lon_deg, bearing_deg, distance_m,
+                                            there.lat_deg, there.lon_deg);
+    return there;
+}
+
 }  // namespace oro

@@ -11,4 +11,11 @@ struct GeodesicPath {
 // 2013).
 GeodesicPath geodesic_between(double from_lat_deg, double from_lon_deg, double to_lat_deg, double to_lon_deg);
 
+struct LatLon {
+    double lat_deg;
+    double lon_deg;
+};
+// Where one comes to from a place by a direction over a distance; as exact.
+LatLon geodesic_towards(double from_lat_deg, double from_lon_deg, double bearing_deg, double distance_m);
+
 }  // namespace oro

@@ -1,5 +1,5 @@
-// Must hold: the oracle sees what another program sees. GDAL's viewshed of a projected copy of the ground,
-// cell by cell, against sight lines over the ground itself.
+// Must hold: the oracle, and the viewshed, see what another program sees. GDAL's viewshed of a projected copy
+// of the ground, cell by cell, against sight lines over the ground itself, and against the nearest post.
 #include <cpl_string.h>
 #include <gdal.h>
 #include <gdal_alg.h>
@@ -13,7 +13,9 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "core/base/elapsed.h"
 #include "core/base/parallel.h"
+#include "core/sight/viewshed.h"
 #include "core/truth/oracle.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
@@ -140,16 +142,16 @@ Verdicts ProjectedCopy::viewshed(const std::array<double, 2>& at_m, double reach
 
 // The same air as GDAL's: the Earth's curvature less that of light is C / a for it, whatever the eye's
 // height, while the oracle's k is that at sea level.
-Sight matched_sight(const Geodetic& eye) {
+Air matched_air(const Geodetic& eye) {
     const double radius_m = std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg));
     const double light_per_m = 1.0 / radius_m - curvature_coefficient / wgs84_a_m;
-    return sight_from(eye, {light_per_m / Refraction(eye, {1.0}).curvature_per_m()});
+    return {light_per_m / Refraction(eye, {1.0}).curvature_per_m()};
 }
 
 // Whether a sight line reaches a target over each cell that is within reach.
 Verdicts seen_by_oracle(const TrueSurface& surface, const Geodetic& eye, const Cells& cells,
                         const Verdicts& reached) {
-    const Sight sight = matched_sight(eye);
+    const Sight sight = sight_from(eye, matched_air(eye));
     const Oracle oracle(surface, sight);
     Verdicts verdicts(reached.size(), beyond_reach);
     in_parallel(cells.rows, thread_count(), [&](int row) {
@@ -164,6 +166,24 @@ Verdicts seen_by_oracle(const TrueSurface& surface, const Geodetic& eye, const C
             verdicts[i] = oracle.first_hit(apparent_m / distance_m, distance_m) ? hidden : visible;
         }
     });
+    return verdicts;
+}
+
+// What a viewshed says of the post nearest to each cell that is within reach.
+Verdicts seen_by_viewshed(const PostGrid& grid, const Viewshed& shed, const Cells& cells,
+                          const Verdicts& reached) {
+    Verdicts verdicts(reached.size(), beyond_reach);
+    const PostWindow& window = shed.window;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        if (reached[i] == beyond_reach) continue;
+        const auto row = static_cast<int>(std::lround(grid.lat.index_at(cells.lat_deg[i])));
+        const auto column = static_cast<int>(std::lround(grid.column_at(cells.lon_deg[i])));
+        if (row < window.first_row || row >= window.first_row + window.rows || column < window.first_column ||
+            column >= window.first_column + window.columns)
+            continue;
+        const float missed_m = shed.missed_by_m[window.number(row, column)];
+        if (missed_m != Viewshed::unknown) verdicts[i] = missed_m == 0.0F ? visible : hidden;
+    }
     return verdicts;
 }
 
@@ -241,7 +261,9 @@ void compare(const std::string& file, const std::string& path, double reach_m,
         const auto ground_m = surface.h_m(lat_deg[0], lon_deg[0]);
         ASSERT_TRUE(ground_m) << observer.name;
         Cells cells;
+        const auto gdal_begin = Clock::now();
         const Verdicts gdal = copy.viewshed(at_m, reach_m, cells);
+        const double gdal_s = seconds_since(gdal_begin);
         ASSERT_FALSE(gdal.empty()) << observer.name;
         const Agreement of = agreement(
             cells, gdal,
@@ -251,6 +273,22 @@ void compare(const std::string& file, const std::string& path, double reach_m,
         EXPECT_EQ(of.without_ground, 0) << observer.name << ": the circle leaves the data";
         EXPECT_GE(of.share(), least_agreement) << observer.name;
         EXPECT_GE(of.near_share(), least_near_edges) << observer.name;
+        const Geodetic eye{lat_deg[0], lon_deg[0], *ground_m + observer_above_m};
+        ViewshedRequest request{eye, matched_air(eye), target_above_m, reach_m + 2.0 * cell_m, 1};
+        const auto one_begin = Clock::now();
+        (void)viewshed(surface, request);
+        const double one_s = seconds_since(one_begin);
+        request.threads = 2;
+        const auto two_begin = Clock::now();
+        const Viewshed shed = viewshed(surface, request);
+        const double two_s = seconds_since(two_begin);
+        const Agreement posts =
+            agreement(cells, gdal, seen_by_viewshed(region->field.grid, shed, cells, gdal));
+        print("    its nearest posts", posts);
+        std::printf("    GDAL %.3f s, viewshed %.3f s on 1 core, %.3f s on 2\n", gdal_s, one_s, two_s);
+        EXPECT_GE(posts.share(), least_agreement) << observer.name;
+        EXPECT_GE(posts.near_share(), least_near_edges) << observer.name;
+        EXPECT_EQ(posts.without_ground, 0) << observer.name;
         // Where most is hidden, two that see nothing would agree, too.
         EXPECT_GT(of.seen_by_both, 0.9 * of.seen_by_either) << observer.name;
         EXPECT_GT(of.seen_by_either, of.cells / 50) << observer.name;

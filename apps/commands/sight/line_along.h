@@ -1,0 +1,29 @@
+// The line that a profile goes along.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "geo/places/geodesic.h"
+
+namespace oro {
+
+// Places, each joined to the next by the shortest way over the ellipsoid.
+struct LineAlong {
+    std::vector<LatLon> places;       // two or more, not all one
+    std::vector<double> distances_m;  // of each from the first, along the line
+    std::string file;                 // that it was read from; "" of places on the command line
+    std::vector<std::string> notes;   // what a user must know, one line each
+};
+
+// From the value of --along: a file, or places with ; between them. `number`: which line of a file, from 1.
+// Errors: text that is neither, places that are none, one place alone (usage); those of read_vectors(), a
+// file without a line, or with several and no number (usage).
+Result<LineAlong> line_along(const std::string& text, const std::optional<int>& number);
+
+// The place so far along the line.
+LatLon place_on_line(const LineAlong& line, double along_m);
+
+}  // namespace oro

@@ -1,0 +1,130 @@
+// orograph profile: how high the ground is along a line.
+#include <cmath>
+#include <cstdio>
+
+#include "apps/command_line/refusals.h"
+#include "apps/commands/commands.h"
+#include "apps/commands/sight/profile_files.h"
+#include "apps/commands/sight/sight_ground.h"
+#include "apps/output/overwrite_guard.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "apps/view/view.h"
+#include "core/base/file_there.h"
+#include "geo/files/letter_case.h"
+#include "geo/files/whole_file.h"
+
+namespace oro {
+namespace {
+
+// More are a table that nobody can open.
+constexpr double most_steps = 1.0e7;
+// 25 times round the Earth.
+constexpr double longest_m = 1.0e9;
+
+Result<void> check_words(const ProfileOptions& options) {
+    if (options.along.empty())
+        return refused(
+            "--along", "",
+            "is missing: name a file with a line, or places, e.g. --along \"46.57,7.99; 46.62,8.05\"");
+    if (options.step_m && !(*options.step_m > 0.0)) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.15g", *options.step_m);
+        return refused("--step", text, "must be more than 0");
+    }
+    if (options.out.empty()) return {};
+    const std::string name = lower_case(options.out);
+    if (!name.ends_with(".csv") && !name.ends_with(".svg") && !name.ends_with(".geojson"))
+        return refused("--out", options.out, "the file's name must end in .csv, .svg or .geojson");
+    ORO_TRY(const bool there, is_there(options.out));
+    if (there && !options.overwrite)
+        return Error{ErrorKind::failed, options.out, "is there already (--overwrite replaces it)"};
+    return {};
+}
+
+Result<void> check_length(const ProfileOptions& options, const LineAlong& line) {
+    const double length_m = line.distances_m.back();
+    if (length_m > longest_m)
+        return refused("--along", options.along, "is longer than 1,000,000 km, 25 times round the Earth");
+    if (options.step_m && length_m / *options.step_m > most_steps)
+        return refused("--step", std::to_string(*options.step_m),
+                       "makes more than 10,000,000 places of this line: give a longer one");
+    return {};
+}
+
+std::vector<ProfilePoint> points_of(const LineAlong& line, const std::optional<double>& step_m,
+                                    const TrueSurface& surface) {
+    std::vector<ProfilePoint> points;
+    const double length_m = line.distances_m.back();
+    if (step_m) {
+        const auto steps = static_cast<std::size_t>(std::ceil(length_m / *step_m - 1e-9));
+        for (std::size_t i = 0; i <= steps; ++i) {
+            const double along_m = i == steps ? length_m : static_cast<double>(i) * *step_m;
+            const LatLon place = place_on_line(line, along_m);
+            points.push_back(profile_point(surface, {place.lat_deg, place.lon_deg, 0.0}, along_m));
+        }
+        return points;
+    }
+    for (std::size_t leg = 0; leg + 1 < line.places.size(); ++leg) {
+        const LatLon &from = line.places[leg], &to = line.places[leg + 1];
+        const double bearing_deg =
+            geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg).bearing_deg;
+        const double from_m = line.distances_m[leg], to_m = line.distances_m[leg + 1];
+        const auto way = [&](double along_m) {
+            // Exactly the line's own places, where it has them.
+            if (along_m == from_m) return Geodetic{from.lat_deg, from.lon_deg, 0.0};
+            if (along_m == to_m) return Geodetic{to.lat_deg, to.lon_deg, 0.0};
+            const LatLon place = geodesic_towards(from.lat_deg, from.lon_deg, bearing_deg, along_m - from_m);
+            return Geodetic{place.lat_deg, place.lon_deg, 0.0};
+        };
+        if (to_m > from_m) add_profile(surface, way, from_m, to_m, points);
+    }
+    return points;
+}
+
+Result<void> write(const ProfileOptions& options, const Profile& profile) {
+    const std::string name = lower_case(options.out);
+    const std::string text = name.ends_with(".csv")   ? profile_csv(profile)
+                             : name.ends_with(".svg") ? profile_svg(profile)
+                                                      : profile_geojson(profile);
+    return write_whole_file(options.out, text, options.overwrite);
+}
+
+}  // namespace
+
+Result<void> run_profile(const ProfileOptions& options) {
+    ORO_CHECK(check_words(options));
+    Profile profile;
+    ORO_TRY(profile.line, line_along(options.along, options.line));
+    ORO_CHECK(check_length(options, profile.line));
+    ProgressBar bar(options.quiet);
+    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
+                bar.show(share, "reading " + what);
+            }));
+    if (!options.out.empty()) {
+        ORO_CHECK(spare_ground({options.out}, options.region, ground->region));
+        if (!profile.line.file.empty())
+            ORO_CHECK(spare_files({options.out}, {profile.line.file}, "which the line is read from"));
+    }
+    bar.show(1.0, "following the line");
+    profile.points = points_of(profile.line, options.step_m, *ground->surface);
+    ORO_CHECK(ground->region.field.health());
+    profile.sums = sums_of(profile.points);
+    bar.clear();
+    if (!profile.sums.highest) {
+        const LatLon& begin = profile.line.places.front();
+        return Error{ErrorKind::no_data, "--along " + options.along,
+                     "no elevation data along the line" +
+                         where_data_are(ground->region.field.grid, begin.lat_deg, begin.lon_deg)};
+    }
+    for (const std::string& note : profile.line.notes) say(options.quiet, "note: " + note);
+    say_notes(ground->region, options.quiet);
+    if (!options.out.empty()) ORO_CHECK(write(options, profile));
+    std::fputs(options.json ? (json_text(profile_json(profile), true) + "\n").c_str()
+                            : profile_text(profile).c_str(),
+               stdout);
+    if (!options.out.empty()) say(options.quiet, "wrote " + options.out);
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,82 @@
+// orograph sight: whether one place is seen from another, by how much, and what stands in the way.
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "apps/command_line/refusals.h"
+#include "apps/commands/commands.h"
+#include "apps/commands/sight/sight_text.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "apps/view/view.h"
+
+namespace oro {
+namespace {
+
+SightReport look(const Geodetic& from, const Geodetic& to, const Air& air, const SightGround& ground) {
+    SightReport report;
+    report.from = from;
+    report.to = to;
+    report.air = air;
+    report.path = geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg);
+    const Lookout lookout(*ground.surface, from, air);
+    const glm::dvec3 offset_m = ecef_from_geodetic(to).m - lookout.sight().eye.m;
+    report.slant_m = glm::length(offset_m);
+    const glm::dvec3 seen_m = lookout.sight().refraction.apparent_m(offset_m);
+    const glm::dvec3 enu_m = seen_m * ecef_from_enu(from.lat_deg, from.lon_deg);
+    report.elevation_deg = deg_from_radians(Radians{std::atan2(enu_m.z, std::hypot(enu_m.x, enu_m.y))});
+    report.line = lookout.line_to(to);
+    report.obstacle = lookout.obstacle(to);
+    if (!report.obstacle) return report;
+    const Geodetic& at = report.obstacle->point;
+    report.obstacle_distance_m =
+        geodesic_between(from.lat_deg, from.lon_deg, at.lat_deg, at.lon_deg).distance_m;
+    report.target_missed_by_m = lookout.missed_by_m(to);
+    report.eye_missed_by_m = eye_missed_by_m(*ground.surface, from, air, to);
+    return report;
+}
+
+}  // namespace
+
+Result<void> run_sight(const SightOptions& options) {
+    if (options.from.empty())
+        return refused("--from", "", "is missing: name the place, e.g. --from 46.67,8.06");
+    if (options.to.empty()) return refused("--to", "", "is missing: name the place, e.g. --to 46.54,7.96");
+    // What is wrong with the words is said before anything is read.
+    for (const auto& [option, text] : {std::pair{"--from", options.from}, std::pair{"--to", options.to}}) {
+        if (const auto place = place_at(option, text); !place.ok()) return place.error();
+    }
+    ORO_TRY(const Air air, air_asked_for(options.air.refraction_k, options.air.air, standard_air));
+    ProgressBar bar(options.quiet);
+    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
+                bar.show(share, "reading " + what);
+            }));
+    ORO_TRY(const Geodetic from,
+            point_over_ground({"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m},
+                              *ground));
+    ORO_TRY(const Geodetic to, point_over_ground({"--to", options.to, "--target", options.target_m, 0.0,
+                                                  std::nullopt, "geo:LAT,LON,HEIGHT"},
+                                                 *ground));
+    bar.show(1.0, "looking");
+    const SightReport report = look(from, to, air, *ground);
+    ORO_CHECK(ground->region.field.health());
+    bar.clear();
+    if (report.slant_m <= least_above_m)
+        return refused("--to", options.to, "is where --from is: there is no line between them");
+    say_notes(ground->region, options.quiet);
+    if (report.line.without_data_m > 0.5) {
+        char note[160];
+        std::snprintf(
+            note, sizeof note,
+            "note: %.2f km of the line lie over no data; ground that is there could hide the target",
+            report.line.without_data_m / 1000.0);
+        say(options.quiet, note);
+    }
+    std::fputs(options.json ? (json_text(sight_json(report, *ground), true) + "\n").c_str()
+                            : sight_text(report, *ground).c_str(),
+               stdout);
+    return {};
+}
+
+}  // namespace oro

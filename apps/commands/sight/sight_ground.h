@@ -1,0 +1,45 @@
+// The ground that sight, profile and viewshed look over.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/commands/options.h"
+#include "apps/eye/standpoint.h"
+#include "core/truth/true_surface.h"
+#include "geo/region/region.h"
+
+namespace oro {
+
+// A region and its full resolution. Stays where it is: the surface holds on to the field.
+struct SightGround {
+    Region region;
+    std::unique_ptr<const TrueSurface> surface;
+    // H of a point: above the geoid (of the region, as everywhere).
+    [[nodiscard]] double H_m(const Geodetic& point) const;
+    // Height of a point over the ground below it; nothing where there is none.
+    [[nodiscard]] std::optional<double> above_m(const Geodetic& point) const;
+};
+Result<std::unique_ptr<const SightGround>> open_sight_ground(const RegionOptions& options,
+                                                             const Progress& progress);
+
+// Errors (usage): a file to be written is one of those that the ground is made of.
+Result<void> spare_ground(const std::vector<std::string>& written, const RegionOptions& options,
+                          const Region& region);
+
+// Notes about a region on standard error, unless quiet.
+void say_notes(const Region& region, bool quiet);
+
+// Refuses a height over the ground below 0: `option` is how it was given.
+Result<void> check_above(const char* option, const std::optional<double>& above_m);
+// Where somebody stands, or what is looked at. On the ground means least_above_m over it. Errors: those of
+// standpoint(), and a point under the ground (usage).
+Result<Geodetic> point_over_ground(const Standing& standing, const SightGround& ground);
+
+// {"lat_deg", "lon_deg", "h_m", "H_m"}
+nlohmann::ordered_json point_json(const SightGround& ground, const Geodetic& point);
+
+}  // namespace oro

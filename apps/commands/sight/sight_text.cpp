@@ -1,0 +1,108 @@
+#include "apps/commands/sight/sight_text.h"
+
+#include <cstdio>
+
+#include "apps/report/figures.h"
+#include "apps/report/json_object.h"
+#include "apps/view/model_names.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+template <class... Values>
+std::string printed(const char* format, Values... values) {
+    char text[240];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+std::string end_text(const char* name, const Geodetic& point, const SightGround& ground) {
+    std::string text =
+        printed("%s %.6f %.6f, H %.1f m", name, point.lat_deg, point.lon_deg, ground.H_m(point));
+    if (const auto above_m = ground.above_m(point)) text += printed(", %.1f m above the ground", *above_m);
+    return text + "\n";
+}
+
+// "8.43 km", "312 m"
+std::string distance_text(double distance_m) {
+    return distance_m < 1000.0 ? printed("%.0f m", distance_m) : printed("%.2f km", distance_m / 1000.0);
+}
+
+std::string ground_text(const Geodetic& point, double distance_m, const SightGround& ground) {
+    return printed("%.6f %.6f, H %.1f m, ", point.lat_deg, point.lon_deg, ground.H_m(point)) +
+           distance_text(distance_m) + " away";
+}
+
+double distance_m(const SightReport& report, const Geodetic& point) {
+    return geodesic_between(report.from.lat_deg, report.from.lon_deg, point.lat_deg, point.lon_deg)
+        .distance_m;
+}
+
+std::string hidden_text(const SightReport& report, const SightGround& ground) {
+    std::string text = "Hidden";
+    if (report.target_missed_by_m)
+        text += printed(": the target would have to be %.2f m higher", *report.target_missed_by_m);
+    if (report.eye_missed_by_m)
+        text += printed(
+            report.target_missed_by_m ? ", or the eye %.2f m" : ": the eye would have to be %.2f m higher",
+            *report.eye_missed_by_m);
+    return text +
+           "\nFirst obstacle: " + ground_text(report.obstacle->point, report.obstacle_distance_m, ground) +
+           "\n";
+}
+
+ordered_json or_null(const std::optional<double>& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json end_json(const Geodetic& point, const SightGround& ground) {
+    ordered_json json = point_json(ground, point);
+    json["above_ground_m"] = or_null(ground.above_m(point));
+    return json;
+}
+
+}  // namespace
+
+std::string sight_text(const SightReport& report, const SightGround& ground) {
+    std::string text = end_text("From:", report.from, ground) + end_text("To:  ", report.to, ground);
+    text += report.obstacle ? hidden_text(report, ground) : "Visible\n";
+    if (report.line.without_data_m < report.slant_m)
+        text += printed("Least clearance: %.2f m, over ", report.line.clearance_m) +
+                ground_text(report.line.ground, distance_m(report, report.line.ground), ground) + "\n";
+    text += printed("Distance: %.3f m over the ellipsoid, %.3f m straight\n", report.path.distance_m,
+                    report.slant_m);
+    text += printed("Direction: azimuth %.4f degrees, elevation %.4f degrees\n", report.path.bearing_deg,
+                    report.elevation_deg);
+    return text + "Light: " + light_words(report.air, report.from.h_m) + "\n";
+}
+
+ordered_json sight_json(const SightReport& report, const SightGround& ground) {
+    ordered_json json = json_object("visible", !report.obstacle);
+    json["from"] = end_json(report.from, ground);
+    json["to"] = end_json(report.to, ground);
+    json["target_missed_by_m"] = report.obstacle ? or_null(report.target_missed_by_m) : ordered_json(0.0);
+    json["eye_missed_by_m"] = report.obstacle ? or_null(report.eye_missed_by_m) : ordered_json(0.0);
+    json["obstacle"] = nullptr;
+    if (report.obstacle) {
+        ordered_json& obstacle = json["obstacle"] = point_json(ground, report.obstacle->point);
+        obstacle["distance_m"] = report.obstacle_distance_m;
+        obstacle["slant_m"] = report.obstacle->distance_m;
+    }
+    json["clearance"] = nullptr;
+    if (report.line.without_data_m < report.slant_m) {
+        json["clearance"] = json_object("least_m", report.line.clearance_m);
+        json["clearance"]["ground"] = point_json(ground, report.line.ground);
+        json["clearance"]["distance_m"] = distance_m(report, report.line.ground);
+    }
+    json["distance_m"] = report.path.distance_m;
+    json["azimuth_deg"] = report.path.bearing_deg;
+    json["elevation_deg"] = report.elevation_deg;
+    json["slant_m"] = report.slant_m;
+    json["without_data_m"] = report.line.without_data_m;
+    json["light"] = light_json(report.air, report.from.h_m);
+    return json;
+}
+
+}  // namespace oro

@@ -1,0 +1,33 @@
+// What orograph sight found, as people and as programs read it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "apps/commands/sight/sight_ground.h"
+#include "core/earth/world_model.h"
+#include "core/sight/lookout.h"
+#include "geo/places/geodesic.h"
+
+namespace oro {
+
+struct SightReport {
+    Geodetic from;
+    Geodetic to;
+    Air air;
+    GeodesicPath path{};     // over the ellipsoid
+    double slant_m{};        // straight
+    double elevation_deg{};  // at which the target is seen, or would be
+    LineOverGround line;
+    std::optional<SightHit> obstacle;  // nothing: it is seen
+    double obstacle_distance_m{};      // over the ellipsoid
+    // How much higher one of them would have to be; nothing: no height would do, or it is seen.
+    std::optional<double> target_missed_by_m;
+    std::optional<double> eye_missed_by_m;
+};
+
+std::string sight_text(const SightReport& report, const SightGround& ground);
+nlohmann::ordered_json sight_json(const SightReport& report, const SightGround& ground);
+
+}  // namespace oro

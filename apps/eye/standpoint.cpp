@@ -1,0 +1,62 @@
+#include "apps/eye/standpoint.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "apps/command_line/refusals.h"
+#include "core/terrain/ground.h"
+
+namespace oro {
+
+std::string place_name(double lat_deg, double lon_deg) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.6f,%.6f", lat_deg, lon_deg);
+    return text;
+}
+
+bool holds(const PostGrid& grid, double lat_deg, double lon_deg) {
+    const double row = grid.lat.index_at(lat_deg), column = grid.column_at(lon_deg);
+    return row >= 0.0 && row <= grid.rows() - 1 && column >= 0.0 && column <= grid.columns() - 1;
+}
+
+std::string where_data_are(const PostGrid& grid, double lat_deg, double lon_deg) {
+    if (holds(grid, lat_deg, lon_deg)) return " (a hole in the data)";
+    char text[200];
+    std::snprintf(text, sizeof text, " (the data's box is %.6g,%.6g,%.6g,%.6g: west,south,east,north)",
+                  grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg());
+    if (std::abs(lon_deg) > 90.0 || !holds(grid, lon_deg, lat_deg)) return text;
+    return text + (". " + place_name(lon_deg, lat_deg)) + " lies inside: latitude comes first";
+}
+
+Result<Place> place_at(const char* option, const std::string& text) {
+    Result<Place> place = parse_place(text);
+    if (!place.ok()) return refused(option, text, place.error().what);
+    return place;
+}
+
+Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, double exaggeration) {
+    const std::string option = standing.place_option;
+    ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
+    if (place.height_m) {
+        if (standing.altitude_m || standing.above_m)
+            return refused(option, standing.place,
+                           std::string("gives a height of its own: leave ") + standing.above_option +
+                               " and --altitude out");
+        // Of WGS84, as geo: places are: above the ellipsoid.
+        return Geodetic{place.lat_deg, place.lon_deg, *place.height_m};
+    }
+    if (standing.altitude_m)
+        return Geodetic{place.lat_deg, place.lon_deg,
+                        *standing.altitude_m + field.undulation.at_m(place.lat_deg, place.lon_deg)};
+    const std::optional<double> ground = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
+    // Ground that could not be read is no ground to stand on, but that is not why there is none.
+    if (!ground) ORO_CHECK(field.health());
+    if (!ground)
+        return Error{ErrorKind::no_data, option + " " + place_name(place.lat_deg, place.lon_deg),
+                     std::string("no elevation data there to stand on; give ") + standing.way_out +
+                         " or another place" + where_data_are(field.grid, place.lat_deg, place.lon_deg)};
+    return Geodetic{place.lat_deg, place.lon_deg,
+                    *ground + standing.above_m.value_or(standing.usual_above_m)};
+}
+
+}  // namespace oro

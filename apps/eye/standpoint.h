@@ -1,0 +1,40 @@
+// Where somebody stands, or what is looked at: a place and a height, as options say them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/earth/ellipsoid.h"
+#include "core/terrain/post_grid.h"
+#include "geo/places/place.h"
+
+namespace oro {
+
+// What options say of one point. The names are those of the options, for errors.
+struct Standing {
+    const char* place_option;  // "--at"
+    std::string place;
+    const char* above_option;  // "--above"
+    std::optional<double> above_m;
+    double usual_above_m;                      // over the ground, where nothing is said
+    std::optional<double> altitude_m;          // above sea level instead (--altitude)
+    const char* way_out{"--altitude METRES"};  // what to give where there is no ground
+};
+
+// Where that is. A geo: place with a height has its own, above the ellipsoid. Errors: text that is no place,
+// two heights (usage); no ground to stand on (no_data), which names the data's box.
+Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, double exaggeration = 1.0);
+
+// A place of an option. Errors (usage) name the option.
+Result<Place> place_at(const char* option, const std::string& text);
+
+// "46.670000,8.060000"
+std::string place_name(double lat_deg, double lon_deg);
+// Whether a grid's box holds a place.
+bool holds(const PostGrid& grid, double lat_deg, double lon_deg);
+// The data's extent, for who asked for a place without any; and whether the place lies inside when its
+// latitude and longitude change places.
+std::string where_data_are(const PostGrid& grid, double lat_deg, double lon_deg);
+
+}  // namespace oro

@@ -1,0 +1,114 @@
+#include "core/sight/edge_crossings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace oro {
+namespace {
+
+// A place of the way by grid.
+struct Step {
+    double along_m;
+    double row;
+    double column;
+};
+
+class Crossings {
+  public:
+    Crossings(const PostGrid& grid, const Way& way) : grid_(grid), way_(way) {}
+
+    [[nodiscard]] Step at(double along_m) const {
+        const Geodetic place = way_(along_m);
+        return {along_m, grid_.lat.index_at(place.lat_deg), grid_.column_at(place.lon_deg)};
+    }
+    // Cuts the way until it is all but straight in rows and columns.
+    void walk(const Step& from, const Step& to, int depth);
+    std::vector<double> take() {
+        std::sort(found_.begin(), found_.end());
+        return std::move(found_);
+    }
+
+  private:
+    [[nodiscard]] bool outside(const std::array<Step, 3>& piece) const;
+    // Where a parabola through the values at a piece's begin, middle and end is a whole number.
+    void search(const std::array<Step, 3>& piece, const std::array<double, 3>& value, double lowest,
+                double highest);
+
+    const PostGrid& grid_;
+    const Way& way_;
+    std::vector<double> found_;
+};
+
+bool Crossings::outside(const std::array<Step, 3>& piece) const {
+    const auto all = [&](auto&& is) { return std::all_of(piece.begin(), piece.end(), is); };
+    const double last_row = grid_.rows() - 1, last_column = grid_.columns() - 1;
+    return all([](const Step& s) { return s.row < -1.0; }) ||
+           all([&](const Step& s) { return s.row > last_row + 1.0; }) ||
+           all([](const Step& s) { return s.column < -1.0; }) ||
+           all([&](const Step& s) { return s.column > last_column + 1.0; });
+}
+
+void Crossings::walk(const Step& from, const Step& to, int depth) {
+    constexpr double straight_cells = 0.002;  // what is left of a parabola then is a hundredth of it
+    constexpr int deepest = 24;               // where columns jump: over a pole, and behind the grid
+    const Step middle = at(0.5 * (from.along_m + to.along_m));
+    const std::array piece{from, middle, to};
+    const bool straight = std::abs(middle.row - 0.5 * (from.row + to.row)) < straight_cells &&
+                          std::abs(middle.column - 0.5 * (from.column + to.column)) < straight_cells;
+    if (straight) {
+        if (outside(piece)) return;
+        const double last_row = grid_.rows() - 1, last_column = grid_.columns() - 1;
+        search(piece, {from.row, middle.row, to.row}, 0.0, last_row);
+        search(piece, {from.column, middle.column, to.column}, 0.0, last_column);
+        search(piece, {from.row - from.column, middle.row - middle.column, to.row - to.column}, -last_column,
+               last_row);
+        return;
+    }
+    if (depth == deepest) {
+        found_.push_back(middle.along_m);
+        return;
+    }
+    walk(from, middle, depth + 1);
+    walk(middle, to, depth + 1);
+}
+
+void Crossings::search(const std::array<Step, 3>& piece, const std::array<double, 3>& value, double lowest,
+                       double highest) {
+    const double square = 2.0 * (value[0] - 2.0 * value[1] + value[2]);
+    const double slope = -3.0 * value[0] + 4.0 * value[1] - value[2];
+    const double length_m = piece[2].along_m - piece[0].along_m;
+    // The parabola leaves what its three values span by less than this.
+    const double beyond = 0.25 * std::abs(square);
+    const auto [low, high] = std::minmax_element(value.begin(), value.end());
+    const double first = std::ceil(std::max(*low - beyond, lowest));
+    const double last = std::floor(std::min(*high + beyond, highest));
+    for (double number = first; number <= last; number += 1.0) {
+        const double at_0 = value[0] - number;
+        const double discriminant = slope * slope - 4.0 * square * at_0;
+        if (discriminant < 0.0) continue;
+        // Without loss. Source: W. H. Press et al., Numerical Recipes, 3rd ed. 2007, eq. 5.6.4.
+        const double q = -0.5 * (slope + std::copysign(std::sqrt(discriminant), slope));
+        for (const double share : {q != 0.0 ? at_0 / q : -1.0, square != 0.0 ? q / square : -1.0}) {
+            if (share >= 0.0 && share <= 1.0) found_.push_back(piece[0].along_m + share * length_m);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<double> edge_crossings(const PostGrid& grid, const Way& way, double from_m, double to_m) {
+    Crossings crossings(grid, way);
+    // So short that a way turns to one side only in it.
+    constexpr double longest_m = 5000.0;
+    const int pieces = std::max(1, static_cast<int>(std::ceil((to_m - from_m) / longest_m)));
+    Step from = crossings.at(from_m);
+    for (int i = 1; i <= pieces; ++i) {
+        const Step to = crossings.at(i == pieces ? to_m : from_m + (to_m - from_m) * i / pieces);
+        crossings.walk(from, to, 0);
+        from = to;
+    }
+    return crossings.take();
+}
+
+}  // namespace oro

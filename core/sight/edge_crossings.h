@@ -1,0 +1,20 @@
+// Where a way over the ground passes from one triangle of a grid to the next.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/earth/ellipsoid.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+// A way over the Earth: a place by a number that grows along it, about one for each metre.
+using Way = std::function<Geodetic(double along_m)>;
+
+// The places along a way, from `from_m` to `to_m`, where it crosses an edge of the grid's triangles: a row, a
+// column, or a diagonal of a cell from its north-west to its south-east post. In order; those of one place
+// may be there twice. Nothing outside the grid. Error: 1e-4 of a cell; over a pole, a cell.
+std::vector<double> edge_crossings(const PostGrid& grid, const Way& way, double from_m, double to_m);
+
+}  // namespace oro

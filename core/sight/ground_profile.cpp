@@ -1,0 +1,69 @@
+#include "core/sight/ground_profile.h"
+
+#include <cmath>
+
+namespace oro {
+
+ProfilePoint profile_point(const TrueSurface& surface, const Geodetic& place, double along_m) {
+    ProfilePoint point{along_m, place.lat_deg, place.lon_deg, false, 0.0, 0.0};
+    if (const std::optional<double> h_m = surface.h_m(place.lat_deg, place.lon_deg)) {
+        point.has_ground = true;
+        point.h_m = *h_m;
+        point.H_m = *h_m - surface.field().undulation.at_m(place.lat_deg, place.lon_deg);
+    }
+    return point;
+}
+
+void add_profile(const TrueSurface& surface, const Way& way, double from_m, double to_m,
+                 std::vector<ProfilePoint>& points) {
+    // A post lies on three edges: their crossings are one place.
+    constexpr double same_m = 1.0e-3;
+    const auto add = [&](double along_m) {
+        points.push_back(profile_point(surface, way(along_m), along_m));
+        ProfilePoint& point = points.back();
+        // On the rim of the data, or of a void, a rounded place may lie beyond it.
+        constexpr double beside_m = 0.02;
+        for (const double at_m : {along_m - beside_m, along_m + beside_m}) {
+            if (point.has_ground || at_m < from_m || at_m > to_m) continue;
+            const ProfilePoint beside = profile_point(surface, way(at_m), at_m);
+            point.has_ground = beside.has_ground;
+            point.H_m = beside.H_m;
+            point.h_m = beside.h_m;
+        }
+    };
+    if (points.empty()) add(from_m);
+    double last_m = from_m;
+    for (const double along_m : edge_crossings(surface.field().grid, way, from_m, to_m)) {
+        if (along_m - last_m < same_m || to_m - along_m < same_m) continue;
+        // What lies between two crossings over no ground is told by a place in it: its ends are on the rim.
+        const Geodetic middle = way(0.5 * (last_m + along_m));
+        if (!surface.h_m(middle.lat_deg, middle.lon_deg)) add(0.5 * (last_m + along_m));
+        add(along_m);
+        last_m = along_m;
+    }
+    const Geodetic middle = way(0.5 * (last_m + to_m));
+    if (!surface.h_m(middle.lat_deg, middle.lon_deg)) add(0.5 * (last_m + to_m));
+    if (to_m > from_m) add(to_m);
+}
+
+ProfileSums sums_of(const std::vector<ProfilePoint>& points) {
+    ProfileSums sums;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const ProfilePoint& here = points[i];
+        if (here.has_ground) {
+            if (!sums.highest || here.H_m > points[*sums.highest].H_m) sums.highest = i;
+            if (!sums.lowest || here.H_m < points[*sums.lowest].H_m) sums.lowest = i;
+        }
+        if (i == 0) continue;
+        const ProfilePoint& before = points[i - 1];
+        if (!here.has_ground || !before.has_ground) {
+            sums.without_data_m += here.along_m - before.along_m;
+            continue;
+        }
+        const double rise_m = here.H_m - before.H_m;
+        (rise_m > 0.0 ? sums.ascent_m : sums.descent_m) += std::abs(rise_m);
+    }
+    return sums;
+}
+
+}  // namespace oro

@@ -1,0 +1,40 @@
+// Heights of the ground along a way.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/sight/edge_crossings.h"
+#include "core/truth/true_surface.h"
+
+namespace oro {
+
+struct ProfilePoint {
+    double along_m{};  // from the way's begin
+    double lat_deg{};
+    double lon_deg{};
+    bool has_ground{};  // false beyond the data and over void posts: the heights say nothing
+    double H_m{};
+    double h_m{};
+};
+
+// Appends the points of a way from from_m to to_m, its begin and its end among them (the begin only where
+// `points` is empty): each place where it crosses an edge of the ground's triangles. Between two neighbours h
+// is linear in latitude and longitude. `way` gives places by along_m; its heights do not count.
+void add_profile(const TrueSurface& surface, const Way& way, double from_m, double to_m,
+                 std::vector<ProfilePoint>& points);
+
+ProfilePoint profile_point(const TrueSurface& surface, const Geodetic& place, double along_m);
+
+// What a profile comes to.
+struct ProfileSums {
+    double ascent_m{};   // of H, from point to point where both have ground
+    double descent_m{};  // 0 or more
+    // Numbers of the first of the highest and of the lowest points; nothing where none has ground.
+    std::optional<std::size_t> highest, lowest;
+    double without_data_m{};  // between points of which one has no ground
+};
+ProfileSums sums_of(const std::vector<ProfilePoint>& points);
+
+}  // namespace oro

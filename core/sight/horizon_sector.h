@@ -1,0 +1,73 @@
+// The horizon that nearer ground makes over a sector of azimuths. Within core.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/sight/eye_plane.h"
+
+namespace oro {
+
+// How high ground is seen over level, as the tangent: of a net of straight edges, and how far that may be
+// off.
+struct Horizon {
+    static constexpr double none = -std::numeric_limits<double>::infinity();
+    double tangent{none};
+    double lowest{none};  // the ground's own is between these
+    double highest{none};
+
+    void add(double height_m, double distance_m, double error_m) {
+        const double per_m = 1.0 / distance_m;
+        tangent = std::max(tangent, height_m * per_m);
+        lowest = std::max(lowest, (height_m - error_m) * per_m);
+        highest = std::max(highest, (height_m + error_m) * per_m);
+    }
+};
+
+// Azimuths by a number that grows with them counter-clockwise from east, 0 .. 4, and is quick to have.
+inline double azimuth_number(const PlanePost& post) {
+    const double sum = std::abs(post.x) + std::abs(post.y);
+    const double share = sum > 0.0 ? post.y / sum : 0.0;
+    if (post.x < 0.0) return 2.0 - share;
+    return share < 0.0 ? 4.0 + share : share;
+}
+
+class HorizonSector {
+  public:
+    // Of the ranges first .. first + count - 1 of `ranges` around the eye.
+    HorizonSector(const EyePlane& plane, int ranges, int first, int count);
+
+    // Takes the edge between two posts in; those that are farther than a target must come after it.
+    void add_edge(std::int64_t one, std::int64_t other);
+    // The horizon in a target's own direction; false where too many edges came together.
+    [[nodiscard]] bool horizon(const PlanePost& target, Horizon& horizon) const;
+
+  private:
+    struct Edge {
+        std::int64_t right, left;  // as seen from the eye
+        double highest;
+    };
+    // Edges that may be the highest anywhere in a range of azimuths.
+    struct Range {
+        static constexpr int most = 16;
+        double lowest{Horizon::none};    // everywhere in it something is as high
+        double left_out{Horizon::none};  // nothing that found no room was higher
+        int count{0};
+        std::array<Edge, most> edges;
+    };
+    [[nodiscard]] double most_tangent(const PlanePost& right, const PlanePost& left, double turned) const;
+    void add_to(Range& range, int number, const Edge& edge, bool begins, bool ends);
+    [[nodiscard]] double tangent_at(const PlanePost& right, const PlanePost& left, const PlanePost& towards,
+                                    double& distance_m) const;
+
+    const EyePlane& plane_;
+    int ranges_;
+    int first_;
+    std::vector<Range> own_;
+    std::vector<PlanePost> borders_;  // directions, one more than ranges
+};
+
+}  // namespace oro

@@ -1,0 +1,377 @@
+#include "core/sight/viewshed.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/sight/horizon_sector.h"
+#include "core/terrain/drawn_heights.h"
+
+namespace oro {
+namespace {
+
+constexpr int sectors = 64;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Posts of a sector by their distance, and those of its neighbours whose edges reach into it.
+struct Entry {
+    int row;
+    int column;
+    bool visits;  // is another sector's
+};
+
+class Sweep {
+  public:
+    Sweep(const TrueSurface& surface, const ViewshedRequest& request, const PostWindow& window)
+        : surface_(surface),
+          request_(request),
+          window_(window),
+          target_m_(std::max(request.target_m, least_above_m)),
+          lookout_(surface, request.eye, request.air),
+          plane_(surface, lookout_, window, request.threads) {
+        const Geodetic& eye = request.eye;
+        const double radius_m =
+            std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg));
+        centre_m_ = radius_m + eye.h_m;
+        reach_tangent_ = std::tan(request.radius_m / radius_m);
+    }
+
+    Viewshed result(const ViewshedProgress& progress);
+
+  private:
+    struct Shells {
+        std::vector<Entry> entries;
+        std::vector<std::size_t> begins;  // of each sector's each shell, and the end
+        int count{};
+        double width_m{};
+    };
+    void sort_posts();
+    template <class Take>
+    void for_entries_of_row(int row, const Take& take) const;
+    void sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) const;
+    [[nodiscard]] float missed_by_m(const Entry& entry, const HorizonSector& sector, double shell_m,
+                                    std::size_t& asked) const;
+    [[nodiscard]] bool walk(std::int64_t from, const PlanePost& target, double until_m,
+                            Horizon& horizon) const;
+    [[nodiscard]] bool in_reach(const PlanePost& post) const;
+    void add_edges(std::int64_t number, HorizonSector& sector) const;
+    [[nodiscard]] float ask_oracle(const Entry& entry, double rise_m, std::size_t& asked) const;
+
+    const TrueSurface& surface_;
+    const ViewshedRequest& request_;
+    PostWindow window_;
+    double target_m_;
+    Lookout lookout_;
+    EyePlane plane_;
+    Shells shells_;
+    int ranges_{};
+    double centre_m_{};       // from the eye down to the centre of curvature
+    double reach_tangent_{};  // of the radius as an angle there
+};
+
+// Over the ground: the angle at the centre of curvature below the eye.
+bool Sweep::in_reach(const PlanePost& post) const {
+    const double across2 = post.distance_m * post.distance_m;
+    const double most_m = (centre_m_ + post.z - plane_.bend_per_m() * across2) * reach_tangent_;
+    return across2 <= most_m * most_m;
+}
+
+// take(sector, shell, entry) for each entry that comes of a row.
+template <class Take>
+void Sweep::for_entries_of_row(int row, const Take& take) const {
+    for (int column = 0; column < window_.columns; ++column) {
+        const PlanePost& post = plane_.post(plane_.number(row, column));
+        if (std::isnan(post.z) || !in_reach(post)) continue;
+        const double distance_m = post.distance_m;
+        const int shell = std::min(static_cast<int>(distance_m / shells_.width_m), shells_.count - 1);
+        const double place = azimuth_number(post) * (sectors / 4.0);
+        const int own = static_cast<int>(place) % sectors;
+        Entry entry{row, column, false};
+        take(own, shell, entry);
+        entry.visits = true;
+        // The number of an azimuth grows by at most the square root of 2 a radian.
+        const double reach =
+            1.5 * plane_.longest_edge_m() / std::max(distance_m, 1.0e-9) * (sectors / 4.0) * 1.1;
+        if (reach >= 1.0) {
+            for (int sector = 0; sector < sectors; ++sector) {
+                if (sector != own) take(sector, shell, entry);
+            }
+            continue;
+        }
+        if (place - own < reach) take((own + sectors - 1) % sectors, shell, entry);
+        if (own + 1 - place < reach) take((own + 1) % sectors, shell, entry);
+    }
+}
+
+void Sweep::sort_posts() {
+    // So narrow that few edges cross a shell's own, which are not in the sectors' horizons yet.
+    shells_.width_m = std::max(0.25 * plane_.longest_edge_m(), request_.radius_m / 4.0e5);
+    shells_.count = static_cast<int>(1.1 * request_.radius_m / shells_.width_m) + 2;
+    const auto slots = static_cast<std::size_t>(sectors) * static_cast<std::size_t>(shells_.count);
+    const auto slot = [&](int sector, int shell) {
+        return static_cast<std::size_t>(sector) * static_cast<std::size_t>(shells_.count) +
+               static_cast<std::size_t>(shell);
+    };
+    // Each part of the rows first counts its posts, then puts them behind those of the parts before it.
+    const int parts = std::clamp(request_.threads, 1, window_.rows);
+    std::vector<std::vector<std::size_t>> next(static_cast<std::size_t>(parts),
+                                               std::vector<std::size_t>(slots, 0));
+    const auto rows_of_part = [&](int part, const auto& take) {
+        const auto first = [&](int number) {
+            return static_cast<int>(static_cast<std::int64_t>(window_.rows) * number / parts);
+        };
+        for (int row = first(part); row < first(part + 1); ++row) for_entries_of_row(row, take);
+    };
+    in_parallel(parts, request_.threads, [&](int part) {
+        rows_of_part(part, [&](int sector, int shell, const Entry&) {
+            ++next[static_cast<std::size_t>(part)][slot(sector, shell)];
+        });
+    });
+    shells_.begins.assign(slots + 1, 0);
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < slots; ++i) {
+        shells_.begins[i] = sum;
+        for (std::vector<std::size_t>& of_part : next) sum += std::exchange(of_part[i], sum);
+    }
+    shells_.begins[slots] = sum;
+    shells_.entries.resize(sum);
+    in_parallel(parts, request_.threads, [&](int part) {
+        rows_of_part(part, [&](int sector, int shell, const Entry& entry) {
+            shells_.entries[next[static_cast<std::size_t>(part)][slot(sector, shell)]++] = entry;
+        });
+    });
+}
+
+// Those to nearer posts, each once: it is the farther post's.
+void Sweep::add_edges(std::int64_t number, HorizonSector& sector) const {
+    const PlanePost& post = plane_.post(number);
+    const double own2 = along(post, post);
+    const std::int64_t* const next = plane_.neighbours();
+    for (int i = 0; i < 6; ++i) {
+        const std::int64_t other = number + next[i];
+        const PlanePost& its = plane_.post(other);
+        const double its2 = along(its, its);
+        if (!(its2 < own2 || (its2 == own2 && other < number))) continue;
+        // An edge of no triangle is no ground.
+        if (plane_.has_voids() && std::isnan(plane_.post(number + next[(i + 1) % 6]).z) &&
+            std::isnan(plane_.post(number + next[(i + 5) % 6]).z))
+            continue;
+        sector.add_edge(number, other);
+    }
+}
+
+// From a post towards the eye, in a target's direction, triangle by triangle, until all edges beyond are
+// nearer than `until_m`. False where the net ends on the way, or a line of sight runs along an edge.
+bool Sweep::walk(std::int64_t from, const PlanePost& target, double until_m, Horizon& horizon) const {
+    const double length2 = along(target, target), length_m = target.distance_m;
+    const std::int64_t* const next = plane_.neighbours();
+    std::int64_t before = from, left = -1, right = -1;
+    double of_left = 0.0, of_right = 0.0;  // each the other's turn from the line: a weight
+    for (int i = 0; i < 6; ++i) {
+        const std::int64_t one = from + next[i], two = from + next[(i + 1) % 6];
+        const double turn_one = turn(target, plane_.post(one)), turn_two = turn(target, plane_.post(two));
+        if (!(turn_one * turn_two <= 0.0)) continue;
+        const double size = std::abs(turn_one) + std::abs(turn_two);
+        const double at = along(plane_.post(one), target) * std::abs(turn_two) +
+                          along(plane_.post(two), target) * std::abs(turn_one);
+        if (!(at < length2 * size)) continue;
+        left = turn_one > turn_two ? one : two;
+        right = turn_one > turn_two ? two : one;
+        of_left = std::max(turn_one, turn_two);
+        of_right = -std::min(turn_one, turn_two);
+        break;
+    }
+    if (left < 0) return false;
+    const double last_m = until_m - plane_.longest_edge_m();
+    for (;;) {
+        const PlanePost &a = plane_.post(left), &b = plane_.post(right);
+        const double sum = of_left + of_right;
+        if (!(sum > 0.0)) return false;
+        const double distance_m =
+            (along(a, target) * of_right + along(b, target) * of_left) / (sum * length_m);
+        if (distance_m <= 0.0) return true;
+        const std::int64_t after = left + right - before;
+        const PlanePost& third = plane_.post(after);
+        const double height_m = (a.z * of_right + b.z * of_left) / sum + plane_.bulge_m(a, b, of_left / sum);
+        if (!std::isnan(height_m) &&
+            (!plane_.has_voids() || !std::isnan(third.z) || !std::isnan(plane_.post(before).z)))
+            horizon.add(height_m, distance_m, plane_.error_m());
+        if (distance_m < last_m) return true;
+        const double turned = turn(target, third);
+        if (std::isnan(turned)) return false;
+        if (turned > 0.0) {
+            before = left;
+            left = after;
+            of_left = turned;
+        } else {
+            before = right;
+            right = after;
+            of_right = -turned;
+        }
+    }
+}
+
+float Sweep::ask_oracle(const Entry& entry, double rise_m, std::size_t& asked) const {
+    ++asked;
+    const int row = window_.first_row + entry.row;
+    const int column = window_.first_column + entry.column;
+    const Geodetic target = target_over_post(surface_, row, column, target_m_);
+    if (lookout_.sees(target)) return 0.0F;
+    constexpr double told_m = 1.0e-4;
+    if (rise_m > told_m) return static_cast<float>(rise_m);
+    const std::optional<double> by_m = lookout_.missed_by_m(target);
+    return by_m ? std::max(static_cast<float>(*by_m), std::numeric_limits<float>::min())
+                : std::numeric_limits<float>::infinity();
+}
+
+float Sweep::missed_by_m(const Entry& entry, const HorizonSector& sector, double shell_m,
+                         std::size_t& asked) const {
+    const int row = entry.row, column = entry.column;
+    const std::int64_t number = plane_.number(row, column);
+    const PlanePost& post = plane_.post(number);
+    const double s_m = post.distance_m;
+    Horizon horizon;
+    bool known = walk(number, post, shell_m, horizon) && s_m > 1.0e-3;
+    if (known && !sector.horizon(post, horizon)) known = walk(number, post, 0.0, horizon);
+    const bool in_doubt = !known;
+    if (in_doubt) {
+        // Along an edge, maybe: then a hair's breadth beside it. The oracle has the last word.
+        constexpr double aside = 1.0e-9;
+        const PlanePost beside{post.x - aside * post.y, post.y + aside * post.x, post.z, s_m, post.tangent};
+        horizon = {};
+        if (!(s_m > 1.0e-3 && walk(number, beside, 0.0, horizon))) return ask_oracle(entry, -1.0, asked);
+    }
+    // The target, and how it moves as it is raised along the ellipsoid's normal there.
+    const glm::dvec3 up = plane_.normal(row, column);
+    const double up_s = (up.x * post.x + up.y * post.y) / s_m, bend = plane_.bend_per_m();
+    const double ground_z_m = post.z - bend * s_m * s_m;
+    // How high it must be over the post's ground for a tangent: z + t up_z + bend (s + t up_s)^2 = tangent (s
+    // + t up_s).
+    const auto needed_m = [&](double tangent) {
+        double t_m = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            const double there_m = s_m + t_m * up_s;
+            const double slope = up.z + (2.0 * bend * there_m - tangent) * up_s;
+            if (!(slope > 1.0e-3)) return infinite;
+            t_m -= (ground_z_m + t_m * up.z + bend * there_m * there_m - tangent * there_m) / slope;
+        }
+        return t_m;
+    };
+    if (horizon.tangent == Horizon::none) return in_doubt ? ask_oracle(entry, -1.0, asked) : 0.0F;
+    const double rise_m = needed_m(horizon.tangent) - target_m_;
+    if (in_doubt) return ask_oracle(entry, rise_m, asked);
+    // What a target's own way up turns from the line of sight, and what is rounded.
+    const double aside = std::abs(up.x * post.y - up.y * post.x) / s_m;
+    const double slack_m = 1.0e-5 + 1.0e-9 * s_m + 10.0 * aside * target_m_;
+    if (needed_m(horizon.highest) - target_m_ < -slack_m) return 0.0F;
+    if (needed_m(horizon.lowest) - target_m_ > slack_m) return static_cast<float>(rise_m);
+    return ask_oracle(entry, rise_m, asked);
+}
+
+void Sweep::sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) const {
+    const int each = ranges_ / sectors;
+    HorizonSector horizon(plane_, ranges_, sector * each, each);
+    const std::size_t* const begins =
+        shells_.begins.data() + static_cast<std::size_t>(sector) * static_cast<std::size_t>(shells_.count);
+    for (int shell = 0; shell < shells_.count; ++shell) {
+        const Entry* const from = shells_.entries.data() + begins[shell];
+        const Entry* const to = shells_.entries.data() + begins[shell + 1];
+        for (const Entry* entry = from; entry != to; ++entry) {
+            if (entry->visits) continue;
+            const std::size_t cell =
+                static_cast<std::size_t>(entry->row) * static_cast<std::size_t>(window_.columns) +
+                entry->column;
+            viewshed.missed_by_m[cell] = missed_by_m(*entry, horizon, shell * shells_.width_m, asked);
+        }
+        for (const Entry* entry = from; entry != to; ++entry)
+            add_edges(plane_.number(entry->row, entry->column), horizon);
+    }
+}
+
+Viewshed Sweep::result(const ViewshedProgress& progress) {
+    Viewshed viewshed{window_, {}, 0};
+    viewshed.missed_by_m.assign(
+        static_cast<std::size_t>(window_.rows) * static_cast<std::size_t>(window_.columns),
+        Viewshed::unknown);
+    sort_posts();
+    // Ranges about as wide as posts are apart at the rim.
+    const double around = 4.0 * request_.radius_m / plane_.longest_edge_m();
+    ranges_ = sectors * std::clamp(static_cast<int>(8.0 * around / sectors), 4, 1 << 14);
+    std::mutex telling;
+    int done = 0;
+    std::atomic<std::size_t> asked{0};
+    in_parallel(sectors, request_.threads, [&](int sector) {
+        std::size_t own = 0;
+        sweep_sector(sector, viewshed, own);
+        asked += own;
+        const std::lock_guard lock(telling);
+        if (progress) progress(static_cast<double>(++done) / sectors);
+    });
+    viewshed.asked = asked;
+    return viewshed;
+}
+
+}  // namespace
+
+Geodetic target_over_post(const TrueSurface& surface, int row, int column, double target_m) {
+    const PostGrid& grid = surface.field().grid;
+    const double lat_deg = row_lat_deg(grid, row);
+    const double lon_deg = normalised_lon_deg(grid.lon.at_deg(column));
+    int there = column;
+    if (grid.goes_round()) {
+        const int turn_columns = grid.columns() - 1;
+        there = ((column % turn_columns) + turn_columns) % turn_columns;
+    }
+    const std::optional<double> ground_m = surface.post_h_m(row, there);
+    return {lat_deg, lon_deg, ground_m.value_or(0.0) + std::max(target_m, least_above_m)};
+}
+
+PostWindow window_around(const PostGrid& grid, const Geodetic& place, double radius_m) {
+    // Radii of curvature are between these.
+    constexpr double least_radius_m = 6.33e6, spare_cells = 3.0;
+    const double reach = radius_m / least_radius_m;
+    const double reach_deg = deg_from_radians(Radians{reach});
+    const double middle = grid.lat.index_at(place.lat_deg);
+    const double rows = reach_deg * grid.lat.posts_per_deg + spare_cells;
+    PostWindow window;
+    window.first_row = static_cast<int>(std::clamp(std::floor(middle - rows), 0.0, grid.rows() - 1.0));
+    const int last_row = static_cast<int>(std::clamp(std::ceil(middle + rows), 0.0, grid.rows() - 1.0));
+    if (middle + rows < 0.0 || middle - rows > grid.rows() - 1.0) return {};
+    window.rows = last_row - window.first_row + 1;
+    window.first_column = 0;
+    window.columns = grid.columns();
+    const SineCosine lat = sine_cosine_deg(place.lat_deg);
+    if (std::sin(reach) < 0.99 * lat.cosine) {
+        const double wide_deg = deg_from_radians(Radians{std::asin(std::sin(reach) / lat.cosine)});
+        const double columns = wide_deg * grid.lon.posts_per_deg + spare_cells;
+        const double column = grid.column_at(place.lon_deg);
+        double first = std::floor(column - columns), last = std::ceil(column + columns);
+        if (grid.goes_round()) {
+            if (last - first >= grid.columns() - 1) return window;
+        } else {
+            // The circle may reach into the grid from behind.
+            const double turn_columns = 360.0 * grid.lon.posts_per_deg;
+            if (last < 0.0 && last + turn_columns > 0.0 && first + turn_columns < grid.columns())
+                return window;
+            first = std::max(first, 0.0);
+            last = std::min(last, grid.columns() - 1.0);
+            if (first > last) return {};
+        }
+        window.first_column = static_cast<int>(first);
+        window.columns = static_cast<int>(last - first) + 1;
+    }
+    return window;
+}
+
+Viewshed viewshed(const TrueSurface& surface, const ViewshedRequest& request,
+                  const ViewshedProgress& progress) {
+    const PostWindow window = window_around(surface.field().grid, request.eye, request.radius_m);
+    if (window.rows < 1 || window.columns < 1) return {};
+    return Sweep(surface, request, window).result(progress);
+}
+
+}  // namespace oro

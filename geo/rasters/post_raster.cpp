@@ -1,0 +1,70 @@
+#include "geo/rasters/post_raster.h"
+
+#include <cpl_string.h>
+#include <gdal.h>
+
+#include <array>
+#include <cstdio>
+
+#include "geo/files/whole_file.h"
+#include "geo/sources/raster_library.h"
+
+namespace oro {
+namespace {
+
+Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMessages& messages,
+                  const std::string& path) {
+    const auto failed = [&] {
+        return Error{ErrorKind::failed, path, "cannot be written: " + messages.last("GDAL says no more")};
+    };
+    const PostGrid& grid = raster.grid;
+    const double wide_deg = grid.lon.spacing_deg(), tall_deg = grid.lat.spacing_deg();
+    std::array<double, 6> corners{grid.lon.at_deg(raster.first_column) - 0.5 * wide_deg, wide_deg, 0.0,
+                                  grid.lat.at_deg(raster.first_row) + 0.5 * tall_deg,    0.0,      -tall_deg};
+    if (GDALSetGeoTransform(dataset, corners.data()) != CE_None) return failed();
+    const SpatialReference crs = wgs84_degrees();
+    if (GDALSetSpatialRef(dataset, crs.get()) != CE_None) return failed();
+    for (const auto& [name, value] : raster.tags)
+        GDALSetMetadataItem(dataset, name.c_str(), value.c_str(), nullptr);
+    GDALSetMetadataItem(dataset, "AREA_OR_POINT", "Point", nullptr);
+    for (std::size_t i = 0; i < raster.bands.size(); ++i) {
+        const GDALRasterBandH band = GDALGetRasterBand(dataset, static_cast<int>(i) + 1);
+        GDALSetDescription(band, raster.bands[i].name.c_str());
+        GDALSetRasterNoDataValue(band, static_cast<double>(raster.no_value));
+    }
+    for (std::size_t i = 0; i < raster.bands.size(); ++i) {
+        const GDALRasterBandH band = GDALGetRasterBand(dataset, static_cast<int>(i) + 1);
+        // GDAL writes from it, and takes no pointer to const.
+        auto* const values = const_cast<float*>(raster.bands[i].values.data());
+        if (GDALRasterIO(band, GF_Write, 0, 0, raster.columns, raster.rows, values, raster.columns,
+                         raster.rows, GDT_Float32, 0, 0) != CE_None)
+            return failed();
+    }
+    GDALFlushCache(dataset);
+    return messages.last("").empty() ? Result<void>() : failed();
+}
+
+}  // namespace
+
+Result<void> write_post_raster(const std::string& path, bool overwrite, const PostRaster& raster) {
+    start_gdal();
+    ORO_TRY(WholeFile file, WholeFile::create(path, overwrite));
+    // By its descriptor: it has no name yet.
+    const std::string nameless = "/proc/self/fd/" + std::to_string(fileno(file.stream()));
+    const GdalMessages messages;
+    CPLStringList options;
+    for (const char* option :
+         {"COMPRESS=DEFLATE", "ZLEVEL=1", "PREDICTOR=3", "TILED=YES", "BIGTIFF=IF_SAFER"})
+        options.AddString(option);
+    Dataset dataset(GDALCreate(GDALGetDriverByName("GTiff"), nameless.c_str(), raster.columns, raster.rows,
+                               static_cast<int>(raster.bands.size()), GDT_Float32, options.List()));
+    if (!dataset)
+        return Error{ErrorKind::failed, path, "cannot be written: " + messages.last("GDAL says no more")};
+    ORO_CHECK(fill(dataset.get(), raster, messages, path));
+    dataset.reset();
+    if (const std::string fault = messages.last(""); !fault.empty())
+        return Error{ErrorKind::failed, path, "cannot be written: " + fault};
+    return file.commit();
+}
+
+}  // namespace oro

@@ -1,0 +1,31 @@
+// Values at the posts of a region as a GeoTIFF on the region's own grid of latitudes and longitudes.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+struct PostRaster {
+    struct Band {
+        std::string name;
+        std::vector<float> values;  // row by row, from the north-west
+    };
+    PostGrid grid;
+    // The part of the grid that it has; columns may run past its last, and longitudes past 180.
+    int first_row{}, rows{};
+    int first_column{}, columns{};
+    std::vector<Band> bands;
+    float no_value{};
+    std::vector<std::pair<std::string, std::string>> tags;  // of the file, for people: names in capitals
+};
+
+// Written whole or not at all: Float32, compressed (DEFLATE), EPSG:4326; each post is the middle of a cell.
+// Errors: those of WholeFile; what GDAL cannot write (a full disk).
+Result<void> write_post_raster(const std::string& path, bool overwrite, const PostRaster& raster);
+
+}  // namespace oro

@@ -1,0 +1,134 @@
+// orograph viewshed as people and programs use it.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using oro::test::bytes_of;
+using oro::test::expect_refusal;
+using oro::test::object_said_by;
+using oro::test::run_orograph;
+using oro::test::run_program;
+using oro::test::write_bytes;
+using Words = std::vector<std::string>;
+
+std::string bundled() {
+    return (oro::test::bundled_data() / "jacksboro.tif").string();
+}
+
+// What gdallocationinfo says of a place: a value for each band.
+Words values_at(const fs::path& file, const std::string& lon, const std::string& lat) {
+    const auto outcome = run_program({"gdallocationinfo", "-valonly", "-wgs84", file.string(), lon, lat});
+    Words values;
+    std::string value;
+    for (const char c : outcome.out) {
+        if (c == '\n') {
+            if (!value.empty()) values.push_back(value);
+            value.clear();
+        } else {
+            value += c;
+        }
+    }
+    return values;
+}
+
+TEST(ViewshedCommand, IsAGeoTiffThatSaysWhatSightSays) {
+    const fs::path out = oro::test::scratch_folder() / "v.tif";
+    const auto told = object_said_by({"viewshed", bundled(), "-q", "--json", "--at", "36.5,-84.2", "--above",
+                                      "30", "--target", "2", "--radius", "8", "--out", out.string()});
+    EXPECT_GT(told["seen"].get<int>(), 100);
+    EXPECT_LT(told["seen"].get<int>(), told["cells"].get<int>());
+    const auto info = run_program({"gdalinfo", "-json", out.string()});
+    if (info.exit_code == 127) GTEST_SKIP() << "needs gdalinfo";
+    const auto raster = oro::test::one_object(info.out);
+    EXPECT_NE(raster["coordinateSystem"]["wkt"].get<std::string>().find("WGS 84"), std::string::npos);
+    EXPECT_EQ(raster["bands"].size(), 2U);
+    EXPECT_EQ(raster["bands"][0]["noDataValue"], -9999.0);
+    EXPECT_EQ(raster["metadata"][""]["TARGET_ABOVE_GROUND_M"], "2");
+    EXPECT_EQ(raster["size"][0], told["columns"]);
+    const auto corners = raster["geoTransform"];
+    // Of some posts, seen and hidden: what sight says of the same place.
+    int compared = 0;
+    for (int step = -6; step <= 6; ++step) {
+        if (step == 0) continue;
+        const double column = told["columns"].get<int>() / 2 + step * 9,
+                     row = told["rows"].get<int>() / 2 + step * 5;
+        const double lon = corners[0].get<double>() + (column + 0.5) * corners[1].get<double>();
+        const double lat = corners[3].get<double>() + (row + 0.5) * corners[5].get<double>();
+        char to[80], east[40], north[40];
+        std::snprintf(east, sizeof east, "%.12f", lon);
+        std::snprintf(north, sizeof north, "%.12f", lat);
+        std::snprintf(to, sizeof to, "%.12f,%.12f", lat, lon);
+        const Words values = values_at(out, east, north);
+        ASSERT_EQ(values.size(), 2U);
+        const auto sight = object_said_by({"sight", bundled(), "-q", "--json", "--from", "36.5,-84.2",
+                                           "--above", "30", "--to", to, "--target", "2"});
+        EXPECT_EQ(values[0] == "1", sight["visible"].get<bool>()) << to;
+        EXPECT_NEAR(std::stod(values[1]), sight["target_missed_by_m"].get<double>(), 0.02) << to;
+        ++compared;
+    }
+    EXPECT_EQ(compared, 12);
+}
+
+TEST(ViewshedCommand, SeveralObserversAreCounted) {
+    const fs::path folder = oro::test::scratch_folder();
+    const auto shed = [&](const char* name, const Words& places) {
+        Words words{"viewshed", bundled(), "-q",    "--json",
+                    "--radius", "5",       "--out", (folder / name).string()};
+        for (const std::string& place : places) words.insert(words.end(), {"--at", place});
+        return object_said_by(words);
+    };
+    const auto one = shed("1.tif", {"36.5,-84.2"}), other = shed("2.tif", {"36.52,-84.22"});
+    const auto both = shed("3.tif", {"36.5,-84.2", "36.52,-84.22"});
+    EXPECT_EQ(both["observers"].size(), 2U);
+    EXPECT_GE(both["seen"].get<int>(), one["seen"].get<int>());
+    EXPECT_GE(both["seen"].get<int>(), other["seen"].get<int>());
+    EXPECT_LE(both["seen"].get<int>(), one["seen"].get<int>() + other["seen"].get<int>());
+    EXPECT_GT(both["cells"].get<int>(), one["cells"].get<int>());
+}
+
+TEST(ViewshedCommand, TheSameCommandWritesTheSameBytes) {
+    const fs::path folder = oro::test::scratch_folder();
+    for (const char* name : {"a.tif", "b.tif"})
+        object_said_by({"viewshed", bundled(), "-q", "--json", "--at", "36.5,-84.2", "--radius", "3", "--out",
+                        (folder / name).string()});
+    EXPECT_EQ(bytes_of(folder / "a.tif"), bytes_of(folder / "b.tif"));
+    EXPECT_EQ(oro::test::names_in(folder), (Words{"a.tif", "b.tif"}));
+}
+
+TEST(ViewshedCommand, WhatIsWrongIsSaidInOneLine) {
+    const fs::path there = oro::test::scratch_folder() / "there.tif";
+    write_bytes(there, "kept");
+    const auto refused = [&](Words words, int code, const std::string& says) {
+        words.insert(words.begin(), {"viewshed", bundled(), "-q"});
+        expect_refusal(run_orograph(words), code, {says});
+    };
+    const std::string out = (oro::test::scratch_folder() / "v.tif").string();
+    refused({"--out", out}, 2, "--at: is missing");
+    refused({"--at", "36.5,-84.2"}, 2, "--out: is missing");
+    refused({"--at", "36.5,-84.2", "--out", "v.png"}, 2, "--out v.png: the file's name must end in .tif");
+    refused({"--at", "36.5,-84.2", "--at", "here", "--out", out}, 2, "--at here: ");
+    refused({"--at", "36.5,-84.2", "--out", out, "--radius", "0"}, 2,
+            "--radius 0: must be between 0.01 and 1000");
+    refused({"--at", "36.5,-84.2", "--out", out, "--target", "-3"}, 2, "--target -3: must be 0 or more");
+    refused({"--at", "46,8", "--out", out}, 3, "--at 46.000000,8.000000: no elevation data there");
+    refused({"--at", "geo:46,8,5000", "--out", out}, 3, "no elevation data within the radius");
+    refused({"--at", "36.5,-84.2", "--out", there.string()}, 1, "is there already (--overwrite replaces it)");
+    EXPECT_EQ(bytes_of(there), "kept");
+    refused({"--at", "36.5,-84.2", "--out", "/nowhere/v.tif"}, 1, "/nowhere");
+    const fs::path copy = oro::test::scratch_folder() / "ground.tif";
+    fs::copy_file(bundled(), copy);
+    expect_refusal(run_orograph({"viewshed", copy.string(), "-q", "--at", "36.5,-84.2", "--out",
+                                 copy.string(), "--overwrite"}),
+                   2, {"--out: would replace ", "which the elevation data are in"});
+}
+
+}  // namespace

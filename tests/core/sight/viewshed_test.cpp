@@ -1,0 +1,193 @@
+// Must hold: of every post a viewshed says what a line of sight to it says.
+#include "core/sight/viewshed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "core/base/elapsed.h"
+#include "core/base/parallel.h"
+#include "core/terrain/drawn_heights.h"
+#include "tests/support/made_terrain.h"
+
+namespace oro {
+namespace {
+
+float hills_H_m(double lat_deg, double lon_deg) {
+    double H_m = 1200.0, height_m = 500.0, per_deg = 90.0;
+    for (int octave = 0; octave < 7; ++octave) {
+        H_m += height_m * std::sin(per_deg * lat_deg + 1.3 * octave) *
+               std::cos(0.8 * per_deg * lon_deg - 0.7 * octave);
+        height_m *= 0.5;
+        per_deg *= 2.03;
+    }
+    return static_cast<float>(H_m);
+}
+
+struct Tally {
+    std::size_t posts{}, seen{}, differing{}, unknown{}, misses{};
+    double worst_m{};
+};
+
+// Each post of the window by Lookout; of each `stride`th hidden one also by how much it is missed.
+Tally held_against_lookout(const TrueSurface& surface, const ViewshedRequest& request, const Viewshed& shed,
+                           int stride) {
+    const Lookout lookout(surface, request.eye, request.air);
+    const PostWindow& window = shed.window;
+    std::vector<Tally> rows(static_cast<std::size_t>(window.rows));
+    in_parallel(window.rows, thread_count(), [&](int i) {
+        Tally& tally = rows[static_cast<std::size_t>(i)];
+        for (int c = window.first_column; c < window.first_column + window.columns; ++c) {
+            const int row = window.first_row + i;
+            const float missed_m = shed.missed_by_m[window.number(row, c)];
+            if (missed_m == Viewshed::unknown) {
+                ++tally.unknown;
+                continue;
+            }
+            const Geodetic target = target_over_post(surface, row, c, request.target_m);
+            ++tally.posts;
+            const bool sees = lookout.sees(target);
+            tally.seen += sees;
+            tally.differing += sees != (missed_m == 0.0F);
+            if (sees || (row * 7 + c) % stride != 0) continue;
+            const auto by_m = lookout.missed_by_m(target);
+            if (!by_m || !std::isfinite(missed_m)) continue;
+            ++tally.misses;
+            tally.worst_m = std::max(
+                tally.worst_m, std::abs(static_cast<double>(missed_m) - *by_m) / std::max(1.0, 1e-3 * *by_m));
+        }
+    });
+    Tally sum;
+    for (const Tally& row : rows) {
+        sum.posts += row.posts;
+        sum.seen += row.seen;
+        sum.differing += row.differing;
+        sum.unknown += row.unknown;
+        sum.misses += row.misses;
+        sum.worst_m = std::max(sum.worst_m, row.worst_m);
+    }
+    return sum;
+}
+
+Geodetic eye_over(const TrueSurface& surface, double lat_deg, double lon_deg, double above_m) {
+    const auto h_m = surface.h_m(lat_deg, lon_deg);
+    EXPECT_TRUE(h_m) << lat_deg << "," << lon_deg;
+    return {lat_deg, lon_deg, h_m.value_or(0.0) + above_m};
+}
+
+void expect_lookouts(const char* name, const TrueSurface& surface, const ViewshedRequest& request,
+                     std::size_t least_posts, double most_off_m = 0.1) {
+    const auto begin = Clock::now();
+    const Viewshed shed = viewshed(surface, request);
+    const double took_s = seconds_since(begin);
+    const Tally tally = held_against_lookout(surface, request, shed, 31);
+    const double lookout_s = seconds_since(begin) - took_s;
+    std::printf(
+        "%s: %zu posts, %zu seen, %zu differ; of %zu hidden ones missed by %.2e m off at most; the "
+        "oracle was asked %zu times (%.3f %%); %.3f s, sight lines %.1f s\n",
+        name, tally.posts, tally.seen, tally.differing, tally.misses, tally.worst_m, shed.asked,
+        100.0 * static_cast<double>(shed.asked) / static_cast<double>(std::max<std::size_t>(1, tally.posts)),
+        took_s, lookout_s);
+    EXPECT_GE(tally.posts, least_posts) << name;
+    EXPECT_EQ(tally.differing, 0U) << name;
+    EXPECT_LE(tally.worst_m, most_off_m) << name;
+    EXPECT_GT(tally.seen, 0U) << name;
+    EXPECT_LT(tally.seen, tally.posts) << name;
+}
+
+TEST(Viewshed, IsTheLookoutsOverHills) {
+    const HeightField field = test::made_field(46.6, 8.3, 1200.0, 400, 500, hills_H_m);
+    const TrueSurface surface(field, 1.0, thread_count());
+    for (const double above_m : {0.001, 2.0, 300.0}) {
+        for (const double target_m : {0.0, 2.0, 50.0}) {
+            const ViewshedRequest request{eye_over(surface, 46.43, 8.51, above_m), standard_air, target_m,
+                                          12.0e3, thread_count()};
+            expect_lookouts("hills", surface, request, 60000);
+        }
+    }
+    // On a post, on an edge, in a corner, and beyond the data.
+    expect_lookouts("post", surface,
+                    {eye_over(surface, 46.6 - 200 / 1200.0, 8.3 + 250 / 1200.0, 2.0), {}, 1.0, 8e3, 2},
+                    30000);
+    expect_lookouts("edge", surface,
+                    {eye_over(surface, 46.6 - 200 / 1200.0, 8.3 + 250.4 / 1200.0, 2.0), {0.13}, 1.0, 8e3, 2},
+                    30000);
+    expect_lookouts("corner", surface, {eye_over(surface, 46.6, 8.3, 20.0), {0.2}, 0.0, 9e3, 2}, 7000);
+    expect_lookouts("outside", surface, {{46.61, 8.25, 2500.0}, {-0.3}, 2.0, 25e3, 2}, 50000);
+}
+
+TEST(Viewshed, IsTheLookoutsOverTheAntimeridianAndNearThePole) {
+    const HeightField fiji = test::made_field(-16.9, 179.9, 600.0, 120, 140, hills_H_m);
+    const TrueSurface over(fiji, 1.0, thread_count());
+    expect_lookouts("antimeridian", over, {eye_over(over, -17.0, -179.99, 10.0), standard_air, 2.0, 9e3, 2},
+                    5000);
+    const auto polar_H_m = [](double lat, double lon) {
+        // No seam.
+        const double x = (90.0 - lat) * std::cos(lon * 0.017453292519943295);
+        const double y = (90.0 - lat) * std::sin(lon * 0.017453292519943295);
+        return hills_H_m(x, y);
+    };
+    HeightField whole;
+    whole.grid.lat = {100.0, 0.0, 8999, -1, 150};
+    whole.grid.lon = {2.0, 0.0, -360, +1, 721};
+    for (int row = 0; row < 150; ++row) {
+        for (int column = 0; column < 721; ++column)
+            whole.H_m.push_back(polar_H_m(whole.grid.lat.at_deg(row), whole.grid.lon.at_deg(column)));
+    }
+    const TrueSurface polar(whole, 1.0, thread_count());
+    expect_lookouts("89 N", polar, {eye_over(polar, 89.0, 179.98, 20.0), standard_air, 2.0, 20e3, 2}, 500,
+                    5.0);
+    expect_lookouts("over the pole", polar, {eye_over(polar, 89.9, 20.3, 200.0), standard_air, 2.0, 15e3, 2},
+                    3000, 5.0);
+}
+
+TEST(Viewshed, HasNoAnswerForVoidsAndLooksOverThem) {
+    HeightField field = test::made_field(46.6, 8.3, 1200.0, 300, 300, hills_H_m);
+    std::mt19937_64 random(815);
+    std::printf("seed 815\n");
+    std::uniform_int_distribution<int> place(0, 280), size(0, 12);
+    for (int i = 0; i < 60; ++i) {
+        const int row = place(random), column = place(random), tall = size(random), wide = size(random);
+        for (int r = row; r <= row + tall; ++r) {
+            for (int c = column; c <= column + wide; ++c)
+                field.H_m[static_cast<std::size_t>(r * 300 + c)] = void_height_m;
+        }
+    }
+    field.H_m[150 * 300 + 150] = field.H_m[151 * 300 + 151] = hills_H_m(46.5, 8.4);
+    field.H_m[151 * 300 + 150] = field.H_m[150 * 300 + 151] = hills_H_m(46.5, 8.4);
+    const TrueSurface surface(field, 1.0, thread_count());
+    const ViewshedRequest request{
+        eye_over(surface, 46.6 - 150.5 / 1200.0, 8.3 + 150.4 / 1200.0, 120.0), {0.13}, 2.0, 9e3, 2};
+    expect_lookouts("voids", surface, request, 20000);
+    const Viewshed shed = viewshed(surface, request);
+    for (int row = 100; row < 200; ++row) {
+        for (int column = 100; column < 200; ++column) {
+            if (!is_void(field.H_at_post_m(row, column))) continue;
+            EXPECT_EQ(shed.missed_by_m[shed.window.number(row, column)], Viewshed::unknown);
+        }
+    }
+}
+
+TEST(Viewshed, IsTheSameForAnyNumberOfThreads) {
+    const HeightField field = test::made_field(46.6, 8.3, 1200.0, 200, 200, hills_H_m);
+    const TrueSurface surface(field, 1.0, 1);
+    ViewshedRequest request{eye_over(surface, 46.52, 8.38, 5.0), standard_air, 1.0, 6e3, 1};
+    const Viewshed one = viewshed(surface, request);
+    request.threads = 5;
+    EXPECT_EQ(one.missed_by_m, viewshed(surface, request).missed_by_m);
+}
+
+TEST(Viewshed, WindowsHoldTheCircle) {
+    const HeightField field = test::made_field(46.6, 8.3, 1200.0, 400, 500, hills_H_m);
+    EXPECT_EQ(window_around(field.grid, {10.0, 8.4, 0.0}, 20e3).rows, 0);
+    EXPECT_EQ(window_around(field.grid, {46.5, 100.0, 0.0}, 20e3).columns, 0);
+    // 1,000 m are 10.8 rows of 92.6 m and 15.6 columns of 63.9 m at 46.5 N, and 3 to spare.
+    const PostWindow window = window_around(field.grid, {46.5, 8.5, 0.0}, 1000.0);
+    EXPECT_NEAR(window.rows, 2 * 10.8 + 7.0, 2.0);
+    EXPECT_NEAR(window.columns, 2 * 15.6 + 7.0, 2.0);
+}
+
+}  // namespace
+}  // namespace oro
