@@ -1,7 +1,6 @@
 #include "core/sight/eye_plane.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <mutex>
 
@@ -79,13 +78,11 @@ glm::dvec3 EyePlane::normal(int row, int column) const {
 void EyePlane::measure(const PostGrid& grid, int threads) {
     std::mutex taking;
     double longest2 = 0.0, steepest2 = 0.0, most_rise_m = 0.0;
-    std::atomic<bool> voids{false};
     in_parallel(window_.rows, threads, [&](int row) {
         double own_longest2 = 0.0, own_steepest2 = 0.0, own_rise_m = 0.0;
         for (int column = 0; column < window_.columns; ++column) {
             const std::int64_t here = number(row, column);
             const PlanePost& a = post(here);
-            if (std::isnan(a.z)) voids = true;
             for (int i = 0; i < 3; ++i) {
                 const PlanePost& b = post(here + neighbours_[i]);
                 const double dx = b.x - a.x, dy = b.y - a.y, rise_m = std::abs(b.z - a.z);
@@ -103,7 +100,6 @@ void EyePlane::measure(const PostGrid& grid, int threads) {
         steepest2 = std::max(steepest2, own_steepest2);
         most_rise_m = std::max(most_rise_m, own_rise_m);
     });
-    has_voids_ = voids;
     longest_edge_m_ = std::sqrt(longest2) * (1.0 + 1.0e-9) + 1.0e-6;
     const double tall = radians_from_deg(grid.lat.spacing_deg()).rad;
     const double wide = radians_from_deg(grid.lon.spacing_deg()).rad;

@@ -38,7 +38,6 @@ class EyePlane {
     // The neighbours of a post, turning one way; each two that follow each other, and it, are a triangle.
     [[nodiscard]] const std::int64_t* neighbours() const { return neighbours_; }
 
-    [[nodiscard]] bool has_voids() const { return has_voids_; }
     // No edge is longer, in the plane.
     [[nodiscard]] double longest_edge_m() const { return longest_edge_m_; }
     // How much higher the ground of an edge is than the straight line between its posts, at a share of its
@@ -72,7 +71,6 @@ class EyePlane {
     };
     std::vector<RowTerms> rows_;
     std::vector<glm::dvec3> columns_;  // enu_from_ecef * (cos lon, sin lon, 0)
-    bool has_voids_{false};
     double longest_edge_m_{};
     double error_m_{};
 };

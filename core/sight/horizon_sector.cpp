@@ -41,7 +41,7 @@ double HorizonSector::most_tangent(const PlanePost& right, const PlanePost& left
     return highest + std::abs(highest) * across * across + 2.0 * plane_.error_m() / nearest_m;
 }
 
-void HorizonSector::add_edge(std::int64_t one, std::int64_t other) {
+void HorizonSector::add_edge(std::int64_t one, std::int64_t other, bool is_rim) {
     const double turned = turn(plane_.post(one), plane_.post(other));
     // An edge along a line of sight is as high as its ends, which other edges have, too. (No number: no
     // edge.)
@@ -64,6 +64,7 @@ void HorizonSector::add_edge(std::int64_t one, std::int64_t other) {
         const int number = wrapped(from + step - first_);
         if (number >= count) break;
         Range& range = own_[static_cast<std::size_t>(number)];
+        range.has_rim |= is_rim;
         if (most < range.lowest) continue;
         add_to(range, number, edge, step == 0, step == length);
     }
@@ -119,6 +120,7 @@ bool HorizonSector::horizon(const PlanePost& target, Horizon& horizon) const {
     const int count = static_cast<int>(own_.size());
     const Range& range = own_[static_cast<std::size_t>(std::clamp(number, 0, count - 1))];
     if (range.left_out >= range.lowest && range.left_out != Horizon::none) return false;
+    horizon.has_rim |= range.has_rim;
     const double length_m = target.distance_m;
     for (int i = 0; i < range.count; ++i) {
         const Edge& edge = range.edges[static_cast<std::size_t>(i)];

@@ -18,6 +18,7 @@ struct Horizon {
     double tangent{none};
     double lowest{none};  // the ground's own is between these
     double highest{none};
+    bool has_rim{false};  // on the way ground ends or begins: a line may run on below it
 
     void add(double height_m, double distance_m, double error_m) {
         const double per_m = 1.0 / distance_m;
@@ -41,7 +42,8 @@ class HorizonSector {
     HorizonSector(const EyePlane& plane, int ranges, int first, int count);
 
     // Takes the edge between two posts in; those that are farther than a target must come after it.
-    void add_edge(std::int64_t one, std::int64_t other);
+    // `is_rim`: there is ground on one side of it only.
+    void add_edge(std::int64_t one, std::int64_t other, bool is_rim);
     // The horizon in a target's own direction; false where too many edges came together.
     [[nodiscard]] bool horizon(const PlanePost& target, Horizon& horizon) const;
 
@@ -56,6 +58,7 @@ class HorizonSector {
         double lowest{Horizon::none};    // everywhere in it something is as high
         double left_out{Horizon::none};  // nothing that found no room was higher
         int count{0};
+        bool has_rim{false};
         std::array<Edge, most> edges;
     };
     [[nodiscard]] double most_tangent(const PlanePost& right, const PlanePost& left, double turned) const;

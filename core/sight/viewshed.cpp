@@ -156,11 +156,10 @@ void Sweep::add_edges(std::int64_t number, HorizonSector& sector) const {
         const PlanePost& its = plane_.post(other);
         const double its2 = along(its, its);
         if (!(its2 < own2 || (its2 == own2 && other < number))) continue;
+        const bool before = std::isnan(plane_.post(number + next[(i + 5) % 6]).z);
+        const bool after = std::isnan(plane_.post(number + next[(i + 1) % 6]).z);
         // An edge of no triangle is no ground.
-        if (plane_.has_voids() && std::isnan(plane_.post(number + next[(i + 1) % 6]).z) &&
-            std::isnan(plane_.post(number + next[(i + 5) % 6]).z))
-            continue;
-        sector.add_edge(number, other);
+        if (!(before && after)) sector.add_edge(number, other, before != after);
     }
 }
 
@@ -197,9 +196,11 @@ bool Sweep::walk(std::int64_t from, const PlanePost& target, double until_m, Hor
         const std::int64_t after = left + right - before;
         const PlanePost& third = plane_.post(after);
         const double height_m = (a.z * of_right + b.z * of_left) / sum + plane_.bulge_m(a, b, of_left / sum);
-        if (!std::isnan(height_m) &&
-            (!plane_.has_voids() || !std::isnan(third.z) || !std::isnan(plane_.post(before).z)))
+        const bool none_before = std::isnan(plane_.post(before).z), none_after = std::isnan(third.z);
+        if (!std::isnan(height_m) && !(none_before && none_after)) {
             horizon.add(height_m, distance_m, plane_.error_m());
+            horizon.has_rim |= none_before != none_after;
+        }
         if (distance_m < last_m) return true;
         const double turned = turn(target, third);
         if (std::isnan(turned)) return false;
@@ -268,7 +269,8 @@ float Sweep::missed_by_m(const Entry& entry, const HorizonSector& sector, double
     const double aside = std::abs(up.x * post.y - up.y * post.x) / s_m;
     const double slack_m = 1.0e-5 + 1.0e-9 * s_m + 10.0 * aside * target_m_;
     if (needed_m(horizon.highest) - target_m_ < -slack_m) return 0.0F;
-    if (needed_m(horizon.lowest) - target_m_ > slack_m) return static_cast<float>(rise_m);
+    // Below ground that ends a line may run free.
+    if (!horizon.has_rim && needed_m(horizon.lowest) - target_m_ > slack_m) return static_cast<float>(rise_m);
     return ask_oracle(entry, rise_m, asked);
 }
 

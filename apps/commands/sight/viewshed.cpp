@@ -1,5 +1,6 @@
 // orograph viewshed: what is seen from one place or several, as a GeoTIFF.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "core/base/parallel.h"
 #include "core/sight/viewshed.h"
 #include "geo/files/letter_case.h"
+#include "geo/places/geodesic.h"
 #include "geo/rasters/post_raster.h"
 
 namespace oro {
@@ -175,6 +177,28 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const Si
     std::printf("Light: %s\n", light_words(report.air, report.eyes.front().h_m).c_str());
 }
 
+// The sides on which a circle leaves the box of the data.
+std::string sides_beyond(const ViewshedReport& report, const PostGrid& grid) {
+    constexpr std::array<const char*, 4> names{"north", "east", "south", "west"};
+    std::array<bool, 4> beyond{};
+    const double middle_deg = 0.5 * (grid.west_deg() + grid.east_deg());
+    for (const Geodetic& eye : report.eyes) {
+        const double eye_deg = middle_deg + std::remainder(eye.lon_deg - middle_deg, 360.0);
+        const auto rim = [&](double bearing_deg) {
+            return geodesic_towards(eye.lat_deg, eye.lon_deg, bearing_deg, report.radius_km * 1000.0);
+        };
+        beyond[0] |= rim(0.0).lat_deg > grid.north_deg();
+        beyond[2] |= rim(180.0).lat_deg < grid.south_deg();
+        if (grid.goes_round()) continue;
+        beyond[1] |= eye_deg + std::remainder(rim(90.0).lon_deg - eye.lon_deg, 360.0) > grid.east_deg();
+        beyond[3] |= eye_deg + std::remainder(rim(270.0).lon_deg - eye.lon_deg, 360.0) < grid.west_deg();
+    }
+    std::string said;
+    for (std::size_t side = 0; side < names.size(); ++side)
+        if (beyond[side]) said += (said.empty() ? "" : ", ") + std::string(names[side]);
+    return said;
+}
+
 Result<void> place_eyes(const ViewshedOptions& options, const SightGround& ground, ViewshedReport& report) {
     for (const std::string& at : options.at) {
         ORO_TRY(const Geodetic eye,
@@ -221,6 +245,9 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_CHECK(write_post_raster(options.out, options.overwrite, raster_of(report, *ground)));
     bar.clear();
     say_notes(ground->region, options.quiet);
+    if (const std::string sides = sides_beyond(report, grid); !sides.empty())
+        say(options.quiet, "note: the circle reaches beyond the data (" + sides +
+                               "): what is seen there is not in the file");
     tell(options, report, *ground);
     return {};
 }

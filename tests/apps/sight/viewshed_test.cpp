@@ -95,6 +95,22 @@ TEST(ViewshedCommand, SeveralObserversAreCounted) {
     EXPECT_GT(both["cells"].get<int>(), one["cells"].get<int>());
 }
 
+// The bundled region is 36.45 to 36.73 N and 84.41 to 84.08 W: 5 km around the place are in it, 60 km leave
+// it.
+TEST(ViewshedCommand, TellsThatACircleLeavesTheData) {
+    const auto said = [](const char* at, const char* radius) {
+        const std::string out = (oro::test::scratch_folder() / "beyond.tif").string();
+        return run_orograph(
+                   {"viewshed", bundled(), "--overwrite", "--at", at, "--radius", radius, "--out", out})
+            .err;
+    };
+    EXPECT_EQ(said("36.5,-84.2", "5").find("beyond the data"), std::string::npos);
+    EXPECT_NE(said("36.5,-84.2", "60")
+                  .find("the circle reaches beyond the data (north, east, south, west): what is seen there "
+                        "is not in"),
+              std::string::npos);
+}
+
 TEST(ViewshedCommand, TheSameCommandWritesTheSameBytes) {
     const fs::path folder = oro::test::scratch_folder();
     for (const char* name : {"a.tif", "b.tif"})

@@ -159,7 +159,7 @@ TEST(Viewshed, HasNoAnswerForVoidsAndLooksOverThem) {
     field.H_m[151 * 300 + 150] = field.H_m[150 * 300 + 151] = hills_H_m(46.5, 8.4);
     const TrueSurface surface(field, 1.0, thread_count());
     const ViewshedRequest request{
-        eye_over(surface, 46.6 - 150.5 / 1200.0, 8.3 + 150.4 / 1200.0, 120.0), {0.13}, 2.0, 9e3, 2};
+        eye_over(surface, 46.6 - 150.5 / 1200.0, 8.3 + 150.4 / 1200.0, 1200.0), {0.13}, 2.0, 9e3, 2};
     expect_lookouts("voids", surface, request, 20000);
     const Viewshed shed = viewshed(surface, request);
     for (int row = 100; row < 200; ++row) {
