@@ -127,7 +127,9 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
          {{"--nonsense"}, "--nonsense: stands before the command: orograph COMMAND --nonsense"},
          {{"info", file, "--json=perhaps"}, "--json: takes no value"},
          {{"sho", file}, "sho: is no command: did you mean shot?"},
-         {{"fly"}, "fly: is no command; these are shot, view, compare, plan, trade, sun, bake, info and doctor"}});
+         {{"fly"},
+          "fly: is no command; these are shot, view, compare, plan, trade, sun, sight, profile, viewshed, "
+          "bake, info and doctor"}});
 }
 
 TEST(RefusedOptions, NamesOfFilesToWrite) {
