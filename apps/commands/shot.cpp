@@ -59,9 +59,7 @@ bool is_check(const ShotOptions& options, const PictureFiles& files) {
 }
 
 void say_notes(const ShotOptions& options, const ShotResult& shot) {
-    for (const std::string& note : shot.region.notes) say(options.quiet, "note: " + note);
-    if (const std::string holes = note_of_voids(shot.region); !holes.empty())
-        say(options.quiet, "note: " + holes);
+    say_notes(shot.region, options.quiet);
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
     if (shot.view.vectors_read) say_vectors(*shot.view.vectors_read, shot.view.vectors, options.quiet);
     const Geodetic& eye = shot.view.camera.eye;

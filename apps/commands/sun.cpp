@@ -94,8 +94,7 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
         crossing.data_reach_m = data_reach_m(region.field.grid, eye, crossing.azimuth_deg);
     ORO_CHECK(region.field.health());
     bar.clear();
-    for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
-    if (const std::string holes = note_of_voids(region); !holes.empty()) say(options.quiet, "note: " + holes);
+    say_notes(region, options.quiet);
     report.place = eye;
     report.H_m = eye.h_m - N_m;
     if (const auto ground = ground_h_m(region.field, eye.lat_deg, eye.lon_deg))

@@ -1,5 +1,6 @@
 #include "apps/names/named_points.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -42,6 +43,14 @@ std::optional<double> metres_from(std::string_view text) {
     if (figures.empty() || read.ec != std::errc() || read.ptr != end || !(std::abs(metres) <= most_metres))
         return std::nullopt;
     return metres;
+}
+
+bool has_named_point(const VectorFile& file, const std::string& name_field) {
+    return std::ranges::any_of(file.layers, [&](const VectorLayer& layer) {
+        return std::ranges::any_of(layer.shapes, [&](const VectorShape& shape) {
+            return shape.kind == VectorKind::point && !tidied(layer.text(shape, name_field)).empty();
+        });
+    });
 }
 
 std::vector<NamedPoint> named_points(const VectorFile& file, const std::string& name_field) {

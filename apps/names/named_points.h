@@ -22,6 +22,8 @@ struct NamedPoint {
 
 // The points of a file that have something in the field of the name. A name is one line.
 std::vector<NamedPoint> named_points(const VectorFile& file, const std::string& name_field);
+// Whether there is one.
+bool has_named_point(const VectorFile& file, const std::string& name_field);
 
 // Metres from what people write into such fields: "2962", "2962 m", "2,962.5"; nothing of what is none.
 std::optional<double> metres_from(std::string_view text);

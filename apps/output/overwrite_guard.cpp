@@ -22,17 +22,33 @@ Result<void> spare_files(const std::vector<std::string>& written, const std::vec
     return {};
 }
 
-Result<void> spare_inputs(const std::vector<std::string>& written, const View& view, const Region& region) {
-    std::vector<std::string> inputs{view.style};
-    for (const std::string& path : view.region.paths) inputs.push_back(path);
-    inputs.insert(inputs.end(), view.drape.begin(), view.drape.end());
-    VectorChoices vectors = view.vectors;
-    for (const std::string* const file : vectors.paths()) inputs.push_back(*file);
+namespace {
+
+void add_ground(const std::vector<std::string>& paths, const Region& region,
+                std::vector<std::string>& inputs) {
+    inputs.insert(inputs.end(), paths.begin(), paths.end());
     for (const SourceReport& source : region.sources) {
         inputs.push_back(source.path);
         inputs.insert(inputs.end(), source.files.begin(), source.files.end());
     }
+}
+
+}  // namespace
+
+Result<void> spare_inputs(const std::vector<std::string>& written, const View& view, const Region& region) {
+    std::vector<std::string> inputs{view.style};
+    add_ground(view.region.paths, region, inputs);
+    inputs.insert(inputs.end(), view.drape.begin(), view.drape.end());
+    VectorChoices vectors = view.vectors;
+    for (const std::string* const file : vectors.paths()) inputs.push_back(*file);
     return spare_files(written, inputs, "which the picture is made from");
+}
+
+Result<void> spare_ground(const std::vector<std::string>& written, const std::vector<std::string>& paths,
+                          const Region& region) {
+    std::vector<std::string> inputs;
+    add_ground(paths, region, inputs);
+    return spare_files(written, inputs, "which the elevation data are in");
 }
 
 Result<void> spare_view(const std::vector<std::string>& written, const std::string& view_file) {

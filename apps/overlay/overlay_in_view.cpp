@@ -6,7 +6,7 @@
 
 #include "apps/names/named_points.h"
 #include "apps/overlay/line_masks.h"
-#include "apps/vectors/colour_text.h"
+#include "apps/styles/colour_text.h"
 #include "apps/view/view_limits.h"
 #include "core/base/elapsed.h"
 

@@ -4,6 +4,7 @@
 
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
+#include "apps/report/progress_bar.h"
 #include "core/baked/region_format.h"
 #include "geo/files/foreign_text.h"
 #include "geo/region/source_fields.h"
@@ -90,6 +91,11 @@ std::string note_of_voids(const Region& region) {
     add(region.in_missing, "post is a hole", "posts are holes",
         ": " + counted(region.missing_cells.size(), "cell has no file", "cells have no file"));
     return note;
+}
+
+void say_notes(const Region& region, bool quiet) {
+    for (const std::string& note : region.notes) say(quiet, "note: " + note);
+    if (const std::string holes = note_of_voids(region); !holes.empty()) say(quiet, "note: " + holes);
 }
 
 std::string attribution_of(const Region& region) {

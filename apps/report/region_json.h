@@ -14,6 +14,8 @@ nlohmann::ordered_json file_json(const Region& region);
 
 // A line about the region's posts without a height, by why, if it has any.
 std::string note_of_voids(const Region& region);
+// Its notes and that one on standard error, unless quiet.
+void say_notes(const Region& region, bool quiet);
 
 // All attributions of a region, each once, joined by "; ".
 std::string attribution_of(const Region& region);

@@ -1,21 +1,19 @@
 #include "apps/styles/style_fields.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <optional>
 #include <string>
 
 #include "apps/report/json_fields.h"
+#include "apps/styles/colour_text.h"
 
 namespace oro {
 
 ColourCodes colour_of(const nlohmann::json& object, const char* name) {
     const std::string text = json_string(object, name);
-    if (text.size() != 7 || text[0] != '#' ||
-        text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
-        throw JsonFault{"'" + text + "' is not a colour like #a0b1c2"};
-    const long value = std::strtol(text.c_str() + 1, nullptr, 16);
-    return {static_cast<int>(value >> 16 & 255), static_cast<int>(value >> 8 & 255),
-            static_cast<int>(value & 255)};
+    const std::optional<ColourCodes> colour = colour_from(text);
+    if (!colour) throw JsonFault{"'" + text + "' is not a colour like #a0b1c2"};
+    return *colour;
 }
 
 float style_number(const nlohmann::json& object, const char* name, double low, double high) {

@@ -9,8 +9,8 @@
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/progress_bar.h"
+#include "apps/styles/colour_text.h"
 #include "apps/styles/style_fields.h"
-#include "apps/vectors/colour_text.h"
 #include "apps/view/path_json.h"
 #include "apps/view/view_limits.h"
 
@@ -131,7 +131,7 @@ void say_vectors(const VectorsRead& vectors, const VectorChoices& choices, bool 
         }
     }
     for (const VectorFile& file : vectors.names) {
-        if (named_points(file, choices.names_field).empty())
+        if (!has_named_point(file, choices.names_field))
             say(quiet, "note: " + file.file + ": has no point with something in the field '" +
                            choices.names_field + "': nothing of it is named");
     }

@@ -371,8 +371,7 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     bar.clear();
     say_changes(view, options.quiet);
-    for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
-    if (const std::string holes = note_of_voids(region); !holes.empty()) say(options.quiet, "note: " + holes);
+    say_notes(region, options.quiet);
     if (const std::string note = note_of_year(view.sun); !note.empty()) say(options.quiet, note);
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);

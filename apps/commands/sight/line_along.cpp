@@ -92,21 +92,23 @@ Result<LineAlong> line_along(const std::string& text, const std::optional<int>& 
     line.distances_m.push_back(0.0);
     for (std::size_t i = 1; i < line.places.size(); ++i) {
         const LatLon &from = line.places[i - 1], &to = line.places[i];
-        line.distances_m.push_back(
-            line.distances_m.back() +
-            geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg).distance_m);
+        const GeodesicPath path = geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg);
+        line.distances_m.push_back(line.distances_m.back() + path.distance_m);
+        line.bearings_deg.push_back(path.bearing_deg);
     }
     if (!(line.distances_m.back() > 0.0)) return refused("--along", text, "has no length");
     return line;
 }
 
+LatLon place_on_leg(const LineAlong& line, std::size_t leg, double along_m) {
+    const LatLon& from = line.places[leg];
+    return geodesic_towards(from.lat_deg, from.lon_deg, line.bearings_deg[leg],
+                            along_m - line.distances_m[leg]);
+}
+
 LatLon place_on_line(const LineAlong& line, double along_m) {
     const auto after = std::upper_bound(line.distances_m.begin() + 1, line.distances_m.end() - 1, along_m);
-    const auto leg = static_cast<std::size_t>(after - line.distances_m.begin()) - 1;
-    const LatLon &from = line.places[leg], &to = line.places[leg + 1];
-    const double bearing_deg =
-        geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg).bearing_deg;
-    return geodesic_towards(from.lat_deg, from.lon_deg, bearing_deg, along_m - line.distances_m[leg]);
+    return place_on_leg(line, static_cast<std::size_t>(after - line.distances_m.begin()) - 1, along_m);
 }
 
 }  // namespace oro

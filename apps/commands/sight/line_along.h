@@ -12,10 +12,11 @@ namespace oro {
 
 // Places, each joined to the next by the shortest way over the ellipsoid.
 struct LineAlong {
-    std::vector<LatLon> places;       // two or more, not all one
-    std::vector<double> distances_m;  // of each from the first, along the line
-    std::string file;                 // that it was read from; "" of places on the command line
-    std::vector<std::string> notes;   // what a user must know, one line each
+    std::vector<LatLon> places;        // two or more, not all one
+    std::vector<double> distances_m;   // of each from the first, along the line
+    std::vector<double> bearings_deg;  // from each but the last to the next, true, where the way begins
+    std::string file;                  // that it was read from; "" of places on the command line
+    std::vector<std::string> notes;    // what a user must know, one line each
 };
 
 // From the value of --along: a file, or places with ; between them. `number`: which line of a file, from 1.
@@ -23,7 +24,8 @@ struct LineAlong {
 // file without a line, or with several and no number (usage).
 Result<LineAlong> line_along(const std::string& text, const std::optional<int>& number);
 
-// The place so far along the line.
+// The place so far along the line; on_leg: of the way from place `leg` to the next, which it is on.
 LatLon place_on_line(const LineAlong& line, double along_m);
+LatLon place_on_leg(const LineAlong& line, std::size_t leg, double along_m);
 
 }  // namespace oro

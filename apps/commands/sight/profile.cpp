@@ -9,6 +9,7 @@
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
 #include "apps/view/view.h"
 #include "core/base/file_there.h"
 #include "geo/files/letter_case.h"
@@ -67,14 +68,12 @@ std::vector<ProfilePoint> points_of(const LineAlong& line, const std::optional<d
     }
     for (std::size_t leg = 0; leg + 1 < line.places.size(); ++leg) {
         const LatLon &from = line.places[leg], &to = line.places[leg + 1];
-        const double bearing_deg =
-            geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg).bearing_deg;
         const double from_m = line.distances_m[leg], to_m = line.distances_m[leg + 1];
         const auto way = [&](double along_m) {
             // Exactly the line's own places, where it has them.
             if (along_m == from_m) return Geodetic{from.lat_deg, from.lon_deg, 0.0};
             if (along_m == to_m) return Geodetic{to.lat_deg, to.lon_deg, 0.0};
-            const LatLon place = geodesic_towards(from.lat_deg, from.lon_deg, bearing_deg, along_m - from_m);
+            const LatLon place = place_on_leg(line, leg, along_m);
             return Geodetic{place.lat_deg, place.lon_deg, 0.0};
         };
         if (to_m > from_m) add_profile(surface, way, from_m, to_m, points);
@@ -102,7 +101,7 @@ Result<void> run_profile(const ProfileOptions& options) {
                 bar.show(share, "reading " + what);
             }));
     if (!options.out.empty()) {
-        ORO_CHECK(spare_ground({options.out}, options.region, ground->region));
+        ORO_CHECK(spare_ground({options.out}, options.region.paths, ground->region));
         if (!profile.line.file.empty())
             ORO_CHECK(spare_files({options.out}, {profile.line.file}, "which the line is read from"));
     }

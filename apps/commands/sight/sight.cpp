@@ -9,6 +9,7 @@
 #include "apps/commands/sight/sight_text.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
 #include "apps/view/view.h"
 
 namespace oro {

@@ -5,10 +5,7 @@
 #include <utility>
 
 #include "apps/command_line/refusals.h"
-#include "apps/output/overwrite_guard.h"
 #include "apps/report/json_object.h"
-#include "apps/report/progress_bar.h"
-#include "apps/report/region_json.h"
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
 #include "core/base/parallel.h"
@@ -33,21 +30,6 @@ Result<std::unique_ptr<const SightGround>> open_sight_ground(const RegionOptions
     ORO_TRY(ground->region, open_region(request, progress));
     ground->surface = std::make_unique<const TrueSurface>(ground->region.field, 1.0, thread_count());
     return std::unique_ptr<const SightGround>(std::move(ground));
-}
-
-Result<void> spare_ground(const std::vector<std::string>& written, const RegionOptions& options,
-                          const Region& region) {
-    std::vector<std::string> inputs = options.paths;
-    for (const SourceReport& source : region.sources) {
-        inputs.push_back(source.path);
-        inputs.insert(inputs.end(), source.files.begin(), source.files.end());
-    }
-    return spare_files(written, inputs, "which the elevation data are in");
-}
-
-void say_notes(const Region& region, bool quiet) {
-    for (const std::string& note : region.notes) say(quiet, "note: " + note);
-    if (const std::string holes = note_of_voids(region); !holes.empty()) say(quiet, "note: " + holes);
 }
 
 Result<void> check_above(const char* option, const std::optional<double>& above_m) {

@@ -26,13 +26,6 @@ struct SightGround {
 Result<std::unique_ptr<const SightGround>> open_sight_ground(const RegionOptions& options,
                                                              const Progress& progress);
 
-// Errors (usage): a file to be written is one of those that the ground is made of.
-Result<void> spare_ground(const std::vector<std::string>& written, const RegionOptions& options,
-                          const Region& region);
-
-// Notes about a region on standard error, unless quiet.
-void say_notes(const Region& region, bool quiet);
-
 // Refuses a height over the ground below 0: `option` is how it was given.
 Result<void> check_above(const char* option, const std::optional<double>& above_m);
 // Where somebody stands, or what is looked at. On the ground means least_above_m over it. Errors: those of

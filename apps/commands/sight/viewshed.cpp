@@ -8,10 +8,12 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/sight_ground.h"
+#include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
 #include "core/base/elapsed.h"
@@ -220,7 +222,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
-    ORO_CHECK(spare_ground({options.out}, options.region, ground->region));
+    ORO_CHECK(spare_ground({options.out}, options.region.paths, ground->region));
     ORO_CHECK(place_eyes(options, *ground, report));
     const PostGrid& grid = ground->region.field.grid;
     ORO_CHECK(make_window(options, grid, report));

@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "tests/support/made_terrain.h"
 #include "tests/support/marched_line.h"
+#include "tests/support/rough_terrain.h"
 
 namespace oro {
 namespace {
@@ -19,14 +20,7 @@ using test::MarchedLine;
 
 // Mountains of 1,500 m with ridges a few cells wide.
 float mountains_H_m(double lat_deg, double lon_deg) {
-    double H_m = 1200.0, height_m = 700.0, per_deg = 60.0;
-    for (int octave = 0; octave < 6; ++octave) {
-        H_m += height_m * std::sin(per_deg * lat_deg + 1.3 * octave) *
-               std::cos(0.8 * per_deg * lon_deg - 0.7 * octave);
-        height_m *= 0.5;
-        per_deg *= 2.03;
-    }
-    return static_cast<float>(H_m);
+    return static_cast<float>(test::Waves{1200.0, 700.0, 60.0, 6}.H_m(lat_deg, lon_deg));
 }
 
 struct Pairs {

@@ -11,19 +11,13 @@
 #include "core/base/parallel.h"
 #include "core/terrain/drawn_heights.h"
 #include "tests/support/made_terrain.h"
+#include "tests/support/rough_terrain.h"
 
 namespace oro {
 namespace {
 
 float hills_H_m(double lat_deg, double lon_deg) {
-    double H_m = 1200.0, height_m = 500.0, per_deg = 90.0;
-    for (int octave = 0; octave < 7; ++octave) {
-        H_m += height_m * std::sin(per_deg * lat_deg + 1.3 * octave) *
-               std::cos(0.8 * per_deg * lon_deg - 0.7 * octave);
-        height_m *= 0.5;
-        per_deg *= 2.03;
-    }
-    return static_cast<float>(H_m);
+    return static_cast<float>(test::Waves{1200.0, 500.0, 90.0, 7}.H_m(lat_deg, lon_deg));
 }
 
 struct Tally {

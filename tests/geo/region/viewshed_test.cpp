@@ -18,6 +18,7 @@
 #include "core/sight/viewshed.h"
 #include "core/truth/oracle.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -308,14 +309,7 @@ TEST(Viewshed, OfARealTileIsGdals) {
 // H from waves of 18 km down to 1 km. With shorter ones (test::rough_H_m) cells of 60 m are too coarse: 98.4
 // % agree, and of the cells that either sees, both see 76 to 90 %; with cells of 30 m 99.2 % and 84 to 92 %.
 double wavy_H_m(double lat_deg, double lon_deg) {
-    double H_m = 1500.0, height_m = 900.0, per_deg = 40.0;
-    for (int octave = 0; octave < 5; ++octave) {
-        H_m += height_m * std::sin(per_deg * lat_deg + 1.3 * octave) *
-               std::cos(0.8 * per_deg * lon_deg - 0.7 * octave);
-        height_m *= 0.5;
-        per_deg *= 2.03;
-    }
-    return H_m;
+    return test::Waves{1500.0, 900.0, 40.0, 5}.H_m(lat_deg, lon_deg);
 }
 
 TEST(Viewshed, OfMadeTerrainIsGdals) {

@@ -1,4 +1,4 @@
-#include "apps/vectors/colour_text.h"
+#include "apps/styles/colour_text.h"
 
 #include <charconv>
 #include <cstdio>
