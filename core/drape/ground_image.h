@@ -24,7 +24,7 @@ struct ImageTile {
 // Number in the region of the place of texel i of a tile, along either axis: its middle. i is -1 .. 256, the
 // first and the last are those of the rim.
 [[nodiscard]] inline double post_of_texel(int level, int tile, int i) {
-    const double quad = std::int64_t{tile} * gpu::page_quads + 0.5 * (i + 0.5);
+    const double quad = static_cast<double>(std::int64_t{tile} * gpu::page_quads) + 0.5 * (i + 0.5);
     return level >= 0 ? quad * static_cast<double>(std::int64_t{1} << level)
                       : quad / static_cast<double>(std::int64_t{1} << -level);
 }

@@ -10,7 +10,7 @@
 namespace oro {
 namespace {
 
-constexpr double day_s = 86400.0, step_s = 10.0;
+constexpr double step_s = 10.0;
 constexpr int steps = 8640;
 
 // How far below level the sea's horizon is seen by an eye over it, 0 or less.

@@ -286,7 +286,7 @@ void Sweep::sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) con
             if (entry->visits) continue;
             const std::size_t cell =
                 static_cast<std::size_t>(entry->row) * static_cast<std::size_t>(window_.columns) +
-                entry->column;
+                static_cast<std::size_t>(entry->column);
             viewshed.missed_by_m[cell] = missed_by_m(*entry, horizon, shell * shells_.width_m, asked);
         }
         for (const Entry* entry = from; entry != to; ++entry)
