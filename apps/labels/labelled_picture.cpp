@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
+#include <optional>
 
 #include "apps/text/inked_rows.h"
 #include "apps/text/text_face.h"
@@ -70,14 +72,15 @@ Result<std::vector<LineLabel>> add_line_labels(const TextFace& face, const SeenH
 }
 
 // What a view's vector files put on its picture.
-Result<void> find_vectors(const View& view, const HeightField& field, const TextFace& face,
-                          LabelledPicture& picture) {
+Result<void> find_vectors(const View& view, const HeightField& field, const TrueSurface* known,
+                          const TextFace& face, ViewWriting& writing) {
     const std::vector<NamedPoint> points = points_of(view);
     if (points.empty() && view.vectors_read->overlay.empty()) return {};
-    const TrueSurface surface(field, view.exaggeration, thread_count());
-    const PointsInView in_view(surface, view.camera, view.model);
-    picture.overlay = overlay_in_view(view, surface, in_view);
-    ORO_TRY(picture.names, names_in_view(points, in_view, view.camera, face));
+    std::optional<TrueSurface> own;
+    if (known == nullptr) known = &own.emplace(field, view.exaggeration, thread_count());
+    const PointsInView in_view(*known, view.camera, view.model);
+    writing.overlay = overlay_in_view(view, *known, in_view);
+    ORO_TRY(writing.names, names_in_view(points, in_view, view.camera, face));
     // What could not be read counts as void: sight lines went through it.
     return field.health();
 }
@@ -93,31 +96,46 @@ PictureOptions picture_options(const View& view, RasterPath path) {
     return options;
 }
 
+bool has_writing(const View& view, const Style& style) {
+    return style.labels_px > 0.0 || view.vectors_read;
+}
+
+Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view, const HeightField& field,
+                                 const TrueSurface* surface, const Style& style, RasterPath path) {
+    ViewWriting writing;
+    if (!has_writing(view, style)) return writing;
+    ORO_TRY(const TextFace face, TextFace::open());
+    if (view.vectors_read) ORO_CHECK(find_vectors(view, field, surface, face, writing));
+    writing.texts = std::move(writing.names.inked);
+    if (style.labels_px > 0.0) {
+        ORO_TRY(const SeenHeights seen,
+                seen_heights(gpu, scene, view.camera, picture_options(view, path), view.exaggeration, field));
+        ORO_TRY(writing.labels, add_line_labels(face, seen, style, writing.names.labels, writing.texts));
+    }
+    return writing;
+}
+
+RowSink written_rows(ViewWriting& writing, const Camera& camera, const RowSink& sink) {
+    if (writing.is_empty()) return sink;
+    const auto written =
+        std::make_shared<InkedRows>(camera.width_px, camera.height_px, std::move(writing.texts), sink);
+    const auto lined = std::make_shared<InkedRows>(
+        camera.width_px, camera.height_px, std::move(writing.overlay.inked),
+        [written](std::span<const std::uint8_t> row) { return written->take(row); });
+    return [lined](std::span<const std::uint8_t> row) { return lined->take(row); };
+}
+
 Result<LabelledPicture> render_labelled(const Gpu& gpu, Scene& scene, const View& view,
                                         const HeightField& field, const Style& style, RasterPath path,
                                         const RowSink& sink, const RenderProgress& progress) {
-    const PictureOptions options = picture_options(view, path);
-    const Camera& camera = view.camera;
+    ORO_TRY(ViewWriting writing, find_writing(gpu, scene, view, field, nullptr, style, path));
+    const RowSink rows = written_rows(writing, view.camera, sink);
     LabelledPicture picture;
-    if (style.labels_px <= 0.0 && !view.vectors_read) {
-        ORO_TRY(picture.report, render_picture(gpu, scene, camera, style.frame, options, sink, progress));
-        return picture;
-    }
-    ORO_TRY(const TextFace face, TextFace::open());
-    if (view.vectors_read) ORO_CHECK(find_vectors(view, field, face, picture));
-    std::vector<InkedText> texts = std::move(picture.names.inked);
-    if (style.labels_px > 0.0) {
-        ORO_TRY(const SeenHeights seen, seen_heights(gpu, scene, camera, options, view.exaggeration, field));
-        ORO_TRY(picture.labels, add_line_labels(face, seen, style, picture.names.labels, texts));
-    }
-    // Lines first, what is written over them.
-    InkedRows written(camera.width_px, camera.height_px, std::move(texts), sink);
-    InkedRows lined(camera.width_px, camera.height_px, std::move(picture.overlay.inked),
-                    [&](std::span<const std::uint8_t> row) { return written.take(row); });
-    ORO_TRY(picture.report,
-            render_picture(
-                gpu, scene, camera, style.frame, options,
-                [&](std::span<const std::uint8_t> row) { return lined.take(row); }, progress));
+    picture.labels = std::move(writing.labels);
+    picture.names = std::move(writing.names);
+    picture.overlay = std::move(writing.overlay);
+    ORO_TRY(picture.report, render_picture(gpu, scene, view.camera, style.frame, picture_options(view, path),
+                                           rows, progress));
     return picture;
 }
 

@@ -11,10 +11,30 @@
 
 namespace oro {
 
-// Draws a view's picture as render_picture() does, and writes the heights of its contour lines on it where
-// the style has them, the lines of its vector files and the names of their points. All of them are found
-// before anything is drawn, so that rows go on as they come. Where a name stands there is no label. Errors:
-// those of render_picture(), of pages, and of text.
+// What is written over a view's picture: the heights of its contour lines where the style has them, the lines
+// of its vector files and the names of their points. Where a name stands there is no label.
+struct ViewWriting {
+    std::vector<LineLabel> labels;  // from the top down
+    NamesInView names;
+    OverlayInView overlay;
+    std::vector<InkedText> texts;  // labels and names as pixels
+
+    [[nodiscard]] bool is_empty() const { return texts.empty() && overlay.inked.empty(); }
+};
+// Whether a view can have any.
+[[nodiscard]] bool has_writing(const View& view, const Style& style);
+
+// Finds it. surface: the view's field with its exaggeration, for the sight lines to what is named. Errors:
+// those of pages, of the device, and of text.
+Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view, const HeightField& field,
+                                 const TrueSurface* surface, const Style& style, RasterPath path);
+
+// A sink for a picture's rows (width * 3 bytes of sRGB, from the top down) that hands them on to `sink` with
+// the writing over them; lines first, then what is written over these.
+RowSink written_rows(ViewWriting& writing, const Camera& camera, const RowSink& sink);
+
+// Draws a view's picture as render_picture() does, with its writing, which is found before anything is drawn,
+// so that rows go on as they come. Errors: those of render_picture() and of find_writing().
 struct LabelledPicture {
     PictureReport report;
     std::vector<LineLabel> labels;  // from the top down

@@ -16,15 +16,15 @@
 #include "apps/report/region_json.h"
 #include "apps/view/style.h"
 #include "apps/view/view_changes.h"
-#include "apps/window/flight.h"
 #include "apps/window/picking.h"
+#include "apps/window/steering.h"
+#include "apps/window/written_frame.h"
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
 #include "core/truth/true_surface.h"
 #include "geo/places/place.h"
-#include "render/window.h"
 
 namespace oro {
 namespace {
@@ -39,6 +39,7 @@ struct Viewer {
     std::unique_ptr<Scene> scene;  // of every n-th post while `finer` is being measured
     Window& window;
     FrameRenderer& renderer;
+    RasterPath path;
     bool asking_place{false};
     std::string place_text{};
     std::string shown_title{};
@@ -59,10 +60,14 @@ void say_waited(const Viewer& viewer, const char* what) {
     say(viewer.options.quiet, text);
 }
 
-Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px) {
+const TrueSurface& surface_of(Viewer& viewer) {
     if (!viewer.surface)
         viewer.surface.emplace(viewer.region.field, viewer.view.exaggeration, thread_count());
-    return place_seen(viewer.view, viewer.region, *viewer.surface, point_px);
+    return *viewer.surface;
+}
+
+Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px) {
+    return place_seen(viewer.view, viewer.region, surface_of(viewer), point_px);
 }
 
 std::string title_of(const Viewer& viewer) {
@@ -77,31 +82,6 @@ std::string title_of(const Viewer& viewer) {
         std::snprintf(coarse, sizeof coarse, "coarse: finer detail is measured, %.0f %%  |  ",
                       100.0 * viewer.finer->share());
     return coarse + (viewer.message.empty() ? "" : viewer.message + "  |  ") + text;
-}
-
-FlightStep step_of(const WindowInput& input, const Camera& camera) {
-    const auto axis = [&](Key plus, Key minus) {
-        return (input.is_held(plus) ? 1.0 : 0.0) - (input.is_held(minus) ? 1.0 : 0.0);
-    };
-    FlightStep step;
-    step.forward = axis(Key::forward, Key::back);
-    step.right = axis(Key::right, Key::left);
-    step.up = axis(Key::up, Key::down);
-    step.fast = input.is_held(Key::fast);
-    step.elapsed_s = std::min(input.elapsed_s, 0.25);  // a slow frame must not become a leap
-    const double turn_deg_s = camera.vertical_fov_deg;
-    const double deg_per_px = camera.vertical_fov_deg / camera.height_px;
-    // Dragging takes hold of the scene: it follows the cursor.
-    step.turn_right_deg =
-        axis(Key::look_right, Key::look_left) * turn_deg_s * step.elapsed_s - input.dragged_px.x * deg_per_px;
-    step.turn_up_deg =
-        axis(Key::look_up, Key::look_down) * turn_deg_s * step.elapsed_s + input.dragged_px.y * deg_per_px;
-    return step;
-}
-
-bool moves(const FlightStep& step) {
-    return step.forward != 0.0 || step.right != 0.0 || step.up != 0.0 || step.turn_right_deg != 0.0 ||
-           step.turn_up_deg != 0.0;
 }
 
 // Jumps to a place, as high over its ground as the eye was over the old one.
@@ -256,12 +236,21 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
     return true;
 }
 
-// Some time after the eye has moved it rests: contour lines, which stayed, are then those of its view.
+// Some time after the eye has moved it rests: contour lines, which stayed, are then those of its view, and
+// what is written over pictures is there again.
 bool comes_to_rest(Viewer& viewer) {
     constexpr double rest_s = 0.4;
     if (!viewer.follows_eye || seconds_since(viewer.moved) < rest_s) return false;
     viewer.follows_eye = false;
-    return viewer.style.contours_by_view;
+    return viewer.style.contours_by_view || has_writing(viewer.view, viewer.style);
+}
+
+// Over a frame that is whole, of an eye that rests. Finding it takes too long for an eye that moves.
+Result<void> write_over(Viewer& viewer, const FrameReport& drawn) {
+    const bool whole = viewer.missing.empty() && drawn.images_settled && !viewer.finer;
+    if (viewer.follows_eye || !whole || !has_writing(viewer.view, viewer.style)) return {};
+    return write_over_frame(viewer.gpu, *viewer.scene, viewer.view, viewer.region.field, surface_of(viewer),
+                            viewer.style, viewer.path, viewer.renderer);
 }
 
 // Draws with what is on the GPU; what is missing comes in the background and is drawn when it is there.
@@ -297,6 +286,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     ORO_TRY(const FrameReport drawn,
             viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drape()));
+    ORO_CHECK(write_over(viewer, drawn));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown || !drawn.images_settled;
     if (shown && !viewer.is_shown) {
@@ -384,9 +374,15 @@ Result<void> run_view(const WindowOptions& options) {
     renderer_options.smooth_edges = style.frame.smooth_edges != 0;
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
-    Viewer viewer{
-        options, std::move(view), std::move(region), style, *gpu, std::make_unique<Scene>(std::move(scene)),
-        *window, renderer};
+    Viewer viewer{options,
+                  std::move(view),
+                  std::move(region),
+                  style,
+                  *gpu,
+                  std::make_unique<Scene>(std::move(scene)),
+                  *window,
+                  renderer,
+                  renderer_options.path};
     viewer.started = started;
     if (coarse_first) viewer.finer = std::make_unique<FinerLevels>(viewer.region, viewer.view.exaggeration);
     return run_loop(viewer);

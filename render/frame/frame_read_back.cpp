@@ -45,6 +45,25 @@ Result<std::vector<std::uint8_t>> FrameRenderer::read_picture(std::uint32_t widt
     return as_vector<std::uint8_t>(bytes);
 }
 
+Result<void> FrameRenderer::replace_picture(std::span<const std::uint8_t> rgba, std::uint32_t width,
+                                            std::uint32_t height) {
+    assert(rgba.size() == std::size_t{4} * width * height);
+    ORO_TRY(const Buffer buffer, create_buffer(*gpu_, rgba.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                               MemoryKind::upload, "picture with writing"));
+    std::memcpy(buffer.mapped, rgba.data(), rgba.size());
+    return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+        const ImageUse as_target{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                                 VK_ACCESS_2_TRANSFER_WRITE_BIT};
+        image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, shader_write, as_target);
+        VkBufferImageCopy copy{};
+        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        copy.imageExtent = {width, height, 1};
+        vkCmdCopyBufferToImage(commands, buffer.handle.get(), picture_.handle.get(), as_target.layout, 1,
+                               &copy);
+        image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, as_target, shader_write);
+    });
+}
+
 // Words of a buffer on the device.
 Result<std::vector<std::uint32_t>> FrameRenderer::read_words(const Buffer& source, VkDeviceSize first,
                                                              std::size_t count) {

@@ -93,7 +93,8 @@ Result<void> FrameRenderer::create_images() {
                                  VK_IMAGE_ASPECT_DEPTH_BIT, "depth"));
     ORO_TRY(sum_, create_image(*gpu_, sum_format, sum_extent, VK_IMAGE_USAGE_STORAGE_BIT,
                                VK_IMAGE_ASPECT_COLOR_BIT, "sum of samples"));
-    ORO_TRY(picture_, create_image(*gpu_, picture_format_vk, extent, VK_IMAGE_USAGE_STORAGE_BIT | read_back,
+    ORO_TRY(picture_, create_image(*gpu_, picture_format_vk, extent,
+                                   VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | read_back,
                                    VK_IMAGE_ASPECT_COLOR_BIT, "picture"));
     return {};
 }

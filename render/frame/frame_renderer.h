@@ -62,6 +62,10 @@ class FrameRenderer {
 
     // The picture's top left width x height pixels as RGBA rows, sRGB.
     Result<std::vector<std::uint8_t>> read_picture(std::uint32_t width, std::uint32_t height);
+    // The inverse: puts such rows, four bytes a pixel, where the frame's own were. For what is written over a
+    // picture before a window shows it.
+    Result<void> replace_picture(std::span<const std::uint8_t> rgba, std::uint32_t width,
+                                 std::uint32_t height);
     // Triangle ids of the last frame, which was that large (for tests and picking).
     Result<std::vector<std::uint32_t>> read_ids(std::uint32_t width, std::uint32_t height);
     // With keep_depths: reversed depth of each of its pixels at the centre, from the triangle seen there; 0
