@@ -12,7 +12,6 @@
 #include <iostream>
 #include <new>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "apps/command_line/command_line.h"
@@ -57,14 +56,15 @@ int told_unforeseen(const char* what) {
     return static_cast<int>(oro::ErrorKind::failed);
 }
 
-// Where memory or threads run out in a library that lets no exception pass, the program still ends in order.
-// Anything else that nobody caught is a programmer's mistake, and aborts.
+// Where memory or threads run out in a library that lets no exception pass, or it fails there for another
+// reason (PROJ, when its database cannot be read any more), the program still ends in order. What is no
+// exception of the library's is a programmer's mistake, and aborts.
 [[noreturn]] void end_without_resources() {
     try {
         if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
         oro::end_out_of_memory();
-    } catch (const std::system_error& error) {
+    } catch (const std::exception& error) {
         oro::remove_unfinished_files();
         _exit(told_unforeseen(error.what()));
     } catch (...) {

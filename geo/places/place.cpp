@@ -185,7 +185,7 @@ Result<double> read_angle(const std::string& text, const std::string& token, Geo
     if (!std::regex_match(token, form)) return refused(text, "\"" + token + "\" is not an angle");
     try {
         return GeographicLib::DMS::Decode(token, kind);
-    } catch (const std::exception& fault) {
+    } catch (const GeographicLib::GeographicErr& fault) {
         return refused(text, fault.what());
     }
 }
@@ -282,6 +282,8 @@ Result<Place> read_place(const std::string& text) {
 Result<Place> parse_place(const std::string& text) {
     try {
         return read_place(text);
+    } catch (const std::bad_alloc&) {
+        throw;  // says nothing about the place
     } catch (const std::exception& fault) {
         return refused(text, fault.what());
     }

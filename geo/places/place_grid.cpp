@@ -58,7 +58,7 @@ std::optional<Error> two_readings(const std::string& text, const GridZone& zone,
     double lon = 0;
     try {
         UTMUPS::Reverse(zone.number, true, x, y, lat, lon, true);
-    } catch (const std::exception&) {
+    } catch (const GeographicLib::GeographicErr&) {
         return std::nullopt;
     }
     if (lat < 32 || lat > 40) return std::nullopt;
@@ -77,7 +77,7 @@ Result<Place> from_grid(const std::string& text, const GridZone& zone, double x,
     double lon = 0;
     try {
         UTMUPS::Reverse(zone.number, north, x, y, lat, lon, true);
-    } catch (const std::exception& fault) {
+    } catch (const GeographicLib::GeographicErr& fault) {
         return refused(text, fault.what());
     }
     if (polar_half && (x >= 2'000'000) != (letter == 'B' || letter == 'Z'))
@@ -136,7 +136,7 @@ std::optional<Result<Place>> read_mgrs(const std::string& text, const std::strin
         MGRS::Reverse(upper(square), zone, north, x, y, precision);
         UTMUPS::Reverse(zone, north, x, y, lat, lon);
         return checked(text, lat, lon, "MGRS", true);
-    } catch (const std::exception& fault) {
+    } catch (const GeographicLib::GeographicErr& fault) {
         return refused(text, fault.what());
     }
 }
@@ -154,7 +154,7 @@ Result<Place> read_geohash(const std::string& text, const std::string& hash) {
         int length = 0;
         GeographicLib::Geohash::Reverse(hash, lat, lon, length);
         return checked(text, lat, lon, "geohash", true);
-    } catch (const std::exception& fault) {
+    } catch (const GeographicLib::GeographicErr& fault) {
         return refused(text, fault.what());
     }
 }

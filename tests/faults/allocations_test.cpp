@@ -43,7 +43,7 @@ TEST_P(FailedAllocations, OneInSix) {
 }
 
 std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
-    const std::vector<std::string> names{"Info", "Bake", "Shot", "ShotOfBaked"};
+    const std::vector<std::string> names{"Info", "Bake", "Shot", "ShotOfBaked", "Viewshed"};
     return names[info.index];
 }
 
@@ -79,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocationsOfC,
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocations,
                          testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
-                                         oro::test::shot_of_tiles, oro::test::shot_of_baked),
+                                         oro::test::shot_of_tiles, oro::test::shot_of_baked,
+                                         oro::test::viewshed_of_tiles),
                          name_of);
 
 }  // namespace

@@ -110,6 +110,23 @@ Command shot_with_labels() {
     return shot_of("tile.tif", tile(), "contours", "160x120");
 }
 
+Command viewshed_of_tiles() {
+    const std::vector<std::string> words{"viewshed",       "tile.tif", "-q",  "--overwrite", "--at",
+                                         "36.725,-84.405", "--radius", "0.6", "--out",       "s.tif"};
+    std::vector<std::string> other = words;
+    other[7] = "0.4";
+    return {"viewshed tile.tif", words, {{"tile.tif", tile()}}, made(other, "tile.tif", tile()), false};
+}
+
+Command profile_of_tiles() {
+    const std::vector<std::string> words{
+        "profile", "tile.tif", "-q",    "--overwrite", "--along", "36.72,-84.41; 36.73,-84.40",
+        "--step",  "100",      "--out", "p.csv"};
+    std::vector<std::string> other = words;
+    other[7] = "200";
+    return {"profile tile.tif", words, {{"tile.tif", tile()}}, made(other, "tile.tif", tile()), false};
+}
+
 Command shot_of_baked() {
     return shot_of("tile.oro", baked());
 }

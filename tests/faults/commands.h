@@ -5,13 +5,16 @@
 
 namespace oro::test {
 
-// info of a GeoTIFF and of a baked region; bake; shot of both, with a picture there already or none.
+// info of a GeoTIFF and of a baked region; bake; shot of both, with a picture there already or none; what is
+// seen from a place, and a line's profile, with a file there already.
 Command info_of_tiles();
 Command info_of_baked();
 Command bake_new();
 Command bake_again();
 Command shot_of_tiles();
 Command shot_of_baked();
+Command viewshed_of_tiles();
+Command profile_of_tiles();
 Command shot_with_labels();  // one, of four figures at most
 
 }  // namespace oro::test
