@@ -55,14 +55,14 @@ void add_vector_options(OptionGroup& looks, ViewOptions& options) {
     looks
         .option("--names", options.names, "FILE",
                 "Name the points of a vector file (GPX, KML, GeoJSON, GeoPackage) that the eye sees, with "
-                "height and distance, in pictures; a window has none. May be given several times.")
+                "height and distance. A window shows them while the eye rests. May be given several times.")
         .allow_extra_args(false);  // what follows its file is elevation data
     looks.option("--names-field", options.names_field, "FIELD",
                  "The field of such files that holds the name (default: name). Needs --names or --overlay.");
     looks
         .option("--overlay", options.overlay, "FILE",
-                "Lay the lines and polygons of a vector file on the ground, and name its points, in "
-                "pictures; a window has none. May be given several times.")
+                "Lay the lines and polygons of a vector file on the ground, and name its points. A "
+                "window shows them while the eye rests. May be given several times.")
         .allow_extra_args(false);
     looks.option("--overlay-colour", options.overlay_colour, "COLOUR",
                  "Colour of these lines, such as #e2252b (default). A feature with a field stroke has that "
@@ -70,6 +70,10 @@ void add_vector_options(OptionGroup& looks, ViewOptions& options) {
     looks.number("--overlay-width", options.overlay_width_px, "PIXELS",
                  "Width of these lines, " + span(view_limits::overlay_width_px) +
                      " (default 2). A feature with a field stroke-width has that width. Needs --overlay.");
+    looks.number("--overlay-fill", options.overlay_fill, "SHARE",
+                 "How much of the ground the areas of polygons hide, " + span(view_limits::overlay_fill) +
+                     " (default 0.2). Features with the fields fill and fill-opacity are filled as these "
+                     "say. Needs --overlay.");
 }
 
 void add_look_options(CLI::App& command, ViewOptions& options) {

@@ -51,6 +51,7 @@ struct ViewOptions {
     std::vector<std::string> overlay;  // vector files that lie on the ground
     std::optional<std::string> overlay_colour;
     std::optional<double> overlay_width_px;
+    std::optional<double> overlay_fill;
     std::optional<std::string> time;
     std::optional<std::string> pipeline;
     std::optional<double> tau_px;

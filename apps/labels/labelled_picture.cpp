@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "apps/overlay/area_masks.h"
 #include "apps/text/inked_rows.h"
 #include "apps/text/text_face.h"
 #include "core/base/parallel.h"
@@ -106,6 +107,9 @@ Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view,
     if (!has_writing(view, style)) return writing;
     ORO_TRY(const TextFace face, TextFace::open());
     if (view.vectors_read) ORO_CHECK(find_vectors(view, field, surface, face, writing));
+    if (has_areas(view)) {
+        ORO_TRY(writing.overlay.areas, area_masks(gpu, scene, view, field.grid, picture_options(view, path)));
+    }
     writing.texts = std::move(writing.names.inked);
     if (style.labels_px > 0.0) {
         ORO_TRY(const SeenHeights seen,
@@ -122,7 +126,10 @@ RowSink written_rows(ViewWriting& writing, const Camera& camera, const RowSink& 
     const auto lined = std::make_shared<InkedRows>(
         camera.width_px, camera.height_px, std::move(writing.overlay.inked),
         [written](std::span<const std::uint8_t> row) { return written->take(row); });
-    return [lined](std::span<const std::uint8_t> row) { return lined->take(row); };
+    const auto filled =
+        std::make_shared<InkedRows>(camera.width_px, camera.height_px, std::move(writing.overlay.areas),
+                                    [lined](std::span<const std::uint8_t> row) { return lined->take(row); });
+    return [filled](std::span<const std::uint8_t> row) { return filled->take(row); };
 }
 
 Result<LabelledPicture> render_labelled(const Gpu& gpu, Scene& scene, const View& view,

@@ -19,7 +19,9 @@ struct ViewWriting {
     OverlayInView overlay;
     std::vector<InkedText> texts;  // labels and names as pixels
 
-    [[nodiscard]] bool is_empty() const { return texts.empty() && overlay.inked.empty(); }
+    [[nodiscard]] bool is_empty() const {
+        return texts.empty() && overlay.inked.empty() && overlay.areas.empty();
+    }
 };
 // Whether a view can have any.
 [[nodiscard]] bool has_writing(const View& view, const Style& style);
@@ -30,7 +32,7 @@ Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view,
                                  const TrueSurface* surface, const Style& style, RasterPath path);
 
 // A sink for a picture's rows (width * 3 bytes of sRGB, from the top down) that hands them on to `sink` with
-// the writing over them; lines first, then what is written over these.
+// the writing over them; areas and lines first, then what is written over these.
 RowSink written_rows(ViewWriting& writing, const Camera& camera, const RowSink& sink);
 
 // Draws a view's picture as render_picture() does, with its writing, which is found before anything is drawn,

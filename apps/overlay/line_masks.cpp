@@ -40,6 +40,12 @@ std::uint8_t& LineMask::at(int x, int y) {
                       static_cast<std::size_t>(x - square.x_px)];
 }
 
+void LineMask::cover(int x_px, int y_px, std::uint8_t share) {
+    if (share == 0) return;
+    std::uint8_t& covered = at(x_px, y_px);
+    covered = std::max(covered, share);
+}
+
 void LineMask::add_piece(glm::dvec2 from, glm::dvec2 to, double half_px, double strength) {
     const double reach = half_px + 0.5;
     const int left = std::max(0, static_cast<int>(std::floor(std::min(from.x, to.x) - reach))),
@@ -50,10 +56,7 @@ void LineMask::add_piece(glm::dvec2 from, glm::dvec2 to, double half_px, double 
         for (int x = left; x <= right; ++x) {
             const double away_px = distance_px({x + 0.5, y + 0.5}, from, to);
             const double share = strength * std::clamp(half_px + 0.5 - away_px, 0.0, 1.0);
-            const auto cover = static_cast<std::uint8_t>(std::lround(255.0 * share));
-            if (cover == 0) continue;
-            std::uint8_t& to_cover = at(x, y);
-            to_cover = std::max(to_cover, cover);
+            cover(x, y, static_cast<std::uint8_t>(std::lround(255.0 * share)));
         }
     }
 }

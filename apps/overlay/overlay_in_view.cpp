@@ -18,15 +18,10 @@ struct Stroke {
     double width_px;
 };
 
-InkedText::Colour codes_of(const ColourCodes& colour) {
-    return {static_cast<std::uint8_t>(colour.red), static_cast<std::uint8_t>(colour.green),
-            static_cast<std::uint8_t>(colour.blue)};
-}
-
 Stroke stroke_of(const VectorLayer& layer, const VectorShape& shape, const VectorChoices& choices) {
-    Stroke stroke{codes_of(choices.overlay_colour), choices.overlay_width_px};
+    Stroke stroke{ink_of(choices.overlay_colour), choices.overlay_width_px};
     if (const auto colour = colour_from(std::string(layer.text(shape, "stroke"))))
-        stroke.colour = codes_of(*colour);
+        stroke.colour = ink_of(*colour);
     const auto width_px = metres_from(layer.text(shape, "stroke-width"));  // a number
     if (width_px && view_limits::overlay_width_px.hold(*width_px)) stroke.width_px = *width_px;
     return stroke;

@@ -13,6 +13,7 @@ namespace oro {
 struct OverlayInView {
     std::vector<InkedText> inked;  // those of one colour do not touch each other; the first are drawn first
     std::size_t lines{};           // lines and rings that the files have
+    std::vector<InkedText> areas;  // what polygons fill, below all lines
     double seen_px{};              // length of what is seen of them on the picture
     double seconds{};
 };

@@ -21,6 +21,19 @@ using nlohmann::ordered_json;
 
 constexpr Limits width_px = view_limits::overlay_width_px;
 
+// A number of an option that is within its limits.
+Result<void> take_number(const char* option, const std::optional<double>& given, const Limits& limits,
+                         double& number) {
+    if (!given) return {};
+    if (!limits.hold(*given)) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.15g", *given);
+        return refused(option, text, between_words(limits.low, limits.high));
+    }
+    number = *given;
+    return {};
+}
+
 ordered_json files_json(const std::vector<std::string>& files) {
     ordered_json json = ordered_json::array();
     for (const std::string& file : files) json.push_back(path_json(file));
@@ -72,7 +85,8 @@ Result<void> choose_vectors(const ViewOptions& options, VectorChoices& choices) 
         choices.names_field = *options.names_field;
     }
     for (const auto& [option, is_given] : {std::pair{"--overlay-colour", options.overlay_colour.has_value()},
-                                           {"--overlay-width", options.overlay_width_px.has_value()}}) {
+                                           {"--overlay-width", options.overlay_width_px.has_value()},
+                                           {"--overlay-fill", options.overlay_fill.has_value()}}) {
         if (is_given && choices.overlay.empty())
             return refused(option, "", "says nothing without --overlay FILE");
     }
@@ -82,15 +96,9 @@ Result<void> choose_vectors(const ViewOptions& options, VectorChoices& choices) 
             return refused("--overlay-colour", *options.overlay_colour, "must be a colour such as #e2252b");
         choices.overlay_colour = *colour;
     }
-    if (options.overlay_width_px) {
-        if (!width_px.hold(*options.overlay_width_px)) {
-            char text[40];
-            std::snprintf(text, sizeof text, "%.15g", *options.overlay_width_px);
-            return refused("--overlay-width", text, between_words(width_px.low, width_px.high));
-        }
-        choices.overlay_width_px = *options.overlay_width_px;
-    }
-    return {};
+    ORO_CHECK(take_number("--overlay-width", options.overlay_width_px, width_px, choices.overlay_width_px));
+    return take_number("--overlay-fill", options.overlay_fill, view_limits::overlay_fill,
+                       choices.overlay_fill);
 }
 
 void put_vectors(const VectorChoices& choices, ordered_json& json) {
@@ -98,7 +106,7 @@ void put_vectors(const VectorChoices& choices, ordered_json& json) {
     if (!choices.overlay.empty())
         json["overlay"] =
             json_object("files", files_json(choices.overlay), "colour", colour_text(choices.overlay_colour),
-                        "width_px", choices.overlay_width_px);
+                        "width_px", choices.overlay_width_px, "fill", choices.overlay_fill);
     if (choices.any()) json["names_field"] = path_json(choices.names_field);
 }
 
@@ -110,6 +118,9 @@ VectorChoices vectors_from(const nlohmann::json& json) {
         choices.overlay = files_from(overlay, "overlay");
         choices.overlay_colour = colour_of(overlay, "colour");
         choices.overlay_width_px = json_number(overlay, "width_px", width_px.low, width_px.high);
+        constexpr Limits fill = view_limits::overlay_fill;
+        choices.overlay_fill =
+            overlay.contains("fill") ? json_number(overlay, "fill", fill.low, fill.high) : 0.0;
     }
     if (choices.any() && json.contains("names_field")) choices.names_field = path_from(json, "names_field");
     return choices;

@@ -22,6 +22,7 @@ struct VectorChoices {
         overlay;  // files whose lines and polygons lie on the ground, and points are named
     ColourCodes overlay_colour{226, 37, 43};
     double overlay_width_px{2.0};
+    double overlay_fill{0.2};  // opacity of polygons' areas; 0 in views of before there was any
 
     [[nodiscard]] bool any() const { return !names.empty() || !overlay.empty(); }
     // All paths, to be looked at or changed.

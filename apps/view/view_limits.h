@@ -27,6 +27,7 @@ inline constexpr Limits side_px{1, 65500};  // what JPEG can hold; PNG and TIFF 
 inline constexpr Limits samples{1, 64};
 inline constexpr Limits drape_opacity{0, 1};
 inline constexpr Limits overlay_width_px{0.5, 50};
+inline constexpr Limits overlay_fill{0, 1};
 inline constexpr Limits exaggeration{0.01, 100};
 inline constexpr Limits sun_azimuth_deg{-1e9, 1e9};
 inline constexpr Limits sun_elevation_deg{-90, 90};

@@ -61,7 +61,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                                  view_options.drape.empty() && !view_options.drape_opacity &&
                                  !view_options.shadows && view_options.names.empty() &&
                                  !view_options.names_field && view_options.overlay.empty() &&
-                                 !view_options.overlay_colour && !view_options.overlay_width_px &&
+                                 !view_options.overlay_colour && !view_options.overlay_width_px && !view_options.overlay_fill &&
                                  !view_options.sky_openness && !view_options.labels && !view_options.edges,
                              view.prints};
         ORO_CHECK(change_view(view, view_options));

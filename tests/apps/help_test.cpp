@@ -120,11 +120,11 @@ TEST(Help, HidesWhatDoesNothing) {
         {"trade",
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
           "--tolerance", "--labels", "--edges", "--samples", "--names", "--names-field", "--overlay",
-          "--overlay-colour", "--overlay-width"}},
+          "--overlay-colour", "--overlay-width", "--overlay-fill"}},
         {"plan",
          {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--edges", "--samples",
-          "--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width", "--pipeline",
-          "--time"}},
+          "--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width", "--overlay-fill",
+          "--pipeline", "--time"}},
         {"view", {"--tolerance", "--time"}},
         {"compare", {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids"}}};
     const std::string shot = help_of({"shot"});

@@ -67,7 +67,7 @@ TEST_F(Vectors, AreInTheViewWhichDrawsThemAgain) {
     EXPECT_GE(said["names"]["named"].size(), 2U);
     const json view = json::parse(view_in(path("a.png")));
     EXPECT_EQ(view["names"], (json{{"files", {"points.geojson"}}}));
-    EXPECT_EQ(view["overlay"], (json{{"files", {"line.geojson"}}, {"colour", "#ff0000"}, {"width_px", 2.0}}));
+    EXPECT_EQ(view["overlay"], (json{{"files", {"line.geojson"}}, {"colour", "#ff0000"}, {"width_px", 2.0}, {"fill", 0.2}}));
     EXPECT_EQ(view["names_field"], "name");
     EXPECT_EQ(view["fingerprints"]["vectors"].size(), 2U);
     ASSERT_EQ(shoot({"--view", path("a.png"), "-q", "--out", path("b.png")}).exit_code, 0);
