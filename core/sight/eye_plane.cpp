@@ -11,6 +11,8 @@ namespace oro {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr float float_infinite = std::numeric_limits<float>::infinity();
 
 // A window's column as one of the grid.
 int grid_column(const PostGrid& grid, int column) {
@@ -77,9 +79,10 @@ glm::dvec3 EyePlane::normal(int row, int column) const {
 // eighth of their second differences. What they are off sideways counts by the ground's steepness.
 void EyePlane::measure(const PostGrid& grid, int threads) {
     std::mutex taking;
-    double longest2 = 0.0, steepest2 = 0.0, most_rise_m = 0.0;
+    double longest2 = 0.0, right2 = infinite, down2 = infinite, steepest2 = 0.0, most_rise_m = 0.0;
     in_parallel(window_.rows, threads, [&](int row) {
-        double own_longest2 = 0.0, own_steepest2 = 0.0, own_rise_m = 0.0;
+        double own_longest2 = 0.0, own_right2 = infinite, own_down2 = infinite, own_steepest2 = 0.0,
+               own_rise_m = 0.0;
         for (int column = 0; column < window_.columns; ++column) {
             const std::int64_t here = number(row, column);
             const PlanePost& a = post(here);
@@ -89,6 +92,8 @@ void EyePlane::measure(const PostGrid& grid, int threads) {
                 const double length2 = dx * dx + dy * dy;
                 // Not of what has no place or no height: a comparison with no number is false.
                 if (length2 > own_longest2) own_longest2 = length2;
+                if (i == 0 && length2 < own_right2) own_right2 = length2;
+                if (i == 2 && length2 < own_down2) own_down2 = length2;
                 constexpr double narrowest2 = 1.0e-4;
                 const double steep2 = rise_m * rise_m / std::max(length2, narrowest2);
                 if (steep2 > own_steepest2) own_steepest2 = steep2;
@@ -97,10 +102,14 @@ void EyePlane::measure(const PostGrid& grid, int threads) {
         }
         const std::lock_guard lock(taking);
         longest2 = std::max(longest2, own_longest2);
+        right2 = std::min(right2, own_right2);
+        down2 = std::min(down2, own_down2);
         steepest2 = std::max(steepest2, own_steepest2);
         most_rise_m = std::max(most_rise_m, own_rise_m);
     });
     longest_edge_m_ = std::sqrt(longest2) * (1.0 + 1.0e-9) + 1.0e-6;
+    shortest_right_m_ = std::sqrt(right2);
+    shortest_down_m_ = std::sqrt(down2);
     const double tall = radians_from_deg(grid.lat.spacing_deg()).rad;
     const double wide = radians_from_deg(grid.lon.spacing_deg()).rad;
     double cosine = 0.0, sine = 0.0;
@@ -116,6 +125,54 @@ void EyePlane::measure(const PostGrid& grid, int threads) {
     constexpr double rounded_m = 2.0e-6;
     // A triangle is steeper than its edges, by at most twice where these are even.
     error_m_ = 1.2 * (up_m + sideways_m * (1.0 + 2.0 * std::sqrt(steepest2))) + rounded_m;
+}
+
+// The largest of the posts of a box around each: first along rows, then along columns.
+void EyePlane::bound_tangents(double around_m, int threads) {
+    constexpr int most_posts = 8;
+    const double right = around_m / shortest_right_m_, down = around_m / shortest_down_m_;
+    if (!(right < most_posts && down < most_posts)) return;
+    around_m_ = around_m;
+    const int columns = static_cast<int>(stride_), rows = window_.rows + 2;
+    const int far_right = static_cast<int>(right), far_down = static_cast<int>(down);
+    std::vector<float> along_rows(posts_.size());
+    in_parallel(rows, threads, [&](int row) {
+        const PlanePost* const posts = posts_.data() + row * stride_;
+        float* const most = along_rows.data() + row * stride_;
+        std::vector<float> own(static_cast<std::size_t>(columns + 2 * far_right), float_infinite);
+        for (int column = 0; column < columns; ++column) {
+            const double tangent = posts[column].tangent;
+            // Rounded up; no number (no place, no height) is no bound.
+            own[static_cast<std::size_t>(column + far_right)] =
+                std::isnan(tangent) ? float_infinite
+                                    : static_cast<float>(tangent + 1.0e-7 * std::abs(tangent));
+        }
+        for (int column = 0; column < columns; ++column) most[column] = own[static_cast<std::size_t>(column)];
+        for (int i = 1; i <= 2 * far_right; ++i) {
+            for (int column = 0; column < columns; ++column)
+                most[column] = std::max(most[column], own[static_cast<std::size_t>(column + i)]);
+        }
+    });
+    most_tangents_.assign(posts_.size(), float_infinite);
+    in_parallel(rows - 2 * far_down, threads, [&](int row) {
+        float* const most = most_tangents_.data() + (row + far_down) * stride_;
+        std::copy_n(along_rows.data() + row * stride_, columns, most);
+        for (int i = 1; i <= 2 * far_down; ++i) {
+            const float* const other = along_rows.data() + (row + i) * stride_;
+            for (int column = 0; column < columns; ++column)
+                most[column] = std::max(most[column], other[column]);
+        }
+    });
+}
+
+double EyePlane::most_tangent_around(std::int64_t number) const {
+    const double nearest_m = post(number).distance_m - around_m_;
+    // An edge turns little as seen from there.
+    if (most_tangents_.empty() || !(nearest_m > 4.0 * longest_edge_m_)) return infinite;
+    const auto most = static_cast<double>(most_tangents_[static_cast<std::size_t>(number)]);
+    const double across = longest_edge_m_ / nearest_m;
+    // Between two posts an edge is seen higher by the square of the angle, and by what it bulges.
+    return most + std::abs(most) * across * across + 3.0 * error_m_ / nearest_m;
 }
 
 }  // namespace oro

@@ -49,6 +49,12 @@ class EyePlane {
     // With that, the net of edges is nowhere farther from the ground, in height as it is seen.
     [[nodiscard]] double error_m() const { return error_m_; }
 
+    // Makes most_tangent_around() ready, for so far across the plane.
+    void bound_tangents(double around_m, int threads);
+    // No edge between two posts within that distance of a post is seen higher than at this tangent; infinite
+    // where posts around have no place or no height, stand too close together, or are too near.
+    [[nodiscard]] double most_tangent_around(std::int64_t number) const;
+
     // The normal of the ellipsoid at a post of the window, in the plane's axes.
     [[nodiscard]] glm::dvec3 normal(int row, int column) const;
     // Height of a post above the ellipsoid, as the surface has it.
@@ -72,7 +78,10 @@ class EyePlane {
     std::vector<RowTerms> rows_;
     std::vector<glm::dvec3> columns_;  // enu_from_ecef * (cos lon, sin lon, 0)
     double longest_edge_m_{};
+    double shortest_right_m_{}, shortest_down_m_{};
     double error_m_{};
+    double around_m_{};
+    std::vector<float> most_tangents_;  // of the posts around each; empty where there is no bound
 };
 
 }  // namespace oro

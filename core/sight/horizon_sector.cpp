@@ -109,7 +109,12 @@ void HorizonSector::add_to(Range& range, int number, const Edge& edge, bool begi
         }
     }
     if (range.count == Range::most) {
-        range.left_out = std::max(range.left_out, highest);
+        // The lowest goes: what is left out matters no more as soon as it is below the horizon.
+        const auto lowest = std::min_element(
+            range.edges.begin(), range.edges.end(),
+            [](const Edge& first, const Edge& second) { return first.highest < second.highest; });
+        range.left_out = std::max(range.left_out, std::min(highest, lowest->highest));
+        if (highest > lowest->highest) *lowest = {edge.right, edge.left, highest};
         return;
     }
     range.edges[static_cast<std::size_t>(range.count++)] = {edge.right, edge.left, highest};
@@ -119,7 +124,6 @@ bool HorizonSector::horizon(const PlanePost& target, Horizon& horizon) const {
     const int number = static_cast<int>(azimuth_number(target) * 0.25 * ranges_) - first_;
     const int count = static_cast<int>(own_.size());
     const Range& range = own_[static_cast<std::size_t>(std::clamp(number, 0, count - 1))];
-    if (range.left_out >= range.lowest && range.left_out != Horizon::none) return false;
     horizon.has_rim |= range.has_rim;
     const double length_m = target.distance_m;
     for (int i = 0; i < range.count; ++i) {
@@ -134,7 +138,7 @@ bool HorizonSector::horizon(const PlanePost& target, Horizon& horizon) const {
         const double height_m = (right.z * of_right + left.z * of_left) / sum;
         horizon.add(height_m + plane_.bulge_m(right, left, of_left / sum), distance_m, plane_.error_m());
     }
-    return true;
+    return range.left_out == Horizon::none || range.left_out < std::max(range.lowest, horizon.lowest);
 }
 
 }  // namespace oro

@@ -111,6 +111,8 @@ void Sweep::sort_posts() {
     // So narrow that few edges cross a shell's own, which are not in the sectors' horizons yet.
     shells_.width_m = std::max(0.25 * plane_.longest_edge_m(), request_.radius_m / 4.0e5);
     shells_.count = static_cast<int>(1.1 * request_.radius_m / shells_.width_m) + 2;
+    // Edges that a shell's own horizon does not hold yet come so near a post of it, and are one edge long.
+    plane_.bound_tangents(1.01 * (shells_.width_m + 2.0 * plane_.longest_edge_m()), request_.threads);
     const auto slots = static_cast<std::size_t>(sectors) * static_cast<std::size_t>(shells_.count);
     const auto slot = [&](int sector, int shell) {
         return static_cast<std::size_t>(sector) * static_cast<std::size_t>(shells_.count) +
@@ -170,9 +172,11 @@ bool Sweep::walk(std::int64_t from, const PlanePost& target, double until_m, Hor
     const std::int64_t* const next = plane_.neighbours();
     std::int64_t before = from, left = -1, right = -1;
     double of_left = 0.0, of_right = 0.0;  // each the other's turn from the line: a weight
+    double turn_one = 0.0, turn_two = turn(target, plane_.post(from + next[0]));
     for (int i = 0; i < 6; ++i) {
         const std::int64_t one = from + next[i], two = from + next[(i + 1) % 6];
-        const double turn_one = turn(target, plane_.post(one)), turn_two = turn(target, plane_.post(two));
+        turn_one = turn_two;
+        turn_two = turn(target, plane_.post(two));
         if (!(turn_one * turn_two <= 0.0)) continue;
         const double size = std::abs(turn_one) + std::abs(turn_two);
         const double at = along(plane_.post(one), target) * std::abs(turn_two) +
@@ -236,8 +240,14 @@ float Sweep::missed_by_m(const Entry& entry, const HorizonSector& sector, double
     const PlanePost& post = plane_.post(number);
     const double s_m = post.distance_m;
     Horizon horizon;
-    bool known = walk(number, post, shell_m, horizon) && s_m > 1.0e-3;
-    if (known && !sector.horizon(post, horizon)) known = walk(number, post, 0.0, horizon);
+    bool known = s_m > 1.0e-3 && sector.horizon(post, horizon);
+    if (!known) {
+        horizon = {};
+        known = s_m > 1.0e-3 && walk(number, post, 0.0, horizon);
+    } else if (horizon.has_rim || !(horizon.lowest > plane_.most_tangent_around(number))) {
+        // Of what the sector's horizon does not hold yet something may be higher.
+        known = walk(number, post, shell_m, horizon);
+    }
     const bool in_doubt = !known;
     if (in_doubt) {
         // Along an edge, maybe: then a hair's breadth beside it. The oracle has the last word.
