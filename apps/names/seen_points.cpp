@@ -121,13 +121,14 @@ std::optional<SeenPoint> PointsInView::placed(const NamedPoint& point, PointCoun
         seen.H_m = H_m;
         seen.tells_H = true;
     };
+    const double most_off_m = std::max(most_off_ground_m, most_off_ground_share * std::abs(ground_H_m));
     if (const auto own = own_h_m(point, ground_H_m + N_m, N_m)) {
         const double H_m = *own - N_m, above_m = H_m - ground_H_m;
         const bool stands_there = above_m >= 0.0 && above_m <= highest_above_ground_m;
         if (stands_there) h_m = H_m * exaggeration + N_m;
-        if (stands_there || std::abs(above_m) <= most_off_ground_m) tell(H_m);
+        if (stands_there || std::abs(above_m) <= most_off_m) tell(H_m);
     }
-    if (point.told_H_m && std::abs(*point.told_H_m - ground_H_m) <= most_off_ground_m) tell(*point.told_H_m);
+    if (point.told_H_m && std::abs(*point.told_H_m - ground_H_m) <= most_off_m) tell(*point.told_H_m);
     put_at({seen.lat_deg, seen.lon_deg, h_m}, seen);
     if (!in_picture(seen)) {
         ++counts.outside;

@@ -21,8 +21,10 @@ inline constexpr double seen_above_m = 2.0;
 inline constexpr int posts_to_summit = 2;
 // A point's own height is where it is placed when it is at most so far above the ground; else the ground is.
 inline constexpr double highest_above_ground_m = 300.0;
-// The height that a point tells is what is written of it when it is so near the ground's there.
+// The height that a point tells is what is written of it when it is so near the ground's there, or nearer than so
+// much of that: posts 90 m apart lie 260 m below the Matterhorn's summit. Feet taken for metres are farther off.
 inline constexpr double most_off_ground_m = 100.0;
+inline constexpr double most_off_ground_share = 0.1;
 
 struct SeenPoint {
     std::string name;

@@ -191,6 +191,10 @@ TEST(SeenPoints, HaveTheirOwnHeightWhereItCanBe) {
     EXPECT_NEAR(seen_as(HeightAbove::nothing, 0.0, ground_H_m + 55.0).H_m, ground_H_m + 55.0, slack_m);
     EXPECT_NEAR(seen_as(HeightAbove::nothing, 0.0, ground_H_m + 55.0).place.h_m, hit->point.h_m, slack_m);
     EXPECT_NEAR(seen_as(HeightAbove::nothing, 0.0, ground_H_m + 500.0).H_m, ground_H_m, slack_m);
+    // A sharp summit that the posts cut off by a twelfth; feet that were taken for metres.
+    ASSERT_GT(ground_H_m, 1100.0);
+    EXPECT_NEAR(seen_as(HeightAbove::nothing, 0.0, 1.09 * ground_H_m).H_m, 1.09 * ground_H_m, slack_m);
+    EXPECT_NEAR(seen_as(HeightAbove::nothing, 0.0, ground_H_m / 0.3048).H_m, ground_H_m, slack_m);
 }
 
 TEST(SeenPoints, AreCountedWhereTheyAreNotNamed) {
