@@ -34,6 +34,9 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     picture.flag("--verify", options.verify,
                  "Measure how far the picture is from full detail, in metres and pixels, and write "
                  "NAME.error.png beside it.");
+    picture.flag("--layers", options.layers,
+                 "Write what each pixel shows as TIFFs beside the picture: NAME.longitude.tif and latitude, "
+                 "height (above sea level), ellipsoidal-height, distance, slope, source and shadow.");
     add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
     add_no_paths(command, "The picture", options.no_paths);
     add_data_changed(command, options.data_changed);
