@@ -38,7 +38,8 @@ struct ViewOptions {
     std::optional<std::string> sky_openness;
     std::optional<std::string> labels;
     std::optional<std::string> edges;   // smooth, steps
-    std::optional<std::string> legend;  // on, off: a strip below the picture
+    bool legend{false};      // a strip below the picture
+    bool takes_maps{false};  // not an option: whether a view that is a map may be opened
     std::optional<double> exaggeration;
     std::optional<int> samples;
     std::optional<std::string> style;

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "apps/drawing/pipeline_choice.h"
+#include "apps/maps/ortho_map.h"
 #include "apps/report/region_json.h"
 #include "apps/view/fingerprints_json.h"
 #include "apps/view/view_paths.h"
@@ -43,6 +44,42 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
     return tags;
 }
 
+namespace {
+
+// A map's rows, on their way to its file: what is transparent is white in a format without opacity, and black
+// for fingerprints and comparisons, as it is when it is read again.
+class MapRows {
+  public:
+    MapRows(const std::string& picture, PictureWriter& writer, PixelPrint& pixels, const RowSink& also)
+        : channels_(static_cast<std::size_t>(map_channels(picture))),
+          writer_(writer),
+          pixels_(pixels),
+          also_(also) {}
+
+    Result<void> take(std::span<const std::uint8_t> rgba) {
+        rgb_.clear();
+        on_white_.clear();
+        for (std::size_t at = 0; at < rgba.size(); at += 4) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                rgb_.push_back(rgba[at + c]);
+                on_white_.push_back(rgba[at + 3] == 0 ? 255 : rgba[at + c]);
+            }
+        }
+        pixels_.add(rgb_);
+        if (also_) ORO_CHECK(also_(rgb_));
+        return writer_.write_row(channels_ == 4 ? rgba : std::span<const std::uint8_t>(on_white_));
+    }
+
+  private:
+    std::size_t channels_;
+    PictureWriter& writer_;
+    PixelPrint& pixels_;
+    const RowSink& also_;
+    std::vector<std::uint8_t> rgb_, on_white_;
+};
+
+}  // namespace
+
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
                                   const Region& region, const std::optional<SeenPlace>& middle,
                                   const Gpu& gpu, Scene& scene, const Style& style,
@@ -58,16 +95,26 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
         drawn.prints->pixels = 0;  // until they are drawn
     }
     ORO_CHECK(check_view_opens(drawn, files.picture));
+    const Geotags tags = geotags_of(drawn, region, middle);
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,
-            create_picture(files.picture, geotags_of(drawn, region, middle), overwrite));
+            view.map ? create_map(files.picture, tags, *view.map, overwrite)
+                     : create_picture(files.picture, tags, overwrite));
     PixelPrint pixels(view.camera.width_px, view.camera.height_px);
     const auto take = [&](std::span<const std::uint8_t> rgb) -> Result<void> {
         pixels.add(rgb);
         if (also) ORO_CHECK(also(rgb));
         return writer->write_row(rgb);
     };
-    ORO_TRY(LabelledPicture labelled,
-            render_labelled(gpu, scene, view, region.field, style, path, take, progress));
+    LabelledPicture labelled;
+    if (view.map) {
+        MapRows rows(files.picture, *writer, pixels, also);
+        ORO_TRY(labelled.report,
+                draw_map(
+                    gpu, scene, view, region, style, path,
+                    [&](std::span<const std::uint8_t> rgba) { return rows.take(rgba); }, progress));
+    } else {
+        ORO_TRY(labelled, render_labelled(gpu, scene, view, region.field, style, path, take, progress));
+    }
     const PictureReport& report = labelled.report;
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};

@@ -12,6 +12,7 @@
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/layers/picture_layers.h"
+#include "apps/maps/ortho_map.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/picture_file.h"
 #include "apps/report/json_text.h"
@@ -97,6 +98,7 @@ Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages,
 void tell(const ShotOptions& options, const PictureFiles& files, bool checks, const ShotResult& shot,
           const Gpu& gpu, const Style& style) {
     if (!checks) say(options.quiet, "wrote " + files.picture);
+    if (!checks && shot.view.map) say(options.quiet, "wrote " + world_file_path(files.picture));
     if (shot.layers)
         for (const char* layer : layer_names) say(options.quiet, "wrote " + layer_path(files.picture, layer));
     // Measurements say it themselves.
@@ -119,11 +121,14 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
                                Scene& scene, const Style& style, ProgressBar& bar, ShotResult& shot) {
     const auto drawing = Clock::now();
     const Camera& camera = shot.view.camera;
-    ORO_TRY(const FramePlan first, scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
-                                              shot.view.tau_px, shot.view.model));
     // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
     const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
-    if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
+    if (!shot.view.map) {
+        ORO_TRY(const FramePlan first,
+                scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, shot.view.tau_px,
+                           shot.view.model));
+        if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
+    }
     ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
     const bool checks = is_check(options, files);
     BesidePicture beside(checks ? files.picture : "", camera);
@@ -162,6 +167,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
         options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
         shot.region));
+    if (options.ortho && options.view_file.empty()) ORO_CHECK(make_map(shot.view, options, shot.region));
     ORO_CHECK(check_unchanged(shot.view, shot.region, options.data_changed, options.quiet));
     if (options.no_paths) shot.view.tells_paths = false;
     if (!is_check(options, files)) say_edited(shot.view, options.quiet);
@@ -179,7 +185,9 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
             region_pages(shot.region, shot.view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
     if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
-    ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
+    if (!shot.view.map) {
+        ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
+    }
     ORO_TRY(Scene scene, create_scene(gpu, std::move(pages), memory_of_pages(shot.view, options.memory),
                                       shot.view.heights, asks_for_means(style.frame)));
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
@@ -198,6 +206,12 @@ Result<std::vector<WholeFile>> files_beside(const ShotOptions& options, const Pi
                                             const Gpu& gpu, Scene& scene, const Style& style,
                                             ProgressBar& bar, ShotResult& shot) {
     std::vector<WholeFile> beside;
+    if (shot.view.map && !is_check(options, files)) {
+        ORO_TRY(WholeFile world, WholeFile::create(world_file_path(files.picture), options.overwrite));
+        const std::string text = world_file(*shot.view.map);
+        ORO_CHECK(world.write(text.data(), text.size()));
+        beside.push_back(std::move(world));
+    }
     if (options.layers) {
         ORO_TRY(beside, layers_of(options, files, gpu, scene, style, bar, shot));
     }
@@ -233,8 +247,18 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
 
 }  // namespace
 
-Result<void> run_shot(const ShotOptions& options) {
+Result<void> run_shot(const ShotOptions& asked) {
+    ShotOptions options = asked;
+    ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
+    options.view.takes_maps = true;
+    if (!options.view_file.empty()) {
+        ORO_TRY(const View told, read_view(options.view_file));
+        options.ortho = told.map.has_value();
+        if (options.ortho && (options.verify || options.layers))
+            return refused(options.verify ? "--verify" : "--layers", "",
+                           "is for pictures from an eye; " + options.view_file + " is a map");
+    }
     return take_shot(options, files);
 }
 

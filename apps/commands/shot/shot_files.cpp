@@ -66,6 +66,7 @@ std::vector<std::string> written_files(const ShotOptions& options, const Picture
     std::vector<std::string> all;
     if (!is_check(options, files)) all.push_back(files.picture);
     if (options.verify) all.push_back(files.error);
+    if (options.ortho && !is_check(options, files)) all.push_back(world_file_path(files.picture));
     if (options.layers)
         for (const char* layer : layer_names) all.push_back(layer_path(files.picture, layer));
     return all;
