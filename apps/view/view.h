@@ -45,6 +45,7 @@ struct View {
     Camera camera;                // the eye's h is above the ellipsoid
     std::optional<MapFrame> map;  // a map from straight above; the camera then only says about where
     bool legend{};                // a strip below the picture
+    int legend_px{};              // its height, of pictures that were drawn
     double exaggeration{1.0};
     int samples{1};
     std::optional<SunDirection> sun;      // nothing: the style's

@@ -181,7 +181,10 @@ View read_fields(const nlohmann::json& json) {
     view.region.strict_datum = json_flag(json, "strict_datum");
     read_camera(json, view.camera);
     read_map(json, view);
-    if (json.contains("legend")) view.legend = json_flag(json, "legend");
+    if (json.contains("legend_px")) {
+        view.legend_px = static_cast<int>(whole(json, "legend_px", limits::side_px));
+        view.legend = true;
+    }
     view.samples = static_cast<int>(whole(json, "samples", limits::samples));
     view.exaggeration = number(json, "exaggeration", limits::exaggeration);
     if (const auto& sun = json_field(json, "sun"); !sun.is_null()) view.sun = read_sun(sun);
@@ -255,7 +258,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["fov_deg"] = camera.vertical_fov_deg;
     json["size_px"] = json_list(camera.width_px, camera.height_px);
     if (view.map) json["map"] = map_json(*view.map);
-    if (view.legend) json["legend"] = true;
+    if (view.legend) json["legend_px"] = view.legend_px;
     json["samples"] = view.samples;
     json["exaggeration"] = view.exaggeration;
     json["sun"] = nullptr;

@@ -67,7 +67,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     if (!view_file.empty()) {
         ORO_TRY(view, read_view(view_file));
         ORO_CHECK(check_map(view, view_options, view_file));
-        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px,
+        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
                              !view_options.style && !view_options.visibility_km && !view_options.sun &&
                                  !view_options.sun_time && !view_options.sea && !view_options.rim &&
                                  view_options.drape.empty() && !view_options.drape_opacity &&

@@ -100,7 +100,7 @@ Result<std::unique_ptr<PictureWriter>> create(const std::string& path, const Geo
     PictureParts parts{std::move(file),
                        path,
                        tags.width_px,
-                       tags.height_px,
+                       tags.height_px + tags.strip_px,
                        std::move(exif),
                        std::move(xmp),
                        map ? map_channels(path) : 3,

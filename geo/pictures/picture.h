@@ -37,6 +37,7 @@ struct Geotags {
     double vertical_fov_deg{};
     int width_px{};
     int height_px{};
+    int strip_px{};                // what else is below it: rows of the file beyond height_px
     std::int64_t time_utc_s{};  // since 1970-01-01T00:00:00Z
     std::optional<DestinationTag> destination;
     std::string attribution;

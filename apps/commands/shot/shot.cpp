@@ -12,6 +12,7 @@
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/layers/picture_layers.h"
+#include "apps/legend/legend.h"
 #include "apps/maps/ortho_map.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/picture_file.h"
@@ -130,12 +131,17 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
         if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
     }
     ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
+    std::vector<std::uint8_t> strip;
+    if (shot.view.legend) {
+        ORO_TRY(strip, legend_strip(shot.view, shot.region, style, shot.middle));
+        shot.view.legend_px = rows_of_strip(strip, camera.width_px);
+    }
     const bool checks = is_check(options, files);
-    BesidePicture beside(checks ? files.picture : "", camera);
+    BesidePicture beside(checks ? files.picture : "", shot.view);
     ORO_TRY(DrawnPicture picture,
             draw_picture(
                 checks ? unnamed(files) : files, options.overwrite || checks, shot.view, shot.region,
-                shot.middle, gpu, scene, style, [&](double share) { bar.show(share, "drawing"); },
+                shot.middle, gpu, scene, style, strip, [&](double share) { bar.show(share, "drawing"); },
                 [&](std::span<const std::uint8_t> row) { return beside.take(row), Result<void>(); }));
     shot.beside = beside.found();
     shot.picture = picture.report;

@@ -36,9 +36,9 @@ Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, 
 // that it is another.
 class BesidePicture {
   public:
-    BesidePicture(const std::string& file, const Camera& camera) {
+    BesidePicture(const std::string& file, const View& view) {
         if (file.empty()) return;
-        auto opened = PictureComparison::open(file, camera.width_px, camera.height_px, device_slack);
+        auto opened = PictureComparison::open(file, view.camera.width_px, view.camera.height_px + view.legend_px, device_slack);
         if (opened.ok()) comparison_.emplace(std::move(*opened));
     }
     void take(std::span<const std::uint8_t> row) {
