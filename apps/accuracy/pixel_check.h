@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "apps/styles/style.h"
@@ -25,11 +26,12 @@ inline constexpr int most_off_in_a_square = 32;   // of 8 x 8 pixels
 // True where a picture is the drawn one as far as another device may tell.
 bool is_drawn_one(const PictureDifference& difference);
 
-// Draws a view as its picture is drawn, and compares that with the picture's file. Errors: those of
-// open_picture_rows and of the device.
+// Draws a view as its picture is drawn, and compares that, with the strip below it, with the picture's file.
+// Errors: those of open_picture_rows and of the device.
 Result<PictureDifference> compare_pixels(const std::string& picture, const View& view,
                                          const HeightField& field, const Gpu& gpu, Scene& scene,
-                                         RasterPath path, const Style& style, const RenderProgress& progress);
+                                         RasterPath path, const Style& style,
+                                         std::span<const std::uint8_t> strip, const RenderProgress& progress);
 
 // What is wrong with the pixels of the picture that a view comes from; nothing where they are as its view
 // draws them. `same_style`: colours and light are those that it was drawn with.

@@ -34,6 +34,23 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     picture.flag("--verify", options.verify,
                  "Measure how far the picture is from full detail, in metres and pixels, and write "
                  "NAME.error.png beside it.");
+    picture.flag("--layers", options.layers,
+                 "Write what each pixel shows as TIFFs beside the picture: NAME.longitude.tif and latitude, "
+                 "height (above sea level), ellipsoidal-height, distance, slope, source and shadow.");
+    picture.flag(
+        "--ortho", options.ortho,
+        "Draw a map from straight above instead, of all the data or of --bbox: a GeoTIFF with opacity "
+        "(or .png, .jpg), and a world file beside it.");
+    picture.option(
+        "--crs", options.crs, "CRS",
+        "The map's coordinate reference system, as GDAL takes it: EPSG:2056. Default: UTM on WGS84. "
+        "Needs --ortho.");
+    picture.number("--resolution", options.resolution, "UNITS",
+                   "A side of the map's pixels in the unit of its CRS: metres of UTM, degrees of EPSG:4326. "
+                   "Default: about the data's. Not with --size. Needs --ortho.");
+    picture.flag(
+        "--legend", options.view.legend,
+        "Add a strip below the picture: north, scale, colours, eye, sun and where the data come from.");
     add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
     add_no_paths(command, "The picture", options.no_paths);
     add_data_changed(command, options.data_changed);

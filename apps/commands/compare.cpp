@@ -10,6 +10,7 @@
 #include "apps/drawing/drape.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/legend/legend.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
@@ -58,14 +59,19 @@ Result<void> check_error_picture(const CompareOptions& options) {
 // Of a picture: that its pixels are what its view draws. Where its data changed, and that is known, they may
 // well be others.
 Result<std::optional<PictureDifference>> check_pixels(const CompareOptions& options, const View& view,
-                                                      const HeightField& field, const Gpu& gpu, Scene& scene,
+                                                      const Region& region, const Gpu& gpu, Scene& scene,
                                                       RasterPath path, const Style& style, ProgressBar& bar) {
     if (!is_from_picture(view)) {
         say(options.quiet, "note: " + options.view_file + ": is a view without pixels to check");
         return std::optional<PictureDifference>();
     }
+    std::vector<std::uint8_t> strip;
+    if (view.legend) {
+        ORO_TRY(const auto middle, place_in_middle(view, region));
+        ORO_TRY(strip, legend_strip(view, region, style, middle));
+    }
     ORO_TRY(const PictureDifference found,
-            compare_pixels(options.view_file, view, field, gpu, scene, path, style,
+            compare_pixels(options.view_file, view, region.field, gpu, scene, path, style, strip,
                            [&](double share) { bar.show(share, "drawing"); }));
     const std::optional<Fingerprints>& told = view.told->prints;
     const bool same_style =
@@ -106,7 +112,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(const std::optional<PictureDifference> pixels,
-            check_pixels(options, view, region.field, *gpu, scene, path, style, bar));
+            check_pixels(options, view, region, *gpu, scene, path, style, bar));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(0.0, "comparing");
     ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));

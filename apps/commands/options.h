@@ -37,7 +37,9 @@ struct ViewOptions {
     std::optional<std::string> shadows;  // on, off
     std::optional<std::string> sky_openness;
     std::optional<std::string> labels;
-    std::optional<std::string> edges;  // smooth, steps
+    std::optional<std::string> edges;   // smooth, steps
+    bool legend{false};      // a strip below the picture
+    bool takes_maps{false};  // not an option: whether a view that is a map may be opened
     std::optional<double> exaggeration;
     std::optional<int> samples;
     std::optional<std::string> style;
@@ -79,6 +81,10 @@ struct ShotOptions {
     std::string out;
     std::optional<double> unseen_ceiling_m;
     bool verify{false};
+    bool layers{false};
+    bool ortho{false};
+    std::optional<std::string> crs;    // of a map; as GDAL takes it
+    std::optional<double> resolution;  // of a map: a pixel, in the unit of its CRS
     bool data_changed{false};
     bool no_paths{false};  // the picture tells no paths
     bool overwrite{false};

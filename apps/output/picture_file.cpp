@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "apps/drawing/pipeline_choice.h"
+#include "apps/maps/ortho_map.h"
 #include "apps/report/region_json.h"
 #include "apps/view/fingerprints_json.h"
 #include "apps/view/view_paths.h"
@@ -33,6 +34,7 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
     tags.vertical_fov_deg = camera.vertical_fov_deg;
     tags.width_px = camera.width_px;
     tags.height_px = camera.height_px;
+    tags.strip_px = view.legend_px;
     tags.time_utc_s = view.time_utc_s;
     if (middle)
         tags.destination =
@@ -43,10 +45,59 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
     return tags;
 }
 
+namespace {
+
+// A map's rows, on their way to its file: what is transparent is white in a format without opacity, and black
+// for fingerprints and comparisons, as it is when it is read again.
+class MapRows {
+  public:
+    MapRows(const std::string& picture, PictureWriter& writer, PixelPrint& pixels, const RowSink& also)
+        : channels_(static_cast<std::size_t>(map_channels(picture))),
+          writer_(writer),
+          pixels_(pixels),
+          also_(also) {}
+
+    Result<void> take(std::span<const std::uint8_t> rgba) {
+        rgb_.clear();
+        on_white_.clear();
+        for (std::size_t at = 0; at < rgba.size(); at += 4) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                rgb_.push_back(rgba[at + c]);
+                on_white_.push_back(rgba[at + 3] == 0 ? 255 : rgba[at + c]);
+            }
+        }
+        pixels_.add(rgb_);
+        if (also_) ORO_CHECK(also_(rgb_));
+        return writer_.write_row(channels_ == 4 ? rgba : std::span<const std::uint8_t>(on_white_));
+    }
+
+    // What stands below it, opaque.
+    Result<void> take_strip(std::span<const std::uint8_t> rgb, int width_px) {
+        std::vector<std::uint8_t> rgba;
+        for (std::size_t at = 0; at < rgb.size(); at += 3) {
+            rgba.insert(rgba.end(), {rgb[at], rgb[at + 1], rgb[at + 2], 255});
+            if (rgba.size() < static_cast<std::size_t>(width_px) * 4) continue;
+            ORO_CHECK(take(rgba));
+            rgba.clear();
+        }
+        return {};
+    }
+
+  private:
+    std::size_t channels_;
+    PictureWriter& writer_;
+    PixelPrint& pixels_;
+    const RowSink& also_;
+    std::vector<std::uint8_t> rgb_, on_white_;
+};
+
+}  // namespace
+
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
                                   const Region& region, const std::optional<SeenPlace>& middle,
                                   const Gpu& gpu, Scene& scene, const Style& style,
-                                  const RenderProgress& progress, const RowSink& also) {
+                                  std::span<const std::uint8_t> strip, const RenderProgress& progress,
+                                  const RowSink& also) {
     // The eye and the tags come from heights that were asked for by now.
     ORO_CHECK(region.field.health());
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, gpu));
@@ -58,17 +109,31 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
         drawn.prints->pixels = 0;  // until they are drawn
     }
     ORO_CHECK(check_view_opens(drawn, files.picture));
+    const Geotags tags = geotags_of(drawn, region, middle);
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,
-            create_picture(files.picture, geotags_of(drawn, region, middle), overwrite));
-    PixelPrint pixels(view.camera.width_px, view.camera.height_px);
+            view.map ? create_map(files.picture, tags, *view.map, overwrite)
+                     : create_picture(files.picture, tags, overwrite));
+    PixelPrint pixels(view.camera.width_px, view.camera.height_px + view.legend_px);
     const auto take = [&](std::span<const std::uint8_t> rgb) -> Result<void> {
         pixels.add(rgb);
         if (also) ORO_CHECK(also(rgb));
         return writer->write_row(rgb);
     };
-    ORO_TRY(LabelledPicture labelled,
-            render_labelled(gpu, scene, view, region.field, style, path, take, progress));
+    LabelledPicture labelled;
+    if (view.map) {
+        MapRows rows(files.picture, *writer, pixels, also);
+        ORO_TRY(labelled.report,
+                draw_map(
+                    gpu, scene, view, region, style, path,
+                    [&](std::span<const std::uint8_t> rgba) { return rows.take(rgba); }, progress));
+        ORO_CHECK(rows.take_strip(strip, view.camera.width_px));
+    } else {
+        ORO_TRY(labelled, render_labelled(gpu, scene, view, region.field, style, path, take, progress));
+    }
     const PictureReport& report = labelled.report;
+    const auto row_bytes = static_cast<std::size_t>(view.camera.width_px) * 3;
+    for (std::size_t at = 0; !view.map && at < strip.size(); at += row_bytes)
+        ORO_CHECK(take(strip.subspan(at, row_bytes)));
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
     if (!report.settled)
@@ -97,7 +162,7 @@ Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, c
                                     const Gpu& gpu, Scene& scene, const Style& style,
                                     const RenderProgress& progress) {
     ORO_TRY(DrawnPicture picture,
-            draw_picture(files, overwrite, view, region, middle, gpu, scene, style, progress));
+            draw_picture(files, overwrite, view, region, middle, gpu, scene, style, {}, progress));
     ORO_CHECK(picture.file.commit());
     return picture.report;
 }

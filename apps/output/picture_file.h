@@ -1,6 +1,8 @@
 // A view drawn into a file with its geotags, which hold the view. Used by shot and by the viewer.
 #pragma once
 
+#include <span>
+
 #include "apps/labels/labelled_picture.h"
 #include "apps/view/view.h"
 #include "apps/window/picking.h"
@@ -32,13 +34,15 @@ struct DrawnPicture {
     std::optional<Fingerprints> prints;  // those in it
 };
 
-// Draws a picture that is to be `files.picture`. The view in it names the way of drawing that --pipeline auto
-// came to. `also` gets each row, too. Errors: a view that could not be opened again, those of the file and of
-// the device; any message of the validation layer, where it is on.
+// Draws a picture that is to be `files.picture`, with `strip` below it: view.legend_px rows. The view in it
+// names the way of drawing that --pipeline auto came to. `also` gets each row, too. Errors: a view that could
+// not be opened again, those of the file and of the device; any message of the validation layer, where it is
+// on.
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
                                   const Region& region, const std::optional<SeenPlace>& middle,
                                   const Gpu& gpu, Scene& scene, const Style& style,
-                                  const RenderProgress& progress, const RowSink& also = {});
+                                  std::span<const std::uint8_t> strip, const RenderProgress& progress,
+                                  const RowSink& also = {});
 
 // The same, and gives it its name.
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,

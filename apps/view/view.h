@@ -16,6 +16,7 @@
 #include "core/terrain/height_quantization.h"
 #include "core/terrain/page.h"
 #include "geo/drape/image_source.h"
+#include "geo/rasters/map_frame.h"
 #include "geo/region/region.h"
 
 namespace oro {
@@ -41,7 +42,10 @@ enum class Edges { smooth, steps };
 
 struct View {
     RegionRequest region;
-    Camera camera;  // the eye's h is above the ellipsoid
+    Camera camera;                // the eye's h is above the ellipsoid
+    std::optional<MapFrame> map;  // a map from straight above; the camera then only says about where
+    bool legend{};                // a strip below the picture
+    int legend_px{};              // its height, of pictures that were drawn
     double exaggeration{1.0};
     int samples{1};
     std::optional<SunDirection> sun;      // nothing: the style's

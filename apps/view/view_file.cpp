@@ -129,6 +129,28 @@ void read_camera(const nlohmann::json& json, Camera& camera) {
     camera.height_px = static_cast<int>(whole(as_field("size_px", size[1]), "size_px", limits::side_px));
 }
 
+// Of maps alone; as large as the camera.
+void read_map(const nlohmann::json& json, View& view) {
+    if (!json.contains("map")) return;
+    const nlohmann::json& map = json_field(json, "map");
+    MapFrame frame{json_string(map, "crs"), {}, view.camera.width_px, view.camera.height_px};
+    if (map_crs_name(frame.crs).empty()) throw JsonFault{"'crs' of 'map' is no CRS that PROJ knows"};
+    constexpr double most = 1.0e12;
+    const nlohmann::json& transform = json_array(map, "crs_from_pixel", 6);
+    for (std::size_t i = 0; i < 6; ++i)
+        frame.crs_from_pixel[i] =
+            json_number(as_field("crs_from_pixel", transform[i]), "crs_from_pixel", -most, most);
+    const auto& m = frame.crs_from_pixel;
+    if (m[1] * m[5] - m[2] * m[4] == 0.0) throw JsonFault{"'crs_from_pixel' is no map from pixels to places"};
+    view.map = frame;
+}
+
+ordered_json map_json(const MapFrame& map) {
+    ordered_json json = json_object("crs", map.crs);
+    json["crs_from_pixel"] = map.crs_from_pixel;
+    return json;
+}
+
 SunDirection read_sun(const nlohmann::json& json) {
     SunDirection sun{number(json, "azimuth_deg", limits::sun_azimuth_deg),
                      number(json, "elevation_deg", limits::sun_elevation_deg)};
@@ -158,6 +180,11 @@ View read_fields(const nlohmann::json& json) {
     view.region.fill_voids = json_flag(json, "fill_voids");
     view.region.strict_datum = json_flag(json, "strict_datum");
     read_camera(json, view.camera);
+    read_map(json, view);
+    if (json.contains("legend_px")) {
+        view.legend_px = static_cast<int>(whole(json, "legend_px", limits::side_px));
+        view.legend = true;
+    }
     view.samples = static_cast<int>(whole(json, "samples", limits::samples));
     view.exaggeration = number(json, "exaggeration", limits::exaggeration);
     if (const auto& sun = json_field(json, "sun"); !sun.is_null()) view.sun = read_sun(sun);
@@ -230,6 +257,8 @@ std::string view_to_json(const View& view, bool pretty) {
     json["roll_deg"] = camera.attitude.roll_deg;
     json["fov_deg"] = camera.vertical_fov_deg;
     json["size_px"] = json_list(camera.width_px, camera.height_px);
+    if (view.map) json["map"] = map_json(*view.map);
+    if (view.legend) json["legend_px"] = view.legend_px;
     json["samples"] = view.samples;
     json["exaggeration"] = view.exaggeration;
     json["sun"] = nullptr;

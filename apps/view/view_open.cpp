@@ -48,6 +48,17 @@ Result<void> open_files(View& view) {
     return {};
 }
 
+// A map has no eye that something else could look from.
+Result<void> check_map(const View& view, const ViewOptions& options, const std::string& view_file) {
+    if (!view.map) return {};
+    if (!options.takes_maps)
+        return Error{ErrorKind::usage, view_file, "is a map from straight above; only shot draws it again"};
+    if (options.size)
+        return Error{ErrorKind::usage, "--size",
+                     "not together with a map's view, which has a size of its own"};
+    return {};
+}
+
 }  // namespace
 
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
@@ -55,7 +66,8 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                        Region& region) {
     if (!view_file.empty()) {
         ORO_TRY(view, read_view(view_file));
-        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px,
+        ORO_CHECK(check_map(view, view_options, view_file));
+        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
                              !view_options.style && !view_options.visibility_km && !view_options.sun &&
                                  !view_options.sun_time && !view_options.sea && !view_options.rim &&
                                  view_options.drape.empty() && !view_options.drape_opacity &&

@@ -127,6 +127,7 @@ Result<void> apply_colours(View& view, const ViewOptions& options) {
 
 // The options that a view from a file can be changed by.
 Result<void> apply_look(View& view, const ViewOptions& options) {
+    if (options.legend) view.legend = true;
     if (options.size) ORO_CHECK(set_size(*options.size, view.camera));
     if (options.exaggeration) {
         ORO_TRY(view.exaggeration,

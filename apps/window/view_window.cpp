@@ -342,6 +342,9 @@ Result<void> run_view(const WindowOptions& options) {
         options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     if (options.no_paths) view.tells_paths = false;
+    // Its pictures are those of the window.
+    view.legend = false;
+    view.legend_px = 0;
     // Each of two levels is within tau of the full resolution: where one takes the other's place nothing
     // moves by more than twice that.
     if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;

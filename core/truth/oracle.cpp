@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -40,10 +41,14 @@ Span span_in_box(const glm::dvec3& direction, const glm::dvec3& inverse, const g
 // One sight line against the surface.
 class Oracle::Search {
   public:
-    Search(const Oracle::Scenery& scenery, const glm::dvec3& direction, double reach_m)
+    // start_m: where the line begins, from the eye, ECEF axes.
+    Search(const Oracle::Scenery& scenery, const glm::dvec3& direction, double reach_m,
+           const glm::dvec3& start_m = glm::dvec3(0.0))
         : scenery_(scenery),
           surface_(scenery.surface),
           grid_(scenery.surface.field().grid),
+          start_(start_m),
+          start_in_frame_(scenery.frame_from_ecef * start_m),
           direction_(direction),
           in_frame_(scenery.frame_from_ecef * direction),
           inverse_(1.0 / in_frame_),
@@ -94,6 +99,8 @@ class Oracle::Search {
     const Oracle::Scenery& scenery_;
     const TrueSurface& surface_;
     const PostGrid& grid_;
+    glm::dvec3 start_;
+    glm::dvec3 start_in_frame_;
     glm::dvec3 direction_;
     glm::dvec3 in_frame_;
     glm::dvec3 inverse_;
@@ -113,7 +120,7 @@ constexpr double search_slack = 0.02;
 
 Oracle::Search::RayPoint Oracle::Search::point_at(double t_m, double near_column) const {
     const Sight& sight = scenery_.sight;
-    const glm::dvec3 offset_m = sight.refraction.true_m(t_m * direction_);
+    const glm::dvec3 offset_m = sight.refraction.true_m(start_ + t_m * direction_);
     const Geodetic point = sight.earth == Earth::ellipsoid
                                ? geodetic_from_ecef({sight.eye.m + offset_m})
                                : model_point(sight.earth, sight.place, offset_m).value_or(nowhere);
@@ -130,7 +137,8 @@ std::optional<SightHit> Oracle::Search::first_hit() {
     const auto add = [&](const Block& block) {
         const Oracle::Scenery::Box& box = scenery_.remembered_box(block);
         if (!box.holds_ground) return;
-        const Span span = span_in_box(in_frame_, inverse_, box.low, box.high);
+        const Span span =
+            span_in_box(in_frame_, inverse_, box.low - start_in_frame_, box.high - start_in_frame_);
         if (span.begin_m <= span.end_m && span.begin_m < nearest_m_) waiting[count++] = {block, span};
     };
     add({surface_.levels() - 1, 0, 0});
@@ -193,7 +201,7 @@ Span Oracle::Search::between_meridians(const Block& block, Span span) const {
     constexpr double slack_m = 1.0e-3;
     for (const glm::dvec3& inward :
          {glm::dvec3(-west.sine, west.cosine, 0.0), glm::dvec3(east.sine, -east.cosine, 0.0)})
-        span = where_positive(glm::dot(inward, sight.eye.m), glm::dot(inward, direction_),
+        span = where_positive(glm::dot(inward, sight.eye.m + start_), glm::dot(inward, direction_),
                               glm::dot(inward, fall), span, slack_m);
     return span;
 }
@@ -361,6 +369,12 @@ Oracle::~Oracle() = default;
 
 std::optional<SightHit> Oracle::first_hit(const glm::dvec3& direction, double reach_m) const {
     return Search(*scenery_, direction, reach_m).first_hit();
+}
+
+std::optional<SightHit> Oracle::first_hit_from(const Ecef& from, const glm::dvec3& direction,
+                                               double reach_m) const {
+    assert(scenery_->sight.refraction.straight() && scenery_->sight.earth == Earth::ellipsoid);
+    return Search(*scenery_, direction, reach_m, from.m - scenery_->sight.eye.m).first_hit();
 }
 
 std::vector<std::optional<SightHit>> Oracle::cast_picture(const Camera& camera, int threads) const {

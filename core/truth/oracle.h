@@ -56,6 +56,11 @@ class Oracle {
     // 1 cm over cells of kilometres, or 1e-6 m over cells of metres, may be missed.
     [[nodiscard]] std::optional<SightHit> first_hit(const glm::dvec3& direction, double reach_m) const;
 
+    // The same of a straight line that begins elsewhere; for an oracle of straight light over the ellipsoid.
+    // So lines from many places, towards the sun say, share what an oracle has to work out.
+    [[nodiscard]] std::optional<SightHit> first_hit_from(const Ecef& from, const glm::dvec3& direction,
+                                                         double reach_m) const;
+
     // What each pixel of a picture sees at its centre, row by row; shared between `threads`.
     [[nodiscard]] std::vector<std::optional<SightHit>> cast_picture(const Camera& camera, int threads) const;
 

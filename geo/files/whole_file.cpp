@@ -111,7 +111,7 @@ void WholeFile::give_back(TemporaryFile& before, bool was_there) {
     if (given) before.forget_name();
 }
 
-Result<void> commit_together(std::initializer_list<WholeFile*> files) {
+Result<void> commit_together(std::span<WholeFile* const> files) {
     const auto failed = [&](const Error& error) {
         for (WholeFile* file : files) file->abandon();
         return error;

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <initializer_list>
+#include <span>
 #include <string>
 
 #include "core/base/result.h"
@@ -39,7 +40,7 @@ class WholeFile {
 
   private:
     WholeFile() = default;
-    friend Result<void> commit_together(std::initializer_list<WholeFile*> files);
+    friend Result<void> commit_together(std::span<WholeFile* const> files);
     void abandon() noexcept;
     // What is left of commit() when all is on the disk. 0, or the system's error number.
     int take_name();
@@ -54,7 +55,10 @@ class WholeFile {
 // commit() of files that belong together: all have their names after it, or none has: what had them before
 // has them again. Only a power cut between two renamings, which take no time, leaves some; the last file is
 // the one that matters.
-Result<void> commit_together(std::initializer_list<WholeFile*> files);
+Result<void> commit_together(std::span<WholeFile* const> files);
+inline Result<void> commit_together(std::initializer_list<WholeFile*> files) {
+    return commit_together(std::span<WholeFile* const>(files.begin(), files.size()));
+}
 
 // Writes a whole text file in one go.
 Result<void> write_whole_file(const std::string& path, const std::string& text, bool overwrite);

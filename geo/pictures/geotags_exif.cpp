@@ -244,7 +244,8 @@ Result<ExifFields> exif_fields(const Geotags& tags) {
         rationals(0x920A, {rational(focal_mm, finest)}),
         ExifField{0xA000, ExifType::undefined, Bytes{'0', '1', '0', '0'}}, short_integer(0xA001, 1),  // sRGB
         ExifField{0xA002, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.width_px)}},
-        ExifField{0xA003, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.height_px)}},
+        ExifField{0xA003, ExifType::long_integer,
+                  Integers{static_cast<std::uint32_t>(tags.height_px + tags.strip_px)}},
         rationals(0xA20E, {pixels_per_cm}), rationals(0xA20F, {pixels_per_cm}), short_integer(0xA210, 3),
         // 0 would mean unknown.
         short_integer(0xA405, static_cast<std::uint32_t>(std::clamp(std::round(focal_mm), 1.0, 65535.0))));

@@ -32,7 +32,8 @@ Error EncodedPicture::fail() {
 Result<void> EncodedPicture::write_row(std::span<const std::uint8_t> rgb) {
     if (fault_) return *fault_;
     const bool fits =
-        rgb.size() == static_cast<std::size_t>(parts_.width_px) * 3 && rows_ < parts_.height_px && !finished_;
+        rgb.size() == static_cast<std::size_t>(parts_.width_px) * static_cast<std::size_t>(parts_.channels) &&
+        rows_ < parts_.height_px && !finished_;
     if (!fits) {
         note("a row too many, or one that is not as wide as the picture");
         return fail();
@@ -75,8 +76,15 @@ Result<PictureFormat> picture_format(const std::string& path) {
     return Error{ErrorKind::usage, path, "a picture's name ends in .png, .jpg, .jpeg, .tif or .tiff"};
 }
 
-Result<std::unique_ptr<PictureWriter>> create_picture(const std::string& path, const Geotags& tags,
-                                                      bool overwrite) {
+int map_channels(const std::string& path) {
+    const auto format = picture_format(path);
+    return format.ok() && *format == PictureFormat::jpeg ? 3 : 4;
+}
+
+namespace {
+
+Result<std::unique_ptr<PictureWriter>> create(const std::string& path, const Geotags& tags,
+                                              const MapFrame* map, bool overwrite) {
     ORO_TRY(const PictureFormat format, picture_format(path));
     if (tags.width_px < 1 || tags.height_px < 1)
         return Error{ErrorKind::usage, path,
@@ -84,8 +92,19 @@ Result<std::unique_ptr<PictureWriter>> create_picture(const std::string& path, c
                          " pixels cannot be written"};
     ORO_TRY(ExifFields exif, exif_fields(tags));
     ORO_TRY(std::string xmp, xmp_packet(tags, format));
+    std::optional<GeoTiffTags> place;
+    if (map && format == PictureFormat::tiff) {
+        ORO_TRY(place, geotiff_tags(*map));
+    }
     ORO_TRY(WholeFile file, WholeFile::create(path, overwrite));
-    PictureParts parts{std::move(file), path, tags.width_px, tags.height_px, std::move(exif), std::move(xmp)};
+    PictureParts parts{std::move(file),
+                       path,
+                       tags.width_px,
+                       tags.height_px + tags.strip_px,
+                       std::move(exif),
+                       std::move(xmp),
+                       map ? map_channels(path) : 3,
+                       std::move(place)};
     switch (format) {
         case PictureFormat::png:
             return create_png(std::move(parts));
@@ -95,6 +114,18 @@ Result<std::unique_ptr<PictureWriter>> create_picture(const std::string& path, c
             break;
     }
     return create_tiff(std::move(parts));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PictureWriter>> create_picture(const std::string& path, const Geotags& tags,
+                                                      bool overwrite) {
+    return create(path, tags, nullptr, overwrite);
+}
+
+Result<std::unique_ptr<PictureWriter>> create_map(const std::string& path, const Geotags& tags,
+                                                  const MapFrame& map, bool overwrite) {
+    return create(path, tags, &map, overwrite);
 }
 
 }  // namespace oro

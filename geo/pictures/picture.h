@@ -11,6 +11,7 @@
 
 #include "core/base/result.h"
 #include "geo/files/whole_file.h"
+#include "geo/rasters/map_frame.h"
 
 namespace oro {
 
@@ -36,6 +37,7 @@ struct Geotags {
     double vertical_fov_deg{};
     int width_px{};
     int height_px{};
+    int strip_px{};                // what else is below it: rows of the file beyond height_px
     std::int64_t time_utc_s{};  // since 1970-01-01T00:00:00Z
     std::optional<DestinationTag> destination;
     std::string attribution;
@@ -52,8 +54,8 @@ Result<PictureFormat> picture_format(const std::string& path);
 class PictureWriter {
   public:
     virtual ~PictureWriter() = default;
-    // The next row, width * 3 bytes, sRGB.
-    virtual Result<void> write_row(std::span<const std::uint8_t> rgb) = 0;
+    // The next row, width * 3 bytes, sRGB; of a map map_channels() bytes a pixel.
+    virtual Result<void> write_row(std::span<const std::uint8_t> row) = 0;
     // After the last row: closes, syncs and renames.
     virtual Result<void> finish() = 0;
     // After the last row, instead of finish(): the whole picture, which has no name yet.
@@ -68,6 +70,12 @@ class PictureWriter {
 // heights and angles unrounded.
 Result<std::unique_ptr<PictureWriter>> create_picture(const std::string& path, const Geotags& tags,
                                                       bool overwrite);
+
+// The same of a map: a TIFF is a GeoTIFF. Errors: a CRS that a GeoTIFF cannot hold (usage), too.
+Result<std::unique_ptr<PictureWriter>> create_map(const std::string& path, const Geotags& tags,
+                                                  const MapFrame& map, bool overwrite);
+// Bytes of a map's pixel: red, green, blue and opacity; a JPEG has no opacity.
+int map_channels(const std::string& path);
 
 // Puts `now` in the place of `was`, which has as many bytes, in the view of a picture that is whole and has
 // no name yet: for what is known only when the last row is. `was` stands in the view, once, and neither holds

@@ -21,6 +21,8 @@ struct PictureParts {
     int height_px{};
     ExifFields exif;
     std::string xmp;
+    int channels{3};                   // 4: opacity is the last
+    std::optional<GeoTiffTags> place;  // of a map, in a TIFF
 };
 
 // The order of rows, the first fault and the file, for an encoder that is given one row at a time. After a

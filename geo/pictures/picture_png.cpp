@@ -61,7 +61,8 @@ class PngPicture final : public EncodedPicture {
 void PngPicture::write_header(png_bytep exif, png_uint_32 exif_size, png_text* xmp) {
     png_set_write_fn(png_, this, on_write, on_flush);
     png_set_IHDR(png_, info_, static_cast<png_uint_32>(parts().width_px),
-                 static_cast<png_uint_32>(parts().height_px), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 static_cast<png_uint_32>(parts().height_px), 8,
+                 parts().channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_eXIf_1(png_, info_, exif_size, exif);

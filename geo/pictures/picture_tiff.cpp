@@ -25,7 +25,8 @@ class TiffPicture final : public EncodedPicture {
     bool begin() override;
     bool encode_row(const std::uint8_t* rgb) override {
         // The predictor works in the row that it is given: one that may be spoilt.
-        row_copy_.assign(rgb, rgb + static_cast<std::size_t>(parts().width_px) * 3);
+        row_copy_.assign(rgb, rgb + static_cast<std::size_t>(parts().width_px) *
+                                        static_cast<std::size_t>(parts().channels));
         return TIFFWriteScanline(tiff_, row_copy_.data(), row_++, 0) == 1 && !faulty();
     }
     bool end() override { return TIFFWriteDirectory(tiff_) == 1 && !faulty(); }
@@ -55,6 +56,7 @@ class TiffPicture final : public EncodedPicture {
     // Writes a directory apart from the picture's own; its place in the file, or 0.
     std::uint64_t write_directory(const std::vector<ExifField>& fields);
     void describe_pixels();
+    void describe_place(const GeoTiffTags& place);
 
     TIFF* tiff_{nullptr};
     std::vector<std::uint8_t> row_copy_;
@@ -100,8 +102,8 @@ bool TiffPicture::open() {
     TIFFOpenOptionsSetErrorHandlerExtR(options, on_error, this);
     TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, this);
     // Deflate makes noise larger by less than a thousandth.
-    const double bytes =
-        3.0 * parts().width_px * parts().height_px * 1.001 + static_cast<double>(parts().xmp.size());
+    const double bytes = 1.0 * parts().channels * parts().width_px * parts().height_px * 1.001 +
+                         static_cast<double>(parts().xmp.size());
     const bool big = bytes > 4.0e9;
     // Little-endian on every machine.
     tiff_ = TIFFClientOpenExt(parts().path.c_str(), big ? "wl8" : "wl", this, on_read, on_write, on_seek,
@@ -145,11 +147,16 @@ std::uint64_t TiffPicture::write_directory(const std::vector<ExifField>& fields)
 }
 
 void TiffPicture::describe_pixels() {
-    const auto row_bytes = static_cast<std::uint64_t>(parts().width_px) * 3;
+    const auto row_bytes =
+        static_cast<std::uint64_t>(parts().width_px) * static_cast<std::uint64_t>(parts().channels);
     TIFFSetField(tiff_, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(parts().width_px));
     TIFFSetField(tiff_, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(parts().height_px));
     TIFFSetField(tiff_, TIFFTAG_BITSPERSAMPLE, 8);
-    TIFFSetField(tiff_, TIFFTAG_SAMPLESPERPIXEL, 3);
+    TIFFSetField(tiff_, TIFFTAG_SAMPLESPERPIXEL, parts().channels);
+    if (parts().channels == 4) {
+        const std::array<std::uint16_t, 1> kind{EXTRASAMPLE_UNASSALPHA};
+        TIFFSetField(tiff_, TIFFTAG_EXTRASAMPLES, 1, kind.data());
+    }
     TIFFSetField(tiff_, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
     TIFFSetField(tiff_, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
     TIFFSetField(tiff_, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
@@ -157,6 +164,30 @@ void TiffPicture::describe_pixels() {
     TIFFSetField(tiff_, TIFFTAG_PREDICTOR, PREDICTOR_HORIZONTAL);
     TIFFSetField(tiff_, TIFFTAG_ROWSPERSTRIP,
                  static_cast<std::uint32_t>(std::max<std::uint64_t>(1, strip_bytes / row_bytes)));
+}
+
+// libtiff knows them only when it is told. Source: OGC 19-008r4, GeoTIFF standard 1.1, annex B.
+void TiffPicture::describe_place(const GeoTiffTags& place) {
+    static std::array<char[32], 6> names{"GeoPixelScale",   "GeoTiePoints",    "GeoTransformation",
+                                         "GeoKeyDirectory", "GeoDoubleParams", "GeoAsciiParams"};
+    static const std::array<TIFFFieldInfo, 6> fields{
+        {{33550, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[0]},
+         {33922, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[1]},
+         {34264, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[2]},
+         {34735, -1, -1, TIFF_SHORT, FIELD_CUSTOM, 1, 1, names[3]},
+         {34736, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[4]},
+         {34737, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[5]}}};
+    TIFFMergeFieldInfo(tiff_, fields.data(), static_cast<std::uint32_t>(fields.size()));
+    const auto set_all = [&](std::uint32_t tag, const auto& values) {
+        if (!values.empty())
+            TIFFSetField(tiff_, tag, static_cast<std::uint16_t>(values.size()), values.data());
+    };
+    set_all(33550, place.pixel_scale);
+    set_all(33922, place.tie_points);
+    set_all(34264, place.transformation);
+    set_all(34735, place.keys);
+    set_all(34736, place.doubles);
+    if (!place.text.empty()) TIFFSetField(tiff_, 34737, place.text.c_str());
 }
 
 // The EXIF and GPS directories stand before the pixels, so that nothing of the picture's directory is written
@@ -169,6 +200,7 @@ bool TiffPicture::begin() {
     const std::uint64_t gps = write_directory(parts().exif.gps);
     if (gps == 0 || TIFFCreateDirectory(tiff_) != 0) return false;
     describe_pixels();
+    if (parts().place) describe_place(*parts().place);
     for (const ExifField& field : parts().exif.image)
         if (!set(field)) return false;
     TIFFSetField(tiff_, TIFFTAG_EXIFIFD, exif);

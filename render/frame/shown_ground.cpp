@@ -36,6 +36,15 @@ void tell_rows(const ReadRows& rows, const Camera& camera, const Tile& tile, int
 Result<void> shown_ground(const Gpu& gpu, Scene& scene, const Camera& camera, const PictureOptions& options,
                           int step_px, const GroundSink& sink) {
     assert(step_px > 0);
+    return shown_triangles(
+        gpu, scene, camera, options,
+        [&](const Tile& tile, int first_row, int rows, const std::vector<gpu::DrawnTriangle>& triangles) {
+            tell_rows({triangles, first_row, rows}, camera, tile, step_px, sink);
+        });
+}
+
+Result<void> shown_triangles(const Gpu& gpu, Scene& scene, const Camera& camera,
+                             const PictureOptions& options, const TriangleSink& sink) {
     FrameRendererOptions renderer_options;
     renderer_options.extent = tile_extent(gpu, camera, options.largest_tile_px);
     renderer_options.keep_triangles = true;
@@ -60,7 +69,7 @@ Result<void> shown_ground(const Gpu& gpu, Scene& scene, const Camera& camera, co
                 ORO_TRY(const std::vector<gpu::DrawnTriangle> triangles,
                         renderer.read_triangles(static_cast<std::uint32_t>(first),
                                                 static_cast<std::uint32_t>(count)));
-                tell_rows({triangles, first, count}, camera, tile, step_px, sink);
+                sink(tile, first, count, triangles);
             }
         }
     }

@@ -17,4 +17,11 @@ using GroundSink = std::function<void(int x_px, int y_px, const DrawnPoint& poin
 Result<void> shown_ground(const Gpu& gpu, Scene& scene, const Camera& camera, const PictureOptions& options,
                           int step_px, const GroundSink& sink);
 
+// Takes what some whole rows of a tile show, row by row, the first of them so many below the tile's top.
+using TriangleSink = std::function<void(const Tile& tile, int first_row, int rows,
+                                        const std::vector<gpu::DrawnTriangle>& triangles)>;
+// The same by triangles.
+Result<void> shown_triangles(const Gpu& gpu, Scene& scene, const Camera& camera,
+                             const PictureOptions& options, const TriangleSink& sink);
+
 }  // namespace oro

@@ -1,6 +1,7 @@
-#include "apps/commands/shot_json.h"
+#include "apps/commands/shot/shot_json.h"
 
 #include "apps/accuracy/truth.h"
+#include "apps/layers/picture_layers.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
@@ -117,6 +118,22 @@ ordered_json times_json(const ShotResult& shot) {
     return json;
 }
 
+void put_map(const MapFrame& map, const PictureFiles& files, ordered_json& json) {
+    const auto& m = map.crs_from_pixel;
+    json["map"] =
+        json_object("crs", map_crs_name(map.crs), "unit", map_unit(map.crs), "left", m[0], "top", m[3],
+                    "pixel", json_list(m[1], m[5]), "world_file", world_file_path(files.picture));
+}
+
+// The files by what is in them.
+void put_layers(const LayersReport& layers, const ShotTimes& times, const PictureFiles& files,
+                ordered_json& json) {
+    ordered_json& told = json["layers"] = ordered_json::object();
+    for (const char* layer : layer_names) told[layer] = layer_path(files.picture, layer);
+    json["layer_pixels"] = json_object("ground", layers.ground_px, "beside", layers.beside_px);
+    json["times_s"]["layers"] = times.layers_s;
+}
+
 }  // namespace
 
 ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
@@ -166,6 +183,8 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["device"] = json_object("name", device.name, "type", kind_words(device.kind), "driver",
                                  device.driver, "api", version_words(device.vulkan_version));
     json["pipeline"] = name_of(shot.picture.path);
+    if (shot.view.map) put_map(*shot.view.map, files, json);
+    if (shot.layers) put_layers(*shot.layers, shot.times, files, json);
     if (shot.verification) {
         json["times_s"]["verify"] = shot.times.verify_s;
         json["error_picture"] = files.error;

@@ -1,18 +1,19 @@
 // orograph shot: from files to a picture that knows where it was taken from.
-#include <unistd.h>
-
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <span>
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/verification.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
-#include "apps/commands/shot_json.h"
+#include "apps/commands/shot/shot_files.h"
+#include "apps/commands/shot/shot_json.h"
 #include "apps/drawing/drape.h"
+#include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/layers/picture_layers.h"
+#include "apps/legend/legend.h"
+#include "apps/maps/ortho_map.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/picture_file.h"
 #include "apps/report/json_text.h"
@@ -23,40 +24,11 @@
 #include "apps/view/view_changes.h"
 #include "apps/window/picking.h"
 #include "core/base/elapsed.h"
-#include "core/base/file_there.h"
-#include "core/base/open_file.h"
 #include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
-#include "geo/files/whole_file.h"
 
 namespace oro {
 namespace {
-
-namespace fs = std::filesystem;
-
-// Without --out a view goes back to the picture that it came from.
-Result<PictureFiles> shot_files(const ShotOptions& options) {
-    if (options.out.empty() && options.view_file.empty())
-        return refused("--out", "", "is missing: name the picture to write (.png, .jpg or .tif)");
-    std::string out = options.out.empty() ? options.view_file : options.out;
-    if (options.out.empty() && fs::path(out).extension() == ".json") {
-        for (const char* ending : {".png", ".jpg", ".jpeg", ".tif", ".tiff"}) {
-            out = fs::path(options.view_file).replace_extension(ending).string();
-            ORO_TRY(const bool there, is_there(out));
-            if (there) break;
-            out = fs::path(options.view_file).replace_extension(".png").string();
-        }
-    }
-    if (const auto format = picture_format(out); !format.ok())
-        return refused(options.out.empty() ? "--view" : "--out", out, format.error().what);
-    return picture_files(out);
-}
-
-// A picture drawn again from its own view: drawn without a name and compared, so that nothing is replaced.
-bool is_check(const ShotOptions& options, const PictureFiles& files) {
-    std::error_code ignored;
-    return options.out.empty() && !options.overwrite && fs::is_regular_file(files.picture, ignored);
-}
 
 void say_notes(const ShotOptions& options, const ShotResult& shot) {
     say_notes(shot.region, options.quiet);
@@ -69,23 +41,6 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
         std::snprintf(text, sizeof text, "note: the eye is %.1f m below the ground", *ground - eye.h_m);
         say(options.quiet, text);
     }
-}
-
-std::vector<std::string> written_files(const ShotOptions& options, const PictureFiles& files) {
-    std::vector<std::string> all;
-    if (!is_check(options, files)) all.push_back(files.picture);
-    if (options.verify) all.push_back(files.error);
-    return all;
-}
-
-// Before anything takes time: that all files can be written where they shall be.
-Result<void> check_out(const ShotOptions& options, const PictureFiles& files) {
-    for (const std::string& file : written_files(options, files)) {
-        if (!options.overwrite && access(file.c_str(), F_OK) == 0)
-            return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
-        if (const auto trial = WholeFile::create(file, options.overwrite); !trial.ok()) return trial.error();
-    }
-    return {};
 }
 
 // Measures what was drawn, the same way, and makes the picture of its errors, which has no name yet.
@@ -102,54 +57,20 @@ Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& fi
     return file;
 }
 
-// Where a picture that is only compared would be, if it ever got a name.
-PictureFiles unnamed(const PictureFiles& files) {
-    std::error_code failed;
-    const fs::path folder = fs::temp_directory_path(failed);
-    PictureFiles other = files;
-    other.picture =
-        ((failed ? fs::path("/tmp") : folder) / ("orograph-check-" + std::to_string(getpid()))).string() +
-        fs::path(files.picture).extension().string();
-    return other;
-}
-
-// True when a drawn picture has the bytes of a file.
-Result<bool> is_same(WholeFile& drawn, const std::string& path) {
-    ORO_TRY(const OpenFile other, OpenFile::open(path, OpenFile::Use::read));
-    ORO_TRY(std::uint64_t left, other.size());
-    std::FILE* const stream = drawn.stream();
-    if (std::fseek(stream, 0, SEEK_END) != 0 || static_cast<std::uint64_t>(ftello(stream)) != left)
-        return false;
-    std::rewind(stream);
-    std::vector<std::byte> ours(1 << 16), theirs(ours.size());
-    for (std::uint64_t at = 0; left > 0;) {
-        const std::size_t count = std::min<std::uint64_t>(left, ours.size());
-        ORO_CHECK(other.read(at, std::span(theirs).first(count)));
-        if (std::fread(ours.data(), 1, count, stream) != count ||
-            !std::equal(ours.begin(), ours.begin() + static_cast<std::ptrdiff_t>(count), theirs.begin()))
-            return false;
-        at += count;
-        left -= count;
-    }
-    return true;
-}
-
-// Gives what was drawn its names, or compares it with the picture that is there. Tags that tell less than
-// today's, or of another version of the program, do not make it another picture.
-Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, ShotResult& shot,
-                         WholeFile picture, std::optional<WholeFile> errors) {
-    if (!is_check(options, files)) return errors ? commit_together({&*errors, &picture}) : picture.commit();
-    if (errors) ORO_CHECK(errors->commit());
-    ORO_TRY(shot.same_bytes, is_same(picture, files.picture));
-    const std::optional<Fingerprints>& told = shot.view.told->prints;
-    const bool same_pixels = shot.beside && shot.beside->any.count == 0;
-    if (shot.same_bytes || (same_pixels && (!told || told->program != program_print()))) return {};
-    const std::string where = same_pixels || !shot.beside
-                                  ? ""
-                                  : ": " + pixels_words(shot.beside->any, shot.beside->pixels) + " differ";
-    return Error{ErrorKind::failed, files.picture,
-                 "is not what its view draws now" + where +
-                     "; left as it is (--overwrite replaces it, --out writes another)"};
+// The layers of what was drawn, the same way; files without names yet.
+Result<std::vector<WholeFile>> layers_of(const ShotOptions& options, const PictureFiles& files,
+                                         const Gpu& gpu, Scene& scene, const Style& style, ProgressBar& bar,
+                                         ShotResult& shot) {
+    const auto start = Clock::now();
+    ORO_TRY(const RasterPath path, choose_path(shot.view.pipeline, gpu));
+    ORO_TRY(const PictureLayers layers,
+            picture_layers(gpu, scene, shot.view, shot.region, style, path,
+                           [&](double share) { bar.show(share, "measuring layers"); }));
+    shot.layers = LayersReport{layers.ground_px, layers.beside_px};
+    ORO_TRY(std::vector<WholeFile> written,
+            layer_files(files.picture, options.overwrite, shot.view, shot.region, layers));
+    shot.times.layers_s = seconds_since(start);
+    return written;
 }
 
 // The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
@@ -178,6 +99,9 @@ Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages,
 void tell(const ShotOptions& options, const PictureFiles& files, bool checks, const ShotResult& shot,
           const Gpu& gpu, const Style& style) {
     if (!checks) say(options.quiet, "wrote " + files.picture);
+    if (!checks && shot.view.map) say(options.quiet, "wrote " + world_file_path(files.picture));
+    if (shot.layers)
+        for (const char* layer : layer_names) say(options.quiet, "wrote " + layer_path(files.picture, layer));
     // Measurements say it themselves.
     if (!shot.verification && shot.unseen.columns_beyond > 0)
         say(options.quiet, "note: " + unseen_sentence(shot.unseen));
@@ -193,45 +117,31 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
     if (options.json) std::printf("%s\n", json_text(shot_json(shot, files, gpu, style), true).c_str());
 }
 
-// Reads a picture's pixels along while it is drawn again. What cannot be read is not compared: the bytes tell
-// that it is another.
-class BesidePicture {
-  public:
-    BesidePicture(const std::string& file, const Camera& camera) {
-        if (file.empty()) return;
-        auto opened = PictureComparison::open(file, camera.width_px, camera.height_px, device_slack);
-        if (opened.ok()) comparison_.emplace(std::move(*opened));
-    }
-    void take(std::span<const std::uint8_t> row) {
-        if (comparison_ && !comparison_->add_drawn_row(row).ok()) comparison_.reset();
-    }
-    std::optional<PictureDifference> found() {
-        if (!comparison_) return std::nullopt;
-        const auto found = comparison_->finish();
-        return found.ok() ? std::optional(*found) : std::nullopt;
-    }
-
-  private:
-    std::optional<PictureComparison> comparison_;
-};
-
 // Plans and draws; nothing is written when nothing of the region can be in view.
 Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu,
                                Scene& scene, const Style& style, ProgressBar& bar, ShotResult& shot) {
     const auto drawing = Clock::now();
     const Camera& camera = shot.view.camera;
-    ORO_TRY(const FramePlan first, scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
-                                              shot.view.tau_px, shot.view.model));
     // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
     const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
-    if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
+    if (!shot.view.map) {
+        ORO_TRY(const FramePlan first,
+                scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, shot.view.tau_px,
+                           shot.view.model));
+        if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
+    }
     ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
+    std::vector<std::uint8_t> strip;
+    if (shot.view.legend) {
+        ORO_TRY(strip, legend_strip(shot.view, shot.region, style, shot.middle));
+        shot.view.legend_px = rows_of_strip(strip, camera.width_px);
+    }
     const bool checks = is_check(options, files);
-    BesidePicture beside(checks ? files.picture : "", camera);
+    BesidePicture beside(checks ? files.picture : "", shot.view);
     ORO_TRY(DrawnPicture picture,
             draw_picture(
                 checks ? unnamed(files) : files, options.overwrite || checks, shot.view, shot.region,
-                shot.middle, gpu, scene, style, [&](double share) { bar.show(share, "drawing"); },
+                shot.middle, gpu, scene, style, strip, [&](double share) { bar.show(share, "drawing"); },
                 [&](std::span<const std::uint8_t> row) { return beside.take(row), Result<void>(); }));
     shot.beside = beside.found();
     shot.picture = picture.report;
@@ -249,57 +159,91 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     return picture;
 }
 
-Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
+// All that can be refused before a GPU is asked for: options, data, files to be written. Gives the style.
+Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, ProgressBar& bar,
+                        ShotResult& shot) {
     ORO_CHECK(check_out(options, files));
-    ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
     if (options.view.tolerance) {
         if (options.view.accuracy)
             return refused("--tolerance", "", either_words("--tolerance", "--accuracy"));
         ORO_CHECK(parse_tolerance(*options.view.tolerance));
     }
-    ProgressBar bar(options.quiet);
-    ShotResult shot;
     const auto reading = Clock::now();
     ORO_CHECK(open_view(
         options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
         shot.region));
+    if (options.ortho && options.view_file.empty()) ORO_CHECK(make_map(shot.view, options, shot.region));
     ORO_CHECK(check_unchanged(shot.view, shot.region, options.data_changed, options.quiet));
     if (options.no_paths) shot.view.tells_paths = false;
     if (!is_check(options, files)) say_edited(shot.view, options.quiet);
     shot.times.read_s = seconds_since(reading);
     ORO_CHECK(spare_inputs(written_files(options, files), shot.view, shot.region));
-    ORO_TRY(const Style style, load_style(shot.view, shot.region.field));
-    bar.clear();
-    say_notes(options, shot);
+    if (options.layers) ORO_CHECK(check_layers(shot.view.camera));
+    return load_style(shot.view, shot.region.field);
+}
 
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+// The region, ready to be drawn; what --tolerance chooses is chosen.
+Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
+                       ProgressBar& bar, ShotResult& shot) {
     const auto start = Clock::now();
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             region_pages(shot.region, shot.view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
     if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
-    ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
-    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), memory_of_pages(shot.view, options.memory),
+    if (!shot.view.map) {
+        ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
+    }
+    ORO_TRY(Scene scene, create_scene(gpu, std::move(pages), memory_of_pages(shot.view, options.memory),
                                       shot.view.heights, asks_for_means(style.frame)));
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
     shot.has_means = asks_for_means(style.frame) && scene.pages().knows_means();
-    ORO_CHECK(lay_images(shot.view, shot.region, options.memory, *gpu, scene, options.quiet));
+    ORO_CHECK(lay_images(shot.view, shot.region, options.memory, gpu, scene, options.quiet));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
     shot.triangles_at_full_resolution = scene.pages().facts().triangles;
     shot.times.pages_s = seconds_since(start);
-    ORO_TRY(DrawnPicture picture, draw_shot(options, files, *gpu, scene, style, bar, shot));
-    const bool checks = is_check(options, files);
-    std::optional<WholeFile> errors;
+    return scene;
+}
+
+// The files beside the picture, as they are asked for: without names yet.
+Result<std::vector<WholeFile>> files_beside(const ShotOptions& options, const PictureFiles& files,
+                                            const Gpu& gpu, Scene& scene, const Style& style,
+                                            ProgressBar& bar, ShotResult& shot) {
+    std::vector<WholeFile> beside;
+    if (shot.view.map && !is_check(options, files)) {
+        ORO_TRY(WholeFile world, WholeFile::create(world_file_path(files.picture), options.overwrite));
+        const std::string text = world_file(*shot.view.map);
+        ORO_CHECK(world.write(text.data(), text.size()));
+        beside.push_back(std::move(world));
+    }
+    if (options.layers) {
+        ORO_TRY(beside, layers_of(options, files, gpu, scene, style, bar, shot));
+    }
     if (options.verify) {
         bar.show(1.0, "measuring errors");
-        ORO_TRY(errors, verify_shot(options, files, *gpu, scene, style, shot));
+        ORO_TRY(WholeFile errors, verify_shot(options, files, gpu, scene, style, shot));
+        beside.push_back(std::move(errors));
     }
+    return beside;
+}
+
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
+    ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
+    ProgressBar bar(options.quiet);
+    ShotResult shot;
+    ORO_TRY(const Style style, open_shot(options, files, bar, shot));
+    bar.clear();
+    say_notes(options, shot);
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    ORO_TRY(Scene scene, scene_of(options, ceiling_m, *gpu, style, bar, shot));
+    ORO_TRY(DrawnPicture picture, draw_shot(options, files, *gpu, scene, style, bar, shot));
+    const bool checks = is_check(options, files);
+    ORO_TRY(std::vector<WholeFile> beside, files_beside(options, files, *gpu, scene, style, bar, shot));
     bar.clear();
     const Result<void> finished =
-        finish_shot(options, files, shot, std::move(picture.file), std::move(errors));
+        finish_shot(options, files, shot, std::move(picture.file), std::move(beside));
     if (finished.ok() || checks) tell(options, files, checks, shot, *gpu, style);
     if (finished.ok() && checks)
         say(options.quiet, files.picture + " is there already, and its view draws the same " +
@@ -309,8 +253,18 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
 
 }  // namespace
 
-Result<void> run_shot(const ShotOptions& options) {
+Result<void> run_shot(const ShotOptions& asked) {
+    ShotOptions options = asked;
+    ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
+    options.view.takes_maps = true;
+    if (!options.view_file.empty()) {
+        ORO_TRY(const View told, read_view(options.view_file));
+        options.ortho = told.map.has_value();
+        if (options.ortho && (options.verify || options.layers))
+            return refused(options.verify ? "--verify" : "--layers", "",
+                           "is for pictures from an eye; " + options.view_file + " is a map");
+    }
     return take_shot(options, files);
 }
 

@@ -24,6 +24,13 @@ struct ShotTimes {
     double pages_s{};
     double draw_s{};  // drawing, reading back and writing, which overlap row by row
     double verify_s{};
+    double layers_s{};
+};
+
+// Of --layers.
+struct LayersReport {
+    std::uint64_t ground_px{};
+    std::uint64_t beside_px{};  // whose rays pass beside what was drawn there
 };
 
 struct ShotResult {
@@ -42,6 +49,7 @@ struct ShotResult {
     std::uint64_t triangles_at_full_resolution{};
     UnseenGround unseen;
     std::optional<Verification> verification;
+    std::optional<LayersReport> layers;
     std::optional<AccuracyChoice> choice;  // with --tolerance
     // Of a picture that is only drawn again and compared: its pixels, where they can be read.
     std::optional<PictureDifference> beside;

@@ -1,0 +1,78 @@
+#include <filesystem>
+
+#include "apps/layers/picture_layers.h"
+#include "apps/report/figures.h"
+#include "geo/rasters/layer_raster.h"
+
+namespace oro {
+namespace {
+
+using Tags = std::vector<std::pair<std::string, std::string>>;
+
+Tags common_tags(const std::string& picture, const View& view, const Region& region) {
+    const Geodetic& eye = view.camera.eye;
+    const Attitude& attitude = view.camera.attitude;
+    return {
+        {"PICTURE", std::filesystem::path(picture).filename().string()},
+        {"EYE_LATITUDE_LONGITUDE_h",
+         all_digits(eye.lat_deg) + "," + all_digits(eye.lon_deg) + "," + all_digits(eye.h_m)},
+        {"HEADING_PITCH_ROLL_DEG", all_digits(attitude.heading_deg) + "," + all_digits(attitude.pitch_deg) +
+                                       "," + all_digits(attitude.roll_deg)},
+        {"FOV_DEG", all_digits(view.camera.vertical_fov_deg)},
+        {"TAU_PX", all_digits(view.tau_px)},
+        {"GEOID", region.geoid},
+        {"VALUES_ARE", "of the middle of each pixel; NaN where it shows no ground"},
+        {"SOFTWARE", "orograph " OROGRAPH_VERSION}};
+}
+
+// The numbers of sources are those of the list that --json prints.
+Tags source_tags(const View& view, const Region& region) {
+    Tags tags;
+    if (!view.tells_paths) return tags;
+    for (std::size_t i = 0; i < region.sources.size(); ++i)
+        tags.emplace_back("SOURCE_" + std::to_string(i),
+                          std::filesystem::path(region.sources[i].path).filename().string());
+    return tags;
+}
+
+}  // namespace
+
+std::string layer_path(const std::string& picture, const std::string& layer) {
+    const std::filesystem::path path(picture);
+    const bool is_png = path.extension() == ".png";
+    return (is_png ? std::filesystem::path(path).replace_extension() : path).string() + "." + layer + ".tif";
+}
+
+Result<std::vector<WholeFile>> layer_files(const std::string& picture, bool overwrite, const View& view,
+                                           const Region& region, const PictureLayers& layers) {
+    using Doubles = std::span<const double>;
+    using Floats = std::span<const float>;
+    struct Layer {
+        std::variant<Floats, Doubles> values;
+        const char* what;
+        const char* unit;
+    };
+    const std::array<Layer, layer_names.size()> all{{
+        {Doubles(layers.longitude_deg), "longitude, WGS84, east positive", "degree"},
+        {Doubles(layers.latitude_deg), "latitude, WGS84, north positive", "degree"},
+        {Floats(layers.H_m), "H: height of the ground above the geoid (sea level)", "metre"},
+        {Floats(layers.h_m), "h: height of the ground above the WGS84 ellipsoid", "metre"},
+        {Floats(layers.distance_m), "distance from the eye along the sight line", "metre"},
+        {Floats(layers.slope_deg), "slope of the ground (Horn), 0 is level", "degree"},
+        {Floats(layers.source), "number of the source in the list that --json prints, from 0", ""},
+        {Floats(layers.shadow), "share of the sun's light past the terrain: 0 in shadow, 1 in the sun", ""},
+    }};
+    const Tags common = common_tags(picture, view, region);
+    std::vector<WholeFile> files;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        LayerRaster raster{view.camera.width_px, view.camera.height_px, all[i].values,
+                           all[i].what,          all[i].unit,           common};
+        if (std::string(layer_names[i]) == "source")
+            for (auto& tag : source_tags(view, region)) raster.tags.push_back(std::move(tag));
+        ORO_TRY(WholeFile file, layer_raster(layer_path(picture, layer_names[i]), overwrite, raster));
+        files.push_back(std::move(file));
+    }
+    return files;
+}
+
+}  // namespace oro

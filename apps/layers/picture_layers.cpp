@@ -1,0 +1,132 @@
+#include "apps/layers/picture_layers.h"
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "apps/command_line/refusals.h"
+#include "apps/labels/labelled_picture.h"
+#include "core/base/parallel.h"
+#include "core/measure/shown_place.h"
+#include "core/terrain/horn_slope.h"
+#include "geo/region/source_at.h"
+#include "render/frame/shown_ground.h"
+
+namespace oro {
+namespace {
+
+constexpr double most_px = 1.0e8;  // they take 40 bytes each
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+// Whether the sun's middle shows over the terrain: by straight lines towards where the eye sees it, as
+// pictures cast shadows.
+class SunOverPlaces {
+  public:
+    SunOverPlaces(const TrueSurface& surface, const Geodetic& eye, const SunDirection& sun)
+        : surface_(surface), oracle_(surface, sight_from(eye)), light_(direct_light(sun)) {
+        const SineCosine around = sine_cosine_deg(sun.azimuth_deg), up = sine_cosine_deg(sun.elevation_deg);
+        towards_ = ecef_from_enu(eye.lat_deg, eye.lon_deg) *
+                   glm::dvec3(up.cosine * around.sine, up.cosine * around.cosine, up.sine);
+    }
+
+    [[nodiscard]] float share_at(const ShownPlace& place) const {
+        // A line begins above the true ground, or it would meet what it begins on.
+        constexpr double lift_m = 0.02;
+        const auto ground_m = surface_.h_at_m(place.row, place.column);
+        if (!ground_m) return none;
+        if (light_ <= 0.0) return 0.0F;
+        const Geodetic from{place.point.lat_deg, place.point.lon_deg, *ground_m + lift_m};
+        const bool hidden =
+            oracle_.first_hit_from(ecef_from_geodetic(from), towards_, sight_reach_m(from.h_m)).has_value();
+        return hidden ? 0.0F : static_cast<float>(light_);
+    }
+
+  private:
+    const TrueSurface& surface_;
+    Oracle oracle_;
+    double light_;
+    glm::dvec3 towards_{};
+};
+
+PictureLayers empty_layers(std::size_t pixels) {
+    PictureLayers layers;
+    for (auto* values : {&layers.longitude_deg, &layers.latitude_deg})
+        values->assign(pixels, std::numeric_limits<double>::quiet_NaN());
+    for (auto* values :
+         {&layers.H_m, &layers.h_m, &layers.distance_m, &layers.slope_deg, &layers.source, &layers.shadow})
+        values->assign(pixels, none);
+    return layers;
+}
+
+float number_of_source(const Region& region, const Geodetic& point) {
+    const SourceReport* const source = source_at(region, point.lat_deg, point.lon_deg);
+    return source ? static_cast<float>(source - region.sources.data()) : none;
+}
+
+// All that is told of a place, into a pixel.
+void put(const ShownPlace& place, const View& view, const Region& region, const SunOverPlaces& sun,
+         std::size_t pixel, PictureLayers& layers) {
+    const Geodetic& point = place.point;
+    const double N_m = region.field.undulation.at_m(point.lat_deg, point.lon_deg);
+    const double H_m = (point.h_m - N_m) / view.exaggeration;
+    layers.longitude_deg[pixel] = point.lon_deg;
+    layers.latitude_deg[pixel] = point.lat_deg;
+    layers.H_m[pixel] = static_cast<float>(H_m);
+    // Where the view goes without a geoid, the ellipsoid is still as far below it.
+    layers.h_m[pixel] =
+        static_cast<float>(H_m + N_m + region.geoid_left_out.at_m(point.lat_deg, point.lon_deg));
+    layers.distance_m[pixel] = static_cast<float>(place.distance_m);
+    if (const auto slope_deg = horn_slope_deg(region.field, place.row, place.column))
+        layers.slope_deg[pixel] = static_cast<float>(*slope_deg);
+    layers.source[pixel] = number_of_source(region, point);
+    layers.shadow[pixel] = sun.share_at(place);
+}
+
+double pixels_of(const Camera& camera) {
+    return static_cast<double>(camera.width_px) * camera.height_px;
+}
+
+}  // namespace
+
+Result<void> check_layers(const Camera& camera) {
+    if (pixels_of(camera) <= most_px) return {};
+    return refused("--layers", "", "takes a picture of at most 100,000,000 pixels: give a smaller --size");
+}
+
+Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& view, const Region& region,
+                                     const Style& style, RasterPath path, const RenderProgress& progress) {
+    const Camera& camera = view.camera;
+    PictureLayers layers = empty_layers(static_cast<std::size_t>(pixels_of(camera)));
+    const TrueSurface surface(region.field, view.exaggeration, thread_count());
+    const ShownPlaces places(surface, camera, view.model, view.tau_px == 0.0);
+    const SunOverPlaces sun(surface, camera.eye, style.sun);
+    std::atomic<std::uint64_t> ground_px{0};
+    const auto take = [&](const Tile& tile, int first_row, int rows,
+                          const std::vector<gpu::DrawnTriangle>& triangles) {
+        in_parallel(rows, thread_count(), [&](int row) {
+            const int y = tile.y_px + first_row + row;
+            for (int column = 0; column < tile.width_px; ++column) {
+                const int x = tile.x_px + column;
+                const auto place = places.at(
+                    triangles[static_cast<std::size_t>(row) * static_cast<std::size_t>(tile.width_px) +
+                              static_cast<std::size_t>(column)],
+                    {x + 0.5, y + 0.5});
+                if (!place) continue;
+                ++ground_px;
+                put(*place, view, region, sun,
+                    static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
+                        static_cast<std::size_t>(x),
+                    layers);
+            }
+        });
+        if (progress) progress(static_cast<double>(tile.y_px + first_row + rows) / camera.height_px);
+    };
+    ORO_CHECK(shown_triangles(gpu, scene, camera, picture_options(view, path), take));
+    // What could not be read counted as void.
+    ORO_CHECK(region.field.health());
+    layers.ground_px = ground_px;
+    layers.beside_px = places.passed_beside();
+    return layers;
+}
+
+}  // namespace oro

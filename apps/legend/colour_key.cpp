@@ -1,0 +1,85 @@
+#include "apps/legend/colour_key.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/legend/legend.h"
+
+namespace oro {
+namespace {
+
+std::uint8_t code_of(double value) {
+    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
+}
+// Source: IEC 61966-2-1:1999, 5.2.
+double encoded(double light) {
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
+}
+
+double snow_line_m(const gpu::GroundCover& cover, double lat_deg) {
+    for (std::uint32_t i = 1; i < cover.snow_line_count; ++i) {
+        const gpu::SnowLineStop &south = cover.snow_line[i - 1], &north = cover.snow_line[i];
+        const double from = static_cast<double>(south.lat_deg), to = static_cast<double>(north.lat_deg);
+        if (lat_deg > to && i + 1 < cover.snow_line_count) continue;
+        const double share = std::clamp((lat_deg - from) / (to - from), 0.0, 1.0);
+        return (1.0 - share) * static_cast<double>(south.H_m) + share * static_cast<double>(north.H_m);
+    }
+    return 0.0;
+}
+
+void add_ticks(ColourKey& key, double step) {
+    for (double at = std::ceil(key.low / step) * step; at <= key.high; at += step) key.ticks.push_back(at);
+}
+
+}  // namespace
+
+StripColour ColourKey::colour(double value) const {
+    std::size_t next = 0;
+    while (next < stops.size() && static_cast<double>(stops[next].at) < value) ++next;
+    const gpu::TintStop& after = stops[std::min(next, stops.size() - 1)];
+    const gpu::TintStop& before = stops[next == 0 ? 0 : next - 1];
+    const double from = static_cast<double>(before.at), to = static_cast<double>(after.at);
+    const double share = to > from ? std::clamp((value - from) / (to - from), 0.0, 1.0) : 0.0;
+    StripColour mixed{};
+    for (int c = 0; c < 3; ++c) {
+        const double light = (1.0 - share) * static_cast<double>(before.colour[c]) +
+                             share * static_cast<double>(after.colour[c]);
+        mixed[static_cast<std::size_t>(c)] = code_of(codes ? light : encoded(light));
+    }
+    return mixed;
+}
+
+ColourKey colour_key(const View& view, const Region& region, const Style& style) {
+    const gpu::FrameStyle& frame = style.frame;
+    ColourKey key;
+    key.stops.assign(frame.tints, frame.tints + frame.tint_count);
+    key.codes = frame.tints_as_codes != 0;
+    if (key.stops.size() < 2) return key;
+    key.shape = KeyShape::bar;
+    key.unit = "°";
+    if (frame.colour_by == gpu::colour_by_aspect) {
+        key.shape = KeyShape::wheel;
+        key.title = "Slopes face";
+        return key;
+    }
+    if (frame.colour_by == gpu::colour_by_slope) {
+        key.title = "Slope of the ground";
+        key.high = 75.0;
+        add_ticks(key, 15.0);
+        return key;
+    }
+    key.unit = " m";
+    key.title = "Height above sea level";
+    if (frame.colour_by == gpu::colour_by_cover) {
+        key.title = "Level ground by height above sea level";
+        const double snow_m = snow_line_m(frame.cover, view.camera.eye.lat_deg);
+        for (gpu::TintStop& stop : key.stops) stop.at += static_cast<float>(snow_m);
+    }
+    const HeightRange range = height_range(region.field);
+    key.low = static_cast<double>(range.lowest_m);
+    key.high = std::max(key.low + 1.0, static_cast<double>(range.highest_m));
+    add_ticks(key, round_length(std::max(1.0, (key.high - key.low) / 2.5)));
+    return key;
+}
+
+}  // namespace oro

@@ -1,0 +1,31 @@
+// What the colours of a style mean, as a scale.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/legend/strip.h"
+#include "apps/view/style.h"
+#include "apps/view/view.h"
+
+namespace oro {
+
+enum class KeyShape { none, bar, wheel };
+struct ColourKey {
+    KeyShape shape{KeyShape::none};
+    std::string title;
+    double low{}, high{};       // at the bar's ends: metres of H, or degrees
+    std::vector<double> ticks;  // round ones between them
+    const char* unit{""};
+
+    // The style's colour of a value.
+    [[nodiscard]] StripColour colour(double value) const;
+
+    std::vector<gpu::TintStop> stops;
+    bool codes{};
+};
+// By the heights of the region, or all slopes; what grows by nature by the snow line at the eye's or the
+// map's latitude. None where a style has one colour alone.
+ColourKey colour_key(const View& view, const Region& region, const Style& style);
+
+}  // namespace oro

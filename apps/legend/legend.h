@@ -1,0 +1,34 @@
+// What stands below a picture or a map, so that it can hang on a wall: north, scale, colours, eye, sun, and
+// where the data come from.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/view/style.h"
+#include "apps/view/view.h"
+#include "apps/window/picking.h"
+
+namespace oro {
+
+// A strip of the picture's width, rows of sRGB from the top; `middle` is what the picture sees there. Follows
+// from the view, the data and the style alone: the same view, the same bytes. Errors (usage): a picture that
+// is less than 200 px wide; those of text and of the map's CRS.
+Result<std::vector<std::uint8_t>> legend_strip(const View& view, const Region& region, const Style& style,
+                                               const std::optional<SeenPlace>& middle);
+int rows_of_strip(const std::vector<std::uint8_t>& strip, int width_px);
+
+// What it says, in lines: eye or map, sun, data, detail. English, without line ends.
+std::vector<std::string> legend_lines(const View& view, const Region& region, const Style& style);
+
+// Metres across the line of sight that a pixel in the middle shows; nothing where that shows no ground.
+std::optional<double> metres_a_pixel(const View& view, const std::optional<SeenPlace>& middle);
+// Where north is in the picture at its middle, degrees clockwise from up: as the ground there is seen, or
+// where there is none, as a compass that lies before the viewer.
+double north_in_picture_deg(const View& view, const std::optional<SeenPlace>& middle);
+// 1, 2 or 5 times a power of ten, at most `most`.
+double round_length(double most);
+
+}  // namespace oro

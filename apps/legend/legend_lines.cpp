@@ -1,0 +1,154 @@
+// The words of a legend.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <glm/geometric.hpp>
+
+#include "apps/legend/legend.h"
+#include "apps/report/figures.h"
+#include "apps/report/region_json.h"
+#include "core/terrain/ground.h"
+
+namespace oro {
+namespace {
+
+template <class... Values>
+std::string text_of(const char* format, Values... values) {
+    char text[240];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+const char* wind_of(double azimuth_deg) {
+    static constexpr std::array names{"north", "north-east", "east", "south-east",
+                                      "south", "south-west", "west", "north-west"};
+    const double turned = azimuth_deg - 360.0 * std::floor(azimuth_deg / 360.0);
+    return names[static_cast<std::size_t>(std::lround(turned / 45.0)) % names.size()];
+}
+
+std::string place_text(double lat_deg, double lon_deg) {
+    return text_of("%.5f° %s, %.5f° %s", std::abs(lat_deg), lat_deg < 0.0 ? "S" : "N", std::abs(lon_deg),
+                   lon_deg < 0.0 ? "W" : "E");
+}
+
+// Whole metres below 100 km.
+std::string height_text(double H_m) {
+    if (std::abs(H_m) >= 1.0e5) return figure(H_m / 1000.0) + " km";
+    const long whole = std::lround(H_m);
+    return (whole < 0 ? "−" : "") + grouped(static_cast<std::uint64_t>(std::abs(whole))) + " m";
+}
+
+std::string eye_line(const View& view, const Region& region) {
+    const Camera& camera = view.camera;
+    const Geodetic& eye = camera.eye;
+    const double H_m = eye.h_m - region.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    std::string line =
+        "Eye: " + place_text(eye.lat_deg, eye.lon_deg) + ", " + height_text(H_m) + " above sea level";
+    const auto ground_m = ground_h_m(region.field, eye.lat_deg, eye.lon_deg, view.exaggeration);
+    if (ground_m && eye.h_m >= *ground_m)
+        line += ", " + height_text(eye.h_m - *ground_m) + " above the ground";
+    const Attitude& attitude = camera.attitude;
+    line += text_of("; looking %s (%.0f°)", wind_of(attitude.heading_deg), attitude.heading_deg);
+    if (std::abs(attitude.pitch_deg) >= 0.05)
+        line += text_of(", %.3g° %s", std::abs(attitude.pitch_deg), attitude.pitch_deg < 0.0 ? "down" : "up");
+    line += text_of("; angle of view %.3g°", camera.vertical_fov_deg);
+    if (view.exaggeration != 1.0) line += "; heights exaggerated " + figure(view.exaggeration) + " times";
+    return line;
+}
+
+std::string map_line(const View& view) {
+    const MapFrame& map = *view.map;
+    const std::string unit = map_unit(map.crs);
+    std::string line = "Map: " + map_crs_name(map.crs) +
+                       text_of("; a pixel is %.6g ", map.crs_from_pixel[1]) + (unit == "metre" ? "m" : unit) +
+                       " wide";
+    const double off_deg = std::remainder(view.camera.attitude.heading_deg, 360.0);
+    if (std::abs(off_deg) >= 0.05)
+        line +=
+            text_of("; its up is %.1f° %s of true north", std::abs(off_deg), off_deg > 0.0 ? "east" : "west");
+    if (view.exaggeration != 1.0) line += "; heights exaggerated " + figure(view.exaggeration) + " times";
+    return line;
+}
+
+std::string sun_line(const Style& style) {
+    const SunDirection& sun = style.sun;
+    std::string line = text_of("Sun: from the %s (%.0f°), %.3g° %s the horizon", wind_of(sun.azimuth_deg),
+                               sun.azimuth_deg - 360.0 * std::floor(sun.azimuth_deg / 360.0),
+                               std::abs(sun.elevation_deg), sun.elevation_deg < 0.0 ? "below" : "above");
+    if (sun.time) line += ", " + sun.time->text;
+    return line;
+}
+
+// What the sources ask to be said; of others their names.
+std::string data_line(const View& view, const Region& region) {
+    if (const std::string asked = attribution_of(region); !asked.empty())
+        return "Heights: " + one_line(asked);
+    std::string names;
+    constexpr std::size_t most = 4;
+    for (std::size_t i = 0; i < region.sources.size() && view.tells_paths; ++i) {
+        if (i == most) {
+            names += " and " + counted(region.sources.size() - most, "file more", "files more");
+            break;
+        }
+        names += (names.empty() ? "" : ", ") +
+                 one_line(std::filesystem::path(region.sources[i].path).filename().string());
+    }
+    return "Heights: " + (names.empty() ? counted(region.sources.size(), "file", "files") : names);
+}
+
+}  // namespace
+
+std::vector<std::string> legend_lines(const View& view, const Region& region, const Style& style) {
+    std::vector<std::string> lines{view.map ? map_line(view) : eye_line(view, region)};
+    if (style.frame.light != gpu::light_none) lines.push_back(sun_line(style));
+    if (style.frame.contours.interval_m > 0.0F)
+        lines.push_back(text_of("Contour lines: every %.6g m, every fifth thicker",
+                                static_cast<double>(style.frame.contours.interval_m)));
+    lines.push_back(data_line(view, region));
+    std::string images;
+    for (const std::string& file : view.drape)
+        if (view.tells_paths)
+            images +=
+                (images.empty() ? "" : ", ") + one_line(std::filesystem::path(file).filename().string());
+    if (!images.empty()) lines.push_back("Images: " + images);
+    lines.push_back("Drawn by Orograph " OROGRAPH_VERSION
+                    "; detail that is left out moves nothing by more than " +
+                    text_of("%.3g px", view.tau_px));
+    return lines;
+}
+
+std::optional<double> metres_a_pixel(const View& view, const std::optional<SeenPlace>& middle) {
+    const double per_m = 2.0 * view.camera.half_fov_tangent().y / view.camera.height_px;
+    if (view.map) return view.camera.eye.h_m * per_m;
+    if (!middle) return std::nullopt;
+    return middle->seen_distance_m * per_m;
+}
+
+double north_in_picture_deg(const View& view, const std::optional<SeenPlace>& middle) {
+    const Camera& camera = view.camera;
+    double north_deg = -camera.attitude.heading_deg;
+    if (!view.map && middle) {
+        // A step to the north, as the eye sees it.
+        const double step_deg = deg_from_radians(Radians{0.001 * middle->seen_distance_m / wgs84_a_m});
+        const double side = middle->lat_deg > 89.9 ? -1.0 : 1.0;
+        const glm::dmat3 view_from_ecef = camera.view_from_ecef();
+        const auto seen = [&](double lat_deg) {
+            const glm::dvec3 at =
+                view_from_ecef *
+                (ecef_from_geodetic({lat_deg, middle->lon_deg, middle->h_m}).m - camera.eye_ecef().m);
+            return glm::dvec2(at.x, at.y) / -at.z;
+        };
+        const glm::dvec2 step = side * (seen(middle->lat_deg + side * step_deg) - seen(middle->lat_deg));
+        if (glm::length(step) > 0.0) north_deg = deg_from_radians(Radians{std::atan2(step.x, step.y)});
+    }
+    return north_deg - 360.0 * std::floor(north_deg / 360.0);
+}
+
+double round_length(double most) {
+    const double ten = std::pow(10.0, std::floor(std::log10(most)));
+    for (const double times : {5.0, 2.0})
+        if (times * ten <= most * (1.0 + 1.0e-9)) return times * ten;
+    return ten;
+}
+
+}  // namespace oro

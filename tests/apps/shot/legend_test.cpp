@@ -1,0 +1,92 @@
+// orograph shot --legend as people use it: the picture above stays as it is, and its view draws both again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/apps/picture_pixels.h"
+#include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using oro::test::bytes_of;
+using oro::test::expect_refusal;
+using oro::test::names_in;
+using oro::test::object_said_by;
+using oro::test::pixels_of;
+using oro::test::run_orograph;
+using Words = std::vector<std::string>;
+
+std::string bundled() {
+    return (oro::test::bundled_data() / "jacksboro.tif").string();
+}
+
+Words shot(const fs::path& out, const Words& more = {}) {
+    Words words{"shot",   bundled(),   "--at", "36.5,-84.25", "--above",
+                "200",    "--heading", "320",  "--pitch",     "-8",
+                "--size", "320x120",   "-q",   "--time",      "2026-01-02T03:04:05Z",
+                "--out",  out.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+TEST(ShotLegend, StandsBelowThePictureAsItIs) {
+    const fs::path folder = oro::test::scratch_folder();
+    ASSERT_EQ(run_orograph(shot(folder / "bare.png")).exit_code, 0);
+    const auto told = object_said_by(shot(folder / "with.png", {"--legend", "--json"}));
+    const auto bare = pixels_of(folder / "bare.png"), with = pixels_of(folder / "with.png");
+    ASSERT_EQ(bare.height, 120U);
+    ASSERT_EQ(with.width, 320U);
+    const int strip_px = told["view"]["legend_px"].get<int>();
+    EXPECT_EQ(with.height, 120U + static_cast<unsigned>(strip_px));
+    EXPECT_GT(strip_px, 120);
+    EXPECT_TRUE(std::equal(bare.rgb.begin(), bare.rgb.end(), with.rgb.begin()));
+    // Paper with something on it.
+    std::size_t dark = 0;
+    for (std::size_t i = bare.rgb.size(); i < with.rgb.size(); i += 3) dark += with.rgb[i] < 90;
+    EXPECT_GT(dark, 500U);
+    EXPECT_LT(dark, (with.rgb.size() - bare.rgb.size()) / 12);
+    EXPECT_EQ(told["view"]["size_px"], nlohmann::json({320, 120}));
+}
+
+TEST(ShotLegend, ItsViewDrawsItAgain) {
+    for (const char* name : {"p.png", "p.jpg", "p.tif"}) {
+        const fs::path folder = oro::test::scratch_folder(), file = folder / name;
+        ASSERT_EQ(run_orograph(shot(file, {"--legend"})).exit_code, 0);
+        const auto again = run_orograph({"shot", "--view", file.string(), "-q", "--out",
+                                         (folder / ("again-" + std::string(name))).string()});
+        EXPECT_EQ(again.exit_code, 0) << again.err;
+        EXPECT_EQ(bytes_of(folder / ("again-" + std::string(name))), bytes_of(file));
+        const auto check = run_orograph({"shot", "--view", file.string()});
+        EXPECT_NE(check.err.find("its view draws the same bytes"), std::string::npos) << check.err;
+        const auto compared = run_orograph({"compare", file.string()});
+        EXPECT_EQ(compared.exit_code, 0) << compared.err;
+        EXPECT_EQ(compared.err.find("note: " + file.string()), std::string::npos) << compared.err;
+    }
+}
+
+TEST(ShotLegend, OfAMapIsOpaqueBelowIt) {
+    const fs::path folder = oro::test::scratch_folder(), file = folder / "m.tif";
+    const Words words{"shot",      bundled(), "--ortho", "--legend", "--size", "240x200",    "--crs",
+                      "EPSG:3857", "--style", "slope",   "-q",       "--out",  file.string()};
+    ASSERT_EQ(run_orograph(words).exit_code, 0);
+    const auto again =
+        run_orograph({"shot", "--view", file.string(), "-q", "--out", (folder / "n.tif").string()});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(bytes_of(folder / "n.tif"), bytes_of(file));
+    EXPECT_EQ(bytes_of(folder / "n.tfw"), bytes_of(folder / "m.tfw"));
+}
+
+TEST(ShotLegend, NeedsAPictureThatIsWideEnough) {
+    const fs::path folder = oro::test::scratch_folder();
+    Words words = shot(folder / "p.png", {"--legend"});
+    words[11] = "199x100";
+    expect_refusal(run_orograph(words), 2, {"--legend: needs a picture at least 200 px wide"});
+    EXPECT_EQ(names_in(folder), Words{});
+}
+
+}  // namespace

@@ -1,0 +1,124 @@
+// orograph shot --ortho as people use it: what GDAL says of the file, and what is refused.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using oro::test::bytes_of;
+using oro::test::expect_refusal;
+using oro::test::names_in;
+using oro::test::object_said_by;
+using oro::test::run_orograph;
+using oro::test::run_program;
+using oro::test::write_bytes;
+using Words = std::vector<std::string>;
+
+std::string bundled() {
+    return (oro::test::bundled_data() / "jacksboro.tif").string();
+}
+
+Words map(const fs::path& out, const Words& more = {}) {
+    Words words{"shot",
+                bundled(),
+                "--ortho",
+                "--bbox",
+                "-84.3,36.45,-84.2,36.55",
+                "-q",
+                "--time",
+                "2026-01-02T03:04:05Z",
+                "--out",
+                out.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+TEST(ShotOrtho, IsAGeoTiffInItsCrs) {
+    const fs::path folder = oro::test::scratch_folder(), out = folder / "m.tif";
+    const auto told = object_said_by(map(out, {"--json", "--resolution", "100"}));
+    EXPECT_EQ(names_in(folder), (Words{"m.tfw", "m.tif"}));
+    // The middle of the region is 84.25 degrees west: zone 16, from 90 to 84 W.
+    EXPECT_EQ(told["map"]["crs"], "EPSG:32616 WGS 84 / UTM zone 16N");
+    EXPECT_EQ(told["map"]["unit"], "metre");
+    EXPECT_EQ(told["view"]["map"]["crs"], "EPSG:32616");
+    const auto shown = run_program({"gdalinfo", "-json", out.string()});
+    if (shown.exit_code == 127) GTEST_SKIP() << "needs gdalinfo";
+    const auto info = oro::test::one_object(shown.out);
+    EXPECT_NE(info["coordinateSystem"]["wkt"].get<std::string>().find("ID[\"EPSG\",32616]"),
+              std::string::npos);
+    EXPECT_EQ(info["geoTransform"][1], 100.0);
+    EXPECT_EQ(info["geoTransform"][5], -100.0);
+    EXPECT_EQ(info["geoTransform"][0], told["map"]["left"]);
+    // 0.1 degree is some 9 km by 11 km there.
+    EXPECT_NEAR(info["size"][0].get<int>(), 92, 4);
+    EXPECT_NEAR(info["size"][1].get<int>(), 113, 4);
+    ASSERT_EQ(info["bands"].size(), 4U);
+    EXPECT_EQ(info["bands"][3]["colorInterpretation"], "Alpha");
+    const auto& middle = info["wgs84Extent"]["coordinates"][0][0];
+    EXPECT_NEAR(middle[0].get<double>(), -84.3, 0.01);
+    EXPECT_NEAR(middle[1].get<double>(), 36.55, 0.01);
+    char first[40];
+    std::snprintf(first, sizeof first, "%.17g", told["map"]["left"].get<double>() + 50.0);
+    EXPECT_EQ(bytes_of(folder / "m.tfw").find("100\n0\n0\n-100\n" + std::string(first) + "\n"), 0U);
+}
+
+TEST(ShotOrtho, ItsViewDrawsItAgain) {
+    const fs::path folder = oro::test::scratch_folder();
+    ASSERT_EQ(run_orograph(map(folder / "m.tif", {"--crs", "EPSG:3857", "--size", "80x90"})).exit_code, 0);
+    const auto again = run_orograph(
+        {"shot", "--view", (folder / "m.tif").string(), "-q", "--out", (folder / "again.tif").string()});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(bytes_of(folder / "again.tif"), bytes_of(folder / "m.tif"));
+    EXPECT_EQ(bytes_of(folder / "again.tfw"), bytes_of(folder / "m.tfw"));
+    const auto check = run_orograph({"shot", "--view", (folder / "m.tif").string()});
+    EXPECT_EQ(check.exit_code, 0) << check.err;
+    EXPECT_NE(check.err.find("its view draws the same bytes"), std::string::npos) << check.err;
+    const std::string file = (folder / "m.tif").string();
+    expect_refusal(run_orograph({"compare", file}), 2, {"is a map from straight above; only shot"});
+    expect_refusal(run_orograph({"plan", "--view", file}), 2, {"is a map from straight above; only shot"});
+    expect_refusal(run_orograph({"shot", "--view", file, "--layers"}), 2, {"--layers", "is a map"});
+    expect_refusal(run_orograph({"shot", "--view", file, "--size", "9x9", "--out", file + ".png"}), 2,
+                   {"--size", "not together with a map's view"});
+}
+
+TEST(ShotOrtho, HasAWorldFileInEveryFormat) {
+    const fs::path folder = oro::test::scratch_folder();
+    EXPECT_EQ(run_orograph(map(folder / "a.png", {"--size", "40x40"})).exit_code, 0);
+    EXPECT_EQ(run_orograph(map(folder / "b.jpg", {"--size", "40x40"})).exit_code, 0);
+    EXPECT_EQ(names_in(folder), (Words{"a.pgw", "a.png", "b.jgw", "b.jpg"}));
+    EXPECT_EQ(bytes_of(folder / "a.pgw"), bytes_of(folder / "b.jgw"));
+    write_bytes(folder / "c.tfw", "mine");
+    expect_refusal(run_orograph(map(folder / "c.tif")), 1, {"c.tfw", "is there already (--overwrite"});
+    EXPECT_FALSE(fs::exists(folder / "c.tif"));
+}
+
+TEST(ShotOrtho, RefusesWhatAMapCannotHave) {
+    const fs::path folder = oro::test::scratch_folder(), out = folder / "m.tif";
+    const std::vector<std::pair<Words, Words>> all{
+        {{"--at", "36.5,-84.25"}, {"--at: not together with --ortho: a map is seen from straight above"}},
+        {{"--pitch", "-3"}, {"--pitch: not together with --ortho"}},
+        {{"--refraction", "0.1"},
+         {"--refraction: not together with --ortho: it is for pictures from an eye"}},
+        {{"--layers"}, {"--layers: not together with --ortho"}},
+        {{"--crs", "EPSG:1"}, {"--crs EPSG:1: is no coordinate reference system that PROJ knows"}},
+        {{"--crs", "/etc/passwd"}, {"--crs /etc/passwd: is no coordinate reference system that PROJ knows"}},
+        {{"--crs", "EPSG:4978"}, {"--crs EPSG:4978: is no map's"}},
+        {{"--crs", "+proj=ortho +lat_0=-40 +lon_0=90"}, {"cannot hold this region"}},
+        {{"--resolution", "0"}, {"--resolution: must be more than 0"}},
+        {{"--resolution", "0.001"}, {"--resolution: makes a map of", "between 1 and 65500"}},
+        {{"--resolution", "50", "--size", "9x9"},
+         {"--resolution: give either --resolution or --size, not both"}}};
+    for (const auto& [words, says] : all) expect_refusal(run_orograph(map(out, words)), 2, says);
+    expect_refusal(run_orograph({"shot", bundled(), "--crs", "EPSG:4326", "--out", out.string()}), 2,
+                   {"--crs: says nothing without --ortho"});
+    EXPECT_EQ(names_in(folder), Words{});
+}
+
+}  // namespace

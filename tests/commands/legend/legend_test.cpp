@@ -1,0 +1,114 @@
+// What a legend says and where its needle points: against figures worked out by hand.
+#include "apps/legend/legend.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/legend/colour_key.h"
+#include "tests/support/made_terrain.h"
+
+namespace oro {
+namespace {
+
+View straight_down(double heading_deg) {
+    View view;
+    view.camera = {{46.0, 8.0, 10000.0}, {heading_deg, -90.0, 0.0}, 45.0, 400, 400};
+    return view;
+}
+SeenPlace place(double lat_deg, double lon_deg, double away_m) {
+    SeenPlace seen;
+    seen.lat_deg = lat_deg;
+    seen.lon_deg = lon_deg;
+    seen.seen_distance_m = away_m;
+    return seen;
+}
+
+// Straight down with north at heading 0 on top; the picture turns against the eye.
+TEST(LegendNorth, TurnsAgainstTheEye) {
+    const auto middle = place(46.0, 8.0, 10000.0);
+    const auto off_deg = [&](double heading_deg, double expected_deg) {
+        return std::abs(
+            std::remainder(north_in_picture_deg(straight_down(heading_deg), middle) - expected_deg, 360.0));
+    };
+    EXPECT_LT(off_deg(0.0, 0.0), 1e-3);
+    EXPECT_LT(off_deg(90.0, 270.0), 1e-3);
+    EXPECT_LT(off_deg(205.0, 155.0), 1e-3);
+}
+
+// Level ground seen at 30 degrees down, looking east: north is to the left, exactly. Looking at N 45 E: north
+// goes away to the left; its way up the picture is foreshortened by sin 30 = 1/2, so it leans atan(2) = 63.4
+// degrees.
+TEST(LegendNorth, IsForeshortenedAsTheGroundIs) {
+    View view;
+    const double down_m = 1000.0, level_m = down_m * std::sqrt(3.0);
+    const double per_lat = 111132.0, per_lon = 111320.0 * std::cos(45.0 * M_PI / 180.0) * 1.0017;
+    view.camera = {{45.0, 7.0, down_m}, {90.0, -30.0, 0.0}, 45.0, 400, 300};
+    EXPECT_NEAR(north_in_picture_deg(view, place(45.0, 7.0 + level_m / per_lon, 2000.0)), 270.0, 0.3);
+    view.camera.attitude.heading_deg = 45.0;
+    const double each_m = level_m / std::sqrt(2.0);
+    EXPECT_NEAR(north_in_picture_deg(view, place(45.0 + each_m / per_lat, 7.0 + each_m / per_lon, 2000.0)),
+                360.0 - 63.435, 0.5);
+    EXPECT_NEAR(north_in_picture_deg(view, {}), 315.0, 1e-9) << "no ground in the middle";
+}
+
+// 2 tan(22.5 degrees) = 0.828427 of the distance fills 400 rows.
+TEST(LegendScale, IsThatOfThePicturesMiddle) {
+    EXPECT_NEAR(*metres_a_pixel(straight_down(0.0), place(46.0, 8.0, 10000.0)), 20.7107, 1e-4);
+    EXPECT_FALSE(metres_a_pixel(straight_down(0.0), {}));
+    EXPECT_EQ(round_length(1999.0), 1000.0);
+    EXPECT_EQ(round_length(2000.0), 2000.0);
+    EXPECT_EQ(round_length(7300.0), 5000.0);
+    EXPECT_EQ(round_length(0.3), 0.2);
+}
+
+TEST(LegendLines, SayEyeSunAndData) {
+    View view;
+    view.camera = {{46.67, -8.06, 2500.0}, {205.0, -4.5, 0.0}, 45.0, 800, 400};
+    view.tau_px = 0.5;
+    Region region;
+    region.field = test::made_field(47.0, -9.0, 20.0, 20, 30, [](double, double) { return 1000.0F; });
+    SourceReport source;
+    source.path = "tiles/N46W009.hgt";
+    region.sources.push_back(source);
+    Style style{};
+    style.sun = {315.0, 38.0, {}};
+    const auto lines = legend_lines(view, region, style);
+    ASSERT_EQ(lines.size(), 4U);
+    EXPECT_EQ(
+        lines[0],
+        "Eye: 46.67000° N, 8.06000° W, 2,500 m above sea level, 1,500 m above the ground; looking south-west "
+        "(205°), 4.5° down; angle of view 45°");
+    EXPECT_EQ(lines[1], "Sun: from the north-west (315°), 38° above the horizon");
+    EXPECT_EQ(lines[2], "Heights: N46W009.hgt");
+    EXPECT_EQ(lines[3].substr(lines[3].find(';')),
+              "; detail that is left out moves nothing by more than 0.5 px");
+    view.tells_paths = false;
+    EXPECT_EQ(legend_lines(view, region, style)[2], "Heights: 1 file");
+}
+
+TEST(LegendColours, AreTheStyles) {
+    View view;
+    Region region;
+    region.field = test::made_field(47.0, 8.0, 20.0, 3, 3,
+                                    [](double lat, double) { return lat > 46.99 ? 3000.0F : 500.0F; });
+    Style style{};
+    style.frame.tint_count = 2;
+    style.frame.tints_as_codes = 1;
+    style.frame.tints[0] = {0.0F, gpu::vec3(0.0F)};
+    style.frame.tints[1] = {4000.0F, gpu::vec3(1.0F, 0.0F, 0.5F)};
+    ColourKey key = colour_key(view, region, style);
+    EXPECT_EQ(key.shape, KeyShape::bar);
+    EXPECT_EQ(key.low, 500.0);
+    EXPECT_EQ(key.high, 3000.0);
+    EXPECT_EQ(key.ticks, (std::vector<double>{1000.0, 2000.0, 3000.0}));
+    EXPECT_EQ(key.colour(2000.0), (StripColour{128, 0, 64}));
+    EXPECT_EQ(key.colour(9000.0), (StripColour{255, 0, 128}));
+    style.frame.colour_by = gpu::colour_by_aspect;
+    EXPECT_EQ(colour_key(view, region, style).shape, KeyShape::wheel);
+    style.frame.tint_count = 1;
+    EXPECT_EQ(colour_key(view, region, style).shape, KeyShape::none);
+}
+
+}  // namespace
+}  // namespace oro
