@@ -129,6 +129,24 @@ void read_camera(const nlohmann::json& json, Camera& camera) {
     camera.height_px = static_cast<int>(whole(as_field("size_px", size[1]), "size_px", limits::side_px));
 }
 
+// Views on a plane have none.
+std::optional<PanoramaFrame> read_panorama(const nlohmann::json& json) {
+    if (!json.contains("panorama")) return std::nullopt;
+    const nlohmann::json& panorama = json_field(json, "panorama");
+    const PanoramaFrame frame{number(panorama, "from_deg", limits::azimuth_deg),
+                              number(panorama, "sweep_deg", limits::sweep_deg),
+                              number(panorama, "low_deg", limits::elevation_deg),
+                              number(panorama, "high_deg", limits::elevation_deg)};
+    if (!(frame.high_deg - frame.low_deg >= limits::least_elevations_deg))
+        throw JsonFault{"'panorama' is empty"};
+    return frame;
+}
+
+ordered_json panorama_json(const PanoramaFrame& frame) {
+    return json_object("from_deg", frame.from_deg, "sweep_deg", frame.sweep_deg, "low_deg", frame.low_deg,
+                       "high_deg", frame.high_deg);
+}
+
 SunDirection read_sun(const nlohmann::json& json) {
     SunDirection sun{number(json, "azimuth_deg", limits::sun_azimuth_deg),
                      number(json, "elevation_deg", limits::sun_elevation_deg)};
@@ -158,6 +176,7 @@ View read_fields(const nlohmann::json& json) {
     view.region.fill_voids = json_flag(json, "fill_voids");
     view.region.strict_datum = json_flag(json, "strict_datum");
     read_camera(json, view.camera);
+    view.panorama = read_panorama(json);
     view.samples = static_cast<int>(whole(json, "samples", limits::samples));
     view.exaggeration = number(json, "exaggeration", limits::exaggeration);
     if (const auto& sun = json_field(json, "sun"); !sun.is_null()) view.sun = read_sun(sun);
@@ -230,6 +249,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["roll_deg"] = camera.attitude.roll_deg;
     json["fov_deg"] = camera.vertical_fov_deg;
     json["size_px"] = json_list(camera.width_px, camera.height_px);
+    if (view.panorama) json["panorama"] = panorama_json(*view.panorama);
     json["samples"] = view.samples;
     json["exaggeration"] = view.exaggeration;
     json["sun"] = nullptr;

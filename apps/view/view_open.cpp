@@ -29,6 +29,15 @@ Error with_way_out(Error fault, const View& view, const RegionOptions& options) 
     return fault;
 }
 
+// That the command draws pictures of the view's kind.
+Result<void> check_kind(const View& view, const std::string& view_file, PictureKind kind) {
+    const bool is_panorama = view.panorama.has_value();
+    if (is_panorama == (kind == PictureKind::panorama)) return {};
+    return Error{ErrorKind::usage, "--view " + view_file,
+                 is_panorama ? "is a panorama: orograph panorama --view draws it again"
+                             : "is no panorama: orograph shot --view draws it again"};
+}
+
 // Opens a view's images, and puts their fingerprints into it.
 Result<void> open_images(View& view) {
     for (const std::string& file : view.drape) {
@@ -52,9 +61,10 @@ Result<void> open_files(View& view) {
 
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
-                       Region& region) {
+                       Region& region, PictureKind kind) {
     if (!view_file.empty()) {
         ORO_TRY(view, read_view(view_file));
+        ORO_CHECK(check_kind(view, view_file, kind));
         view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px,
                              !view_options.style && !view_options.visibility_km && !view_options.sun &&
                                  !view_options.sun_time && !view_options.sea && !view_options.rim &&
