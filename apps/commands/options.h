@@ -178,8 +178,9 @@ struct PanoramaOptions {
     std::string view_file;
     std::string out;
     std::optional<int> width_px;
-    std::string sector;     // FROM,TO
-    std::string elevation;  // LOW,HIGH
+    std::string sector;                 // FROM,TO
+    std::string elevation;              // LOW,HIGH
+    std::optional<std::string> ridges;  // on, off
     bool data_changed{false};
     bool no_paths{false};
     bool overwrite{false};

@@ -86,6 +86,7 @@ struct AskedFrame {
     std::optional<std::pair<double, double>> sector;  // from, sweep
     std::optional<std::pair<double, double>> elevation;
     std::optional<int> width_px;
+    std::optional<bool> ridges;
 };
 
 Result<AskedFrame> asked_frame(const PanoramaOptions& options) {
@@ -109,6 +110,7 @@ Result<AskedFrame> asked_frame(const PanoramaOptions& options) {
             return refused("--elevation", options.elevation,
                            "is empty: the second must be higher than the first");
     }
+    if (options.ridges) asked.ridges = *options.ridges == "on";
     asked.width_px = options.width_px;
     if (asked.width_px && !view_limits::panorama_width_px.hold(*asked.width_px))
         return refused(
@@ -167,6 +169,7 @@ Result<void> set_frame(const AskedFrame& asked, const TrueSurface& surface, View
         frame.high_deg = found.high_deg;
         note = note_of_skyline(found);
     }
+    frame.ridges = asked.ridges.value_or(frame.ridges);
     Camera& camera = view.camera;
     if (asked.width_px)
         camera.width_px = *asked.width_px;

@@ -20,7 +20,7 @@ namespace oro {
 namespace {
 
 constexpr double smallest_em_px = 11.0;
-constexpr double lines_in_scene = 40.0, ems_in_width = 150.0;
+constexpr double lines_in_scene = 26.0, ems_in_width = 150.0;
 constexpr SheetColour paper{251, 250, 246};
 constexpr CylinderCut usual_cut{};
 
@@ -152,14 +152,15 @@ Result<CylinderPicture> draw_scene(const View& view, const Region& region, const
                                    const Cylinder& around, const Gpu& gpu, Scene& scene, const Style& style,
                                    const RenderProgress& progress) {
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, gpu));
-    OverTile over;
+    CylinderExtras extras;
+    extras.ridges = view.panorama->ridges;
     if (view.vectors_read && !view.vectors_read->overlay.empty())
-        over = [&](const CylinderTile& tile, std::vector<std::uint8_t>& rgb) {
+        extras.over = [&](const CylinderTile& tile, std::vector<std::uint8_t>& rgb) {
             return draw_overlay(view, surface, tile, rgb);
         };
     ORO_TRY(CylinderPicture picture,
             render_cylinder(gpu, scene, view.camera.eye, around, usual_cut, style.frame,
-                            picture_options(view, path), over, progress));
+                            picture_options(view, path), extras, progress));
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
     if (!picture.report.settled)

@@ -46,6 +46,7 @@ struct PanoramaFrame {
     double sweep_deg{360.0};
     double low_deg{};
     double high_deg{};
+    bool ridges{true};  // lines where nearer ground ends before farther ground or the sky
 };
 // What a picture is drawn on.
 enum class PictureKind { plane, panorama };

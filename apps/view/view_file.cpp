@@ -133,10 +133,10 @@ void read_camera(const nlohmann::json& json, Camera& camera) {
 std::optional<PanoramaFrame> read_panorama(const nlohmann::json& json) {
     if (!json.contains("panorama")) return std::nullopt;
     const nlohmann::json& panorama = json_field(json, "panorama");
-    const PanoramaFrame frame{number(panorama, "from_deg", limits::azimuth_deg),
-                              number(panorama, "sweep_deg", limits::sweep_deg),
-                              number(panorama, "low_deg", limits::elevation_deg),
-                              number(panorama, "high_deg", limits::elevation_deg)};
+    const PanoramaFrame frame{
+        number(panorama, "from_deg", limits::azimuth_deg), number(panorama, "sweep_deg", limits::sweep_deg),
+        number(panorama, "low_deg", limits::elevation_deg),
+        number(panorama, "high_deg", limits::elevation_deg), json_flag(panorama, "ridges")};
     if (!(frame.high_deg - frame.low_deg >= limits::least_elevations_deg))
         throw JsonFault{"'panorama' is empty"};
     return frame;
@@ -144,7 +144,7 @@ std::optional<PanoramaFrame> read_panorama(const nlohmann::json& json) {
 
 ordered_json panorama_json(const PanoramaFrame& frame) {
     return json_object("from_deg", frame.from_deg, "sweep_deg", frame.sweep_deg, "low_deg", frame.low_deg,
-                       "high_deg", frame.high_deg);
+                       "high_deg", frame.high_deg, "ridges", frame.ridges);
 }
 
 SunDirection read_sun(const nlohmann::json& json) {

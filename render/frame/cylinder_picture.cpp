@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "core/base/parallel.h"
+#include "core/frame/ridge_lines.h"
 
 namespace oro {
 namespace {
@@ -31,12 +32,13 @@ void add(PictureReport& sum, const PictureReport& part) {
 Result<CylinderPicture> render_cylinder(const Gpu& gpu, Scene& scene, const Geodetic& eye,
                                         const Cylinder& around, const CylinderCut& cut,
                                         const gpu::FrameStyle& style, const PictureOptions& options,
-                                        const OverTile& over, const RenderProgress& progress) {
+                                        const CylinderExtras& extras, const RenderProgress& progress) {
     const std::vector<CylinderTile> tiles = cylinder_tiles(around, eye, cut);
     assert(!tiles.empty());
     const Camera& first = tiles.front().camera;
     PictureOptions tile_options = options;
     tile_options.tau_px *= cut.oversampling;
+    tile_options.keep_depths = extras.ridges;
     gpu::FrameStyle tile_style = style;
     tile_style.contours.width_px *= static_cast<float>(cut.oversampling);
     ORO_TRY(PictureRenderer renderer, PictureRenderer::create(gpu, first, tile_style, tile_options));
@@ -59,7 +61,10 @@ Result<CylinderPicture> render_cylinder(const Gpu& gpu, Scene& scene, const Geod
                         if (progress) progress((done + share) / static_cast<double>(tiles.size()));
                     }));
         add(picture.report, report);
-        if (over) ORO_CHECK(over(tile, drawn));
+        if (extras.ridges)
+            draw_ridges({renderer.depths(), tile.camera.width_px, tile.camera.height_px}, drawn,
+                        thread_count());
+        if (extras.over) ORO_CHECK(extras.over(tile, drawn));
         unroll(around, tile, drawn, picture.rgb, thread_count());
         done += 1.0;
     }

@@ -13,6 +13,12 @@ namespace oro {
 // May write on the rows of a tile's picture, sRGB, before they are brought onto the cylinder.
 using OverTile = std::function<Result<void>(const CylinderTile& tile, std::vector<std::uint8_t>& rgb)>;
 
+// What is drawn over the ground itself.
+struct CylinderExtras {
+    bool ridges{true};  // lines where nearer ground ends (core/frame/ridge_lines.h)
+    OverTile over;      // after them
+};
+
 struct CylinderPicture {
     PictureReport report;           // sums over all tiles
     std::vector<std::uint8_t> rgb;  // rows from the top, sRGB
@@ -25,6 +31,7 @@ struct CylinderPicture {
 Result<CylinderPicture> render_cylinder(const Gpu& gpu, Scene& scene, const Geodetic& eye,
                                         const Cylinder& around, const CylinderCut& cut,
                                         const gpu::FrameStyle& style, const PictureOptions& options,
-                                        const OverTile& over = {}, const RenderProgress& progress = {});
+                                        const CylinderExtras& extras = {},
+                                        const RenderProgress& progress = {});
 
 }  // namespace oro

@@ -118,8 +118,22 @@ Result<PictureRenderer> PictureRenderer::create(const Gpu& gpu, const Camera& ca
     renderer_options.several_samples = options.samples > 1;
     renderer_options.smooth_edges = options.samples == 1 && style.smooth_edges != 0;
     renderer_options.path = options.path;
+    renderer_options.keep_depths = options.keep_depths;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
     return PictureRenderer(options, std::move(renderer));
+}
+
+Result<void> PictureRenderer::keep_depths(const Tile& drawn, const Tile& own, int picture_width) {
+    ORO_TRY(const std::vector<float> depths,
+            renderer_.read_depths(static_cast<std::uint32_t>(drawn.width_px),
+                                  static_cast<std::uint32_t>(drawn.height_px)));
+    for (int y = 0; y < own.height_px; ++y) {
+        const auto from = depths.begin() + std::ptrdiff_t{own.y_px - drawn.y_px + y} * drawn.width_px +
+                          (own.x_px - drawn.x_px);
+        std::copy_n(from, own.width_px,
+                    depths_.begin() + std::ptrdiff_t{own.y_px + y} * picture_width + own.x_px);
+    }
+    return {};
 }
 
 Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
@@ -133,6 +147,9 @@ Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, 
     scene.cast(cast_request(style));
     PictureReport report;
     report.path = options_.path;
+    if (options_.keep_depths)
+        depths_.assign(static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px),
+                       0.0F);
     std::vector<std::uint8_t> band(std::size_t{3} * static_cast<std::size_t>(camera.width_px) *
                                    static_cast<std::size_t>(tile_height));
     for (int y = 0; y < camera.height_px; y += tile_height) {
@@ -148,6 +165,7 @@ Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, 
             ORO_TRY(const std::vector<std::uint8_t> pixels,
                     renderer_.read_picture(static_cast<std::uint32_t>(drawn.width_px),
                                            static_cast<std::uint32_t>(drawn.height_px)));
+            if (options_.keep_depths) ORO_CHECK(keep_depths(drawn, tile, camera.width_px));
             const std::vector<std::uint8_t> rgba = inner_pixels(pixels, drawn, tile);
             report.ground_px += ground_pixels(rgba);
             copy_rgb(rgba, tile, camera.width_px, band);

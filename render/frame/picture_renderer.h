@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "core/earth/camera.h"
 #include "render/frame/frame_renderer.h"
@@ -18,6 +19,7 @@ struct PictureOptions {
     RasterPath path{RasterPath::mesh};
     double tau_px{1.0};  // 0: full resolution
     WorldModel model{};
+    bool keep_depths{false};  // for PictureRenderer::depths()
 };
 
 // What it took to draw a picture: times are sums over its tiles and samples, counts those of the first sample
@@ -55,12 +57,17 @@ class PictureRenderer {
     // As render_picture().
     Result<PictureReport> draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                const RowSink& sink, const RenderProgress& progress = {});
+    // With keep_depths, of the last picture: reversed depths of its pixels (of their last samples), row by
+    // row; 0 for the sky.
+    [[nodiscard]] const std::vector<float>& depths() const { return depths_; }
 
   private:
+    Result<void> keep_depths(const Tile& drawn, const Tile& own, int picture_width);
     PictureRenderer(const PictureOptions& options, FrameRenderer renderer)
         : options_(options), renderer_(std::move(renderer)) {}
     PictureOptions options_;
     FrameRenderer renderer_;
+    std::vector<float> depths_;
 };
 
 // Draws what the camera sees and hands it on from the top row down. Errors: those of the device and of the
