@@ -61,8 +61,9 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
     picture.option("--elevation", options.elevation, "LOW,HIGH",
                    "Show these angles above level, in degrees, -75 to 75. Default: from 10 degrees below the "
                    "skyline's lowest place to some sky above its highest.");
-    picture.option("--width", options.width_px, "PIXELS",
-                   "Width of the picture, 100 to 50000 (default 20 for each degree). Its height follows.");
+    picture.whole_number(
+        "--width", options.width_px, 100, 50000, "PIXELS",
+        "Width of the picture, 100 to 50000 (default 20 for each degree). Its height follows.");
     picture.option(
         "--view", options.view_file, "FILE",
         "Take data, eye and settings from a panorama that orograph wrote. Looks, detail and --width "

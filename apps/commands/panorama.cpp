@@ -112,11 +112,6 @@ Result<AskedFrame> asked_frame(const PanoramaOptions& options) {
     }
     if (options.ridges) asked.ridges = *options.ridges == "on";
     asked.width_px = options.width_px;
-    if (asked.width_px && !view_limits::panorama_width_px.hold(*asked.width_px))
-        return refused(
-            "--width", std::to_string(*asked.width_px),
-            between_words(view_limits::panorama_width_px.low, view_limits::panorama_width_px.high) +
-                " pixels");
     if (options.view_file.empty()) return asked;
     if (asked.sector)
         return refused("--sector", "", "not together with --view, which has a sector of its own");
@@ -140,16 +135,12 @@ ViewOptions with_air(const PanoramaOptions& options) {
     return view;
 }
 
-// Where the ground beside an eye is the skyline. Near a summit data are lower than it is.
+// Data are lower than a summit is, and its place in them is another: an eye may come to stand beside it.
 std::string note_of_skyline(const Elevations& found) {
-    if (found.skyline_deg < found.high_deg) return "";
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "the skyline reaches %.0f degrees, higher than is shown: --elevation shows more; is the eye beside "
-        "a summit, a larger --above lifts it",
-        found.skyline_deg);
-    return text;
+    if (!found.leaves_out_near) return "";
+    return "ground within 250 m of the eye stands higher than is shown: --elevation shows it, a larger "
+           "--above "
+           "looks over it";
 }
 
 // Completes the view's frame and its camera, which stands for the scene until the sheet is laid out.

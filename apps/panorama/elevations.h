@@ -15,11 +15,14 @@ double skyline_deg(const Oracle& oracle, const Geodetic& eye, double azimuth_deg
 struct Elevations {
     double low_deg{};
     double high_deg{};
-    double skyline_deg{};  // its highest place; higher than `high_deg` where ground near by is left out
+    double skyline_deg{};    // its highest place, but for ground at the eye's feet
+    bool leaves_out_near{};  // such ground stands higher than is shown
 };
-// What nobody asked for is not shown: ground beside the eye would make the picture as high as it is wide.
-inline constexpr double most_unasked_deg = 35.0;
-// Within -35 .. 35. `from_deg`, `sweep_deg`: as PanoramaFrame has them.
+// Ground so near is at the eye's feet: beside a summit it would make the picture as high as it is wide.
+inline constexpr double at_the_feet_m = 250.0;
+// The highest and the lowest that is shown unasked.
+inline constexpr double most_unasked_deg = 60.0;
+// `from_deg`, `sweep_deg`: as PanoramaFrame has them.
 Elevations elevations_for(const TrueSurface& surface, const Geodetic& eye, const WorldModel& model,
                           double from_deg, double sweep_deg, int threads);
 
