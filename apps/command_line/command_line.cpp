@@ -64,6 +64,8 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
     picture.whole_number(
         "--width", options.width_px, 100, 50000, "PIXELS",
         "Width of the picture, 100 to 50000 (default 20 for each degree). Its height follows.");
+    picture.choice("--ridges", options.ridges, {"on", "off"},
+                   "Draw lines where nearer ground ends before farther ground or the sky (default on).");
     picture.option(
         "--view", options.view_file, "FILE",
         "Take data, eye and settings from a panorama that orograph wrote. Looks, detail and --width "
