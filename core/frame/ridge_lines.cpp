@@ -15,7 +15,7 @@ namespace {
 constexpr double evenly = 3.0;       // so many times as far as on the other side is no edge yet
 constexpr double least_step = 0.03;  // of the own depth: smaller ones are no edge
 constexpr double full_step = 0.35;   // and from here on it is a whole one
-constexpr double near_m = 1e3, far_m = 1e5, near_share = 0.62, far_share = 0.22;
+constexpr double near_m = 1e3, far_m = 1e5, near_share = 0.75, far_share = 0.3;
 constexpr std::array<double, 3> ink{28.0, 32.0, 42.0};
 
 }  // namespace
