@@ -1,4 +1,4 @@
-#include "apps/commands/panorama_json.h"
+#include "apps/commands/panorama/panorama_json.h"
 
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"

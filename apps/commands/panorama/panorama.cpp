@@ -9,7 +9,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/command_line/whole_text.h"
 #include "apps/commands/commands.h"
-#include "apps/commands/panorama_json.h"
+#include "apps/commands/panorama/panorama_json.h"
 #include "apps/drawing/drape.h"
 #include "apps/names/names_in_view.h"
 #include "apps/output/overwrite_guard.h"
