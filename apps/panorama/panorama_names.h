@@ -32,8 +32,16 @@ struct PanoramaNames {
     void put_on(Sheet& sheet) const;
 };
 
+// A name that is longer than so many times the letters' size, with its height, has no room.
+inline constexpr double longest_name_ems = 36.0;
+
 // `in_view` is of the same cylinder. Errors: those of text.
 Result<PanoramaNames> panorama_names(const std::vector<NamedPoint>& points, const PointsInView& in_view,
                                      const Cylinder& around, const TextFace& face, double em_px);
+
+// The name of the point that an eye stands at: the nearest one within 150 m across its vertical; "" where
+// there is none whose letters the font has. Errors: those of text.
+Result<std::string> standpoint_name(const std::vector<NamedPoint>& points, const Geodetic& eye,
+                                    const TextFace& face);
 
 }  // namespace oro

@@ -30,13 +30,14 @@ std::string angle_words(double deg, int decimals, char positive, char negative) 
     return text;
 }
 
-// "46.53722° N, 8.12611° E, 4276 m above sea level"
-std::string eye_words(const View& view, const Region& region) {
+// "Finsteraarhorn, 46.53722° N, 8.12611° E, 4276 m above sea level"
+std::string eye_words(const View& view, const Region& region, const std::string& standpoint) {
     const Geodetic& eye = view.camera.eye;
     const double H_m = eye.h_m - region.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     char height[80];
     std::snprintf(height, sizeof height, ", %ld m above sea level", std::lround(H_m));
-    return angle_words(eye.lat_deg, 5, 'N', 'S') + ", " + angle_words(eye.lon_deg, 5, 'E', 'W') + height;
+    return standpoint + (standpoint.empty() ? "" : ", ") + angle_words(eye.lat_deg, 5, 'N', 'S') + ", " +
+           angle_words(eye.lon_deg, 5, 'E', 'W') + height;
 }
 
 std::string source_words(const Region& region) {
@@ -99,9 +100,9 @@ Result<PanoramaFile> write_svg(const std::string& path, bool overwrite, const Vi
                                const Region& region, const PanoramaSheet& laid,
                                const CylinderPicture& scene) {
     ORO_TRY(WholeFile file, WholeFile::create(path, overwrite));
-    ORO_TRY(
-        const std::string svg,
-        sheet_svg(laid.sheet, scene.rgb, "Panorama from " + eye_words(view, region), source_words(region)));
+    ORO_TRY(const std::string svg,
+            sheet_svg(laid.sheet, scene.rgb, "Panorama from " + eye_words(view, region, laid.standpoint),
+                      source_words(region)));
     ORO_CHECK(file.write(svg.data(), svg.size()));
     return PanoramaFile{std::move(file), view.prints};
 }
@@ -132,7 +133,9 @@ Result<PanoramaSheet> lay_out(const View& view, const Region& region, const True
     laid.names.em_px = em_px;
     if (view.vectors_read) {
         const PointsInView in_view(surface, view.camera, view.model, laid.around);
-        ORO_TRY(laid.names, panorama_names(points_of(view), in_view, laid.around, face, em_px));
+        const std::vector<NamedPoint> points = points_of(view);
+        ORO_TRY(laid.names, panorama_names(points, in_view, laid.around, face, em_px));
+        ORO_TRY(laid.standpoint, standpoint_name(points, view.camera.eye, face));
     }
     Sheet& sheet = laid.sheet;
     sheet.paper = paper;
@@ -140,8 +143,8 @@ Result<PanoramaSheet> lay_out(const View& view, const Region& region, const True
     sheet.scene_top_px = static_cast<int>(std::ceil(laid.names.row_px));
     sheet.scene_rows_px = laid.around.height_px();
     sheet.height_px = sheet.scene_top_px + sheet.scene_rows_px + laid.rulers.strip_px();
-    ORO_CHECK(
-        put_rulers(laid.rulers, laid.around, face, eye_words(view, region), source_words(region), sheet));
+    ORO_CHECK(put_rulers(laid.rulers, laid.around, face, eye_words(view, region, laid.standpoint),
+                         source_words(region), sheet));
     laid.names.put_on(sheet);
     // What could not be read counts as void: sight lines went through it.
     ORO_CHECK(region.field.health());

@@ -29,6 +29,7 @@ struct PanoramaSheet {
     Sheet sheet;
     Rulers rulers;
     PanoramaNames names;
+    std::string standpoint;  // the name of the place that the eye stands at; "" where no file tells it
 };
 
 // Finds the names that are seen and their places, and lays the sheet out. Errors: those of text, and of pages

@@ -135,6 +135,13 @@ class Writer {
         const double inset_px = 0.5 * length_px + 0.3 * em_px_;
         if (2.0 * inset_px > sheet_.width_px) return {};
         at_px.x = std::clamp(at_px.x, inset_px, sheet_.width_px - inset_px);
+        // One that was moved must not come to stand on the one before.
+        if (!sheet_.texts.empty()) {
+            const SheetText& last = sheet_.texts.back();
+            const bool same_row = last.kind == kind && last.at_px.y == at_px.y;
+            if (same_row && at_px.x - 0.5 * length_px < last.at_px.x + 0.5 * last.length_px + 0.5 * em_px_)
+                return {};
+        }
         sheet_.texts.push_back(
             {text, at_px, SheetText::Anchor::middle, 0.0, size_px, length_px, colour, {}, kind});
         return {};

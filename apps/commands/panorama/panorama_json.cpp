@@ -63,6 +63,8 @@ ordered_json panorama_json(const PanoramaReport& report, const std::string& file
     json["size_px"] = json_list(report.laid.sheet.width_px, report.laid.sheet.height_px);
     json["scene"] = scene_json(report.laid);
     json["rulers"] = rulers_json(report.laid.rulers);
+    json["standpoint"] = nullptr;
+    if (!report.laid.standpoint.empty()) json["standpoint"] = report.laid.standpoint;
     if (view.vectors_read) json["names"] = names_json(report.laid);
     json["sun"] = json_object("azimuth_deg", style.sun.azimuth_deg, "elevation_deg", style.sun.elevation_deg);
     json["time"] = time_text(view.time_utc_s);

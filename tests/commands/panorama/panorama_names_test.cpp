@@ -145,6 +145,32 @@ TEST(PanoramaNames, AreThoseThatAreSeenAtTheAzimuthsOfGeographicLib) {
     EXPECT_GE(hidden, 8);
 }
 
+TEST(PanoramaNames, TellWhereTheEyeStands) {
+    const auto face = TextFace::open();
+    ASSERT_TRUE(face.ok());
+    std::vector<NamedPoint> all = points();
+    EXPECT_EQ(*standpoint_name(all, {46.5775, 8.0065, 3967.0}, *face), "Eiger");  // 115 m east of it
+    EXPECT_EQ(*standpoint_name(all, {46.5775, 8.0080, 3967.0}, *face), "");       // 230 m
+    all[2].name = "\u5c71";
+    EXPECT_EQ(*standpoint_name(all, {46.5775, 8.0065, 3967.0}, *face), "");
+}
+
+TEST(PanoramaNames, AreNotLongerThanTheRowMayBeHigh) {
+    const auto stage = alps(46.5366667, 8.1258333, 2.0);
+    if (!stage) GTEST_SKIP() << "needs alps/N46E007 and N46E008";
+    const auto face = TextFace::open();
+    ASSERT_TRUE(face.ok());
+    const Cylinder around = cylinder_around(0.0, 360.0, -35.0, 70.0, 7200);
+    const PointsInView in_view(*stage->surface, stage->camera, stage->model, around);
+    std::vector<NamedPoint> all = points();
+    const std::string longest(90, 'n');
+    all[2].name = longest;
+    const auto names = panorama_names(all, in_view, around, *face, 12.0);
+    ASSERT_TRUE(names.ok());
+    EXPECT_EQ(names->without_room, std::vector<std::string>{longest});
+    EXPECT_LT(names->row_px, 41.0 * 12.0);
+}
+
 // Below the north wall of the Wetterhorn, which stands some 48 degrees high: nothing is hit above the
 // elevations that are shown unasked, and something below.
 TEST(PanoramaNames, HaveSkyAboveThem) {
