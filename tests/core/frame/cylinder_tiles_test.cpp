@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <numbers>
 #include <vector>
 
 namespace oro {
@@ -106,6 +107,43 @@ TEST(CylinderTiles, UnrollToTheColoursOfTheirDirections) {
             }
         }
         EXPECT_LE(farthest, 2) << around.width_px;
+    }
+}
+
+// Waves 16 px long, across and down: a tenth of a pixel off would be 5 codes.
+TEST(CylinderTiles, UnrollToTheirPlaces) {
+    const auto wave = [](double px) {
+        return static_cast<std::uint8_t>(
+            std::lround(127.5 + 80.0 * std::sin(px * 2.0 * std::numbers::pi / 16.0)));
+    };
+    for (const Cylinder& around :
+         {cylinder_around(0.0, 360.0, -14.0, 4.0, 1600), cylinder_around(300.0, 120.0, -35.0, 35.0, 800)}) {
+        std::vector<std::uint8_t> rgb(3 * static_cast<std::size_t>(around.width_px) *
+                                      static_cast<std::size_t>(around.height_px()));
+        const glm::dmat3 enu_from_ecef = glm::transpose(ecef_from_enu(eye.lat_deg, eye.lon_deg));
+        for (const CylinderTile& tile : cylinder_tiles(around, eye, {2.0, 512, 45.0, 0.0})) {
+            std::vector<std::uint8_t> drawn;
+            for (int y = 0; y < tile.camera.height_px; ++y) {
+                for (int x = 0; x < tile.camera.width_px; ++x) {
+                    const glm::dvec2 place =
+                        around.place_px(enu_from_ecef * tile.camera.ecef_direction_at({x + 0.5, y + 0.5}));
+                    drawn.insert(drawn.end(), {wave(place.x), wave(place.y), 0});
+                }
+            }
+            unroll(around, tile, drawn, rgb, 2);
+        }
+        int farthest = 0;
+        for (int y = 0; y < around.height_px(); ++y) {
+            // Outside a sector's borders places count from its other side.
+            for (int x = 2; x < around.width_px - 2; ++x) {
+                const std::size_t at =
+                    3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(around.width_px) +
+                         static_cast<std::size_t>(x));
+                farthest = std::max({farthest, std::abs(static_cast<int>(rgb[at]) - wave(x + 0.5)),
+                                     std::abs(static_cast<int>(rgb[at + 1]) - wave(y + 0.5))});
+            }
+        }
+        EXPECT_LE(farthest, 5) << around.width_px;
     }
 }
 
