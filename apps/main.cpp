@@ -74,6 +74,7 @@ int told_unforeseen(const char* what) {
 
 int run_command(const CLI::App& app, oro::CommandLine& line, const std::vector<std::string>& words) {
     if (app.got_subcommand("shot")) return exit_code(oro::run_shot(line.shot));
+    if (app.got_subcommand("panorama")) return exit_code(oro::run_panorama(line.panorama));
     if (app.got_subcommand("compare")) return exit_code(oro::run_compare(line.compare));
     if (app.got_subcommand("view")) return exit_code(oro::run_view(line.view));
     if (app.got_subcommand("plan")) return exit_code(oro::run_plan(line.plan));

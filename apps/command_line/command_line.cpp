@@ -65,6 +65,54 @@ void add_shot(CLI::App& app, ShotOptions& options) {
                        "docs/commands/shot.md"});
 }
 
+void add_panorama(CLI::App& app, PanoramaOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "panorama", "Write a picture all around a place, with rulers and the names of what is seen");
+    OptionGroup picture(command, "The picture");
+    picture.option("--out", options.out, "FILE",
+                   "The file to write: .png, .jpg, .tif, or .svg, in which names and figures are text.");
+    picture.option(
+        "--sector", options.sector, "FROM,TO",
+        "Show these azimuths alone, in degrees clockwise from north: 300,60 is from the north-west "
+        "to the north-east. Default: all around, from north to north.");
+    picture.option("--elevation", options.elevation, "LOW,HIGH",
+                   "Show these angles above level, in degrees, -75 to 75. Default: from 10 degrees below the "
+                   "skyline's lowest place to some sky above its highest.");
+    picture.whole_number(
+        "--width", options.width_px, 100, 50000, "PIXELS",
+        "Width of the picture, 100 to 50000 (default 20 for each degree). Its height follows.");
+    picture.choice("--ridges", options.ridges, {"on", "off"},
+                   "Draw lines where nearer ground ends before farther ground or the sky (default on).");
+    picture.option(
+        "--view", options.view_file, "FILE",
+        "Take data, eye and settings from a panorama that orograph wrote. Looks, detail and --width "
+        "may be changed.");
+    add_time(command, "The picture", options.view);
+    add_no_paths(command, "The picture", options.no_paths);
+    add_data_changed(command, options.data_changed);
+    picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    command.get_option("--at")->description(
+        "Where the eye is: latitude,longitude as in 46.57,7.99, or in another way that shot takes.");
+    command.get_option("--air")->description(
+        "standard (default): air that bends light less the higher the eye is, by 0.13 at sea level, 0.091 at "
+        "3,000 m and nothing from space. Not with --refraction.");
+    command.get_option("--refraction")
+        ->description(
+            "How much the air bends light (a surveyor's coefficient of refraction), the same at all heights, "
+            "-1 to 0.9: 0 is not at all, 0.13 is usual by day. Not with --air.");
+    hide(command,
+         {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--tolerance"});
+    add_memory_options(command, options.memory);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "errors");
+    set_help(command, {{"panorama PATH... --at PLACE --out FILE [OPTIONS]",
+                        "panorama --view PICTURE --out FILE [OPTIONS]"},
+                       "The Earth's curvature always counts.",
+                       "docs/commands/panorama.md"});
+}
+
 void add_compare(CLI::App& app, CompareOptions& options) {
     CLI::App& command =
         *app.add_subcommand("compare", "Measure how far a picture is from full detail, in metres and pixels");
@@ -294,6 +342,7 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
 void add_commands(CLI::App& app, CommandLine& line) {
     set_program_help(app);
     add_shot(app, line.shot);
+    add_panorama(app, line.panorama);
     add_view(app, line.view);
     add_compare(app, line.compare);
     add_plan(app, line.plan);

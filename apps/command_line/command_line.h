@@ -8,6 +8,7 @@ namespace oro {
 // What was given to each command; that of one command is filled in.
 struct CommandLine {
     ShotOptions shot;
+    PanoramaOptions panorama;
     WindowOptions view;
     CompareOptions compare;
     PlanOptions plan;

@@ -8,6 +8,8 @@ namespace oro {
 
 // Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
 Result<void> run_shot(const ShotOptions& options);
+// Writes a picture all around a place, with rulers and names.
+Result<void> run_panorama(const PanoramaOptions& options);
 // Measures how far the picture of a view is from the truth; draws it again, replaces no picture.
 Result<void> run_compare(const CompareOptions& options);
 // Predicts how large each effect is in a view, before anything is drawn.

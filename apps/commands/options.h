@@ -178,6 +178,23 @@ struct ViewshedOptions {
     bool quiet{false};
 };
 
+struct PanoramaOptions {
+    RegionOptions region;
+    ViewOptions view;
+    MemoryOptions memory;
+    std::string view_file;
+    std::string out;
+    std::optional<int> width_px;
+    std::string sector;                 // FROM,TO
+    std::string elevation;              // LOW,HIGH
+    std::optional<std::string> ridges;  // on, off
+    bool data_changed{false};
+    bool no_paths{false};
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
 struct WindowOptions {
     RegionOptions region;
     ViewOptions view;

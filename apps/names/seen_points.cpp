@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <tuple>
 
 #include "core/base/parallel.h"
@@ -39,7 +40,14 @@ PointsInView::PointsInView(const TrueSurface& surface, const Camera& camera, con
       camera_(camera),
       model_(model),
       view_from_ecef_(camera.view_from_ecef()),
+      enu_from_ecef_(glm::transpose(ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg))),
       oracle_(surface, sight_of(model, camera.eye)) {}
+
+PointsInView::PointsInView(const TrueSurface& surface, const Camera& camera, const WorldModel& model,
+                           const Cylinder& around)
+    : PointsInView(surface, camera, model) {
+    around_ = around;
+}
 
 glm::dvec3 PointsInView::view_m(const Geodetic& point) const {
     return view_from_ecef_ * model_offset_m(model_, camera_.eye, point);
@@ -52,6 +60,7 @@ glm::dvec2 PointsInView::projected_px(const glm::dvec3& view_m) const {
 }
 
 std::optional<glm::dvec2> PointsInView::place_px(const Geodetic& point) const {
+    if (around_) return around_->place_px(enu_from_ecef_ * model_offset_m(model_, camera_.eye, point));
     const glm::dvec3 in_view_m = view_m(point);
     if (in_view_m.z >= -near_plane_m) return std::nullopt;
     return projected_px(in_view_m);
@@ -75,6 +84,7 @@ void PointsInView::put_at(const Geodetic& place, SeenPoint& point) const {
 
 bool PointsInView::in_picture(const SeenPoint& point) const {
     const glm::dvec2 at = point.place_px;
+    if (around_) return around_->holds(at);
     return at.x >= 0.0 && at.y >= 0.0 && at.x < camera_.width_px && at.y < camera_.height_px;
 }
 

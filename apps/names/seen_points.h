@@ -2,11 +2,13 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/names/named_points.h"
 #include "core/earth/camera.h"
+#include "core/earth/cylinder.h"
 #include "core/earth/world_model.h"
 #include "core/truth/oracle.h"
 #include "core/truth/true_surface.h"
@@ -50,6 +52,9 @@ class PointsInView {
   public:
     // `surface` outlives it: of the view's region and exaggeration. The model is the view's: Earth and air.
     PointsInView(const TrueSurface& surface, const Camera& camera, const WorldModel& model);
+    // On a panorama: places are the cylinder's; view_m() and projected_px() stay the camera's.
+    PointsInView(const TrueSurface& surface, const Camera& camera, const WorldModel& model,
+                 const Cylinder& around);
 
     // Where a place is on the picture; nothing behind the eye.
     [[nodiscard]] std::optional<glm::dvec2> place_px(const Geodetic& point) const;
@@ -75,7 +80,9 @@ class PointsInView {
     const TrueSurface& surface_;
     Camera camera_;
     WorldModel model_;
+    std::optional<Cylinder> around_;
     glm::dmat3 view_from_ecef_;
+    glm::dmat3 enu_from_ecef_;
     Oracle oracle_;
 };
 

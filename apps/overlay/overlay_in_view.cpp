@@ -36,7 +36,8 @@ double length_px(const std::vector<glm::dvec2>& places_px) {
 
 }  // namespace
 
-OverlayInView overlay_in_view(const View& view, const TrueSurface& surface, const PointsInView& in_view) {
+OverlayInView overlay_in_view(const View& view, const TrueSurface& surface, const PointsInView& in_view,
+                              double finer) {
     const auto start = Clock::now();
     OverlayInView overlay;
     std::vector<const VectorShape*> shapes;
@@ -60,7 +61,7 @@ OverlayInView overlay_in_view(const View& view, const TrueSurface& surface, cons
         const auto [mask, is_new] =
             masks.try_emplace(stroke.colour, LineMask(camera.width_px, camera.height_px));
         if (is_new) order.push_back(stroke.colour);
-        mask->second.add(line.places_px, stroke.width_px);
+        mask->second.add(line.places_px, finer * stroke.width_px);
         overlay.seen_px += length_px(line.places_px);
     }
     for (const InkedText::Colour& colour : order) masks.at(colour).give(colour, overlay.inked);

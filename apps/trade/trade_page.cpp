@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "apps/report/base64.h"
 #include "apps/report/json_object.h"
 #include "apps/trade/trade_parts.h"
 

@@ -17,8 +17,6 @@ namespace oro {
 double megabytes(std::uint64_t bytes);
 // UTF-8 without control characters; U+FFFD for each byte that is none.
 std::string valid_text(std::string_view text);
-// RFC 4648, with padding.
-std::string base64(std::span<const std::uint8_t> bytes);
 
 // Larger of two; no number if one of them is none, so that a fault is never hidden by a smaller error.
 double worse(double a, double b);

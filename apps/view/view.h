@@ -40,12 +40,25 @@ enum class Rim { skirt, none };
 // has of both, or what is in its middle.
 enum class Edges { smooth, steps };
 
+// Which part of all around a panorama shows: azimuths from the left border clockwise, elevations from its
+// lowest row to its highest. The view's camera then tells the eye, the middle and the whole picture's size.
+struct PanoramaFrame {
+    double from_deg{};
+    double sweep_deg{360.0};
+    double low_deg{};
+    double high_deg{};
+    bool ridges{true};  // lines where nearer ground ends before farther ground or the sky
+};
+// What a picture is drawn on.
+enum class PictureKind { plane, panorama };
+
 struct View {
     RegionRequest region;
     Camera camera;                // the eye's h is above the ellipsoid
     std::optional<MapFrame> map;  // a map from straight above; the camera then only says about where
-    bool legend{};                // a strip below the picture
-    int legend_px{};              // its height, of pictures that were drawn
+    std::optional<PanoramaFrame> panorama;  // nothing: a picture on a plane
+    bool legend{};                          // a strip below the picture
+    int legend_px{};                        // its height, of pictures that were drawn
     double exaggeration{1.0};
     int samples{1};
     std::optional<SunDirection> sun;      // nothing: the style's
@@ -118,9 +131,9 @@ void leave_geoid_out(Region& region);
 
 // The view that a command's options ask for, and the region it looks at: from `view_file` where one is named,
 // changed as far as the options may, else from the options alone. Errors: all of the above and those of
-// open_region.
+// open_region; a view of a file that is drawn on something else (usage).
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
-                       Region& region);
+                       Region& region, PictureKind kind = PictureKind::plane);
 
 }  // namespace oro

@@ -151,6 +151,24 @@ ordered_json map_json(const MapFrame& map) {
     return json;
 }
 
+// Views on a plane have none.
+std::optional<PanoramaFrame> read_panorama(const nlohmann::json& json) {
+    if (!json.contains("panorama")) return std::nullopt;
+    const nlohmann::json& panorama = json_field(json, "panorama");
+    const PanoramaFrame frame{
+        number(panorama, "from_deg", limits::azimuth_deg), number(panorama, "sweep_deg", limits::sweep_deg),
+        number(panorama, "low_deg", limits::elevation_deg),
+        number(panorama, "high_deg", limits::elevation_deg), json_flag(panorama, "ridges")};
+    if (!(frame.high_deg - frame.low_deg >= limits::least_elevations_deg))
+        throw JsonFault{"'panorama' is empty"};
+    return frame;
+}
+
+ordered_json panorama_json(const PanoramaFrame& frame) {
+    return json_object("from_deg", frame.from_deg, "sweep_deg", frame.sweep_deg, "low_deg", frame.low_deg,
+                       "high_deg", frame.high_deg, "ridges", frame.ridges);
+}
+
 SunDirection read_sun(const nlohmann::json& json) {
     SunDirection sun{number(json, "azimuth_deg", limits::sun_azimuth_deg),
                      number(json, "elevation_deg", limits::sun_elevation_deg)};
@@ -185,6 +203,7 @@ View read_fields(const nlohmann::json& json) {
         view.legend_px = static_cast<int>(whole(json, "legend_px", limits::side_px));
         view.legend = true;
     }
+    view.panorama = read_panorama(json);
     view.samples = static_cast<int>(whole(json, "samples", limits::samples));
     view.exaggeration = number(json, "exaggeration", limits::exaggeration);
     if (const auto& sun = json_field(json, "sun"); !sun.is_null()) view.sun = read_sun(sun);
@@ -259,6 +278,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["size_px"] = json_list(camera.width_px, camera.height_px);
     if (view.map) json["map"] = map_json(*view.map);
     if (view.legend) json["legend_px"] = view.legend_px;
+    if (view.panorama) json["panorama"] = panorama_json(*view.panorama);
     json["samples"] = view.samples;
     json["exaggeration"] = view.exaggeration;
     json["sun"] = nullptr;

@@ -24,6 +24,13 @@ inline constexpr Limits pitch_deg{-90, 90};
 inline constexpr Limits roll_deg{-180, 180};
 inline constexpr Limits fov_deg{0.05, 120};
 inline constexpr Limits side_px{1, 65500};  // what JPEG can hold; PNG and TIFF hold more
+// Of panoramas. Higher and lower rows would be drawn ever taller: at 75 degrees 15 times as tall as level
+// ones.
+inline constexpr Limits panorama_width_px{100, 50000};
+inline constexpr Limits azimuth_deg{-360, 360};
+inline constexpr Limits sweep_deg{0.1, 360};
+inline constexpr Limits elevation_deg{-75, 75};
+inline constexpr double least_elevations_deg = 0.02;
 inline constexpr Limits samples{1, 64};
 inline constexpr Limits drape_opacity{0, 1};
 inline constexpr Limits overlay_width_px{0.5, 50};

@@ -29,6 +29,15 @@ Error with_way_out(Error fault, const View& view, const RegionOptions& options) 
     return fault;
 }
 
+// That the command draws pictures of the view's kind.
+Result<void> check_kind(const View& view, const std::string& view_file, PictureKind kind) {
+    const bool is_panorama = view.panorama.has_value();
+    if (is_panorama == (kind == PictureKind::panorama)) return {};
+    return Error{ErrorKind::usage, "--view " + view_file,
+                 is_panorama ? "is a panorama: orograph panorama --view draws it again"
+                             : "is no panorama: orograph shot --view draws it again"};
+}
+
 // Opens a view's images, and puts their fingerprints into it.
 Result<void> open_images(View& view) {
     for (const std::string& file : view.drape) {
@@ -63,19 +72,21 @@ Result<void> check_map(const View& view, const ViewOptions& options, const std::
 
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
-                       Region& region) {
+                       Region& region, PictureKind kind) {
     if (!view_file.empty()) {
         ORO_TRY(view, read_view(view_file));
         ORO_CHECK(check_map(view, view_options, view_file));
-        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
-                             !view_options.style && !view_options.visibility_km && !view_options.sun &&
-                                 !view_options.sun_time && !view_options.sea && !view_options.rim &&
-                                 view_options.drape.empty() && !view_options.drape_opacity &&
-                                 !view_options.shadows && view_options.names.empty() &&
-                                 !view_options.names_field && view_options.overlay.empty() &&
-                                 !view_options.overlay_colour && !view_options.overlay_width_px && !view_options.overlay_fill &&
-                                 !view_options.sky_openness && !view_options.labels && !view_options.edges,
-                             view.prints};
+        ORO_CHECK(check_kind(view, view_file, kind));
+        view.told =
+            ToldView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
+                     !view_options.style && !view_options.visibility_km && !view_options.sun &&
+                         !view_options.sun_time && !view_options.sea && !view_options.rim &&
+                         view_options.drape.empty() && !view_options.drape_opacity && !view_options.shadows &&
+                         view_options.names.empty() && !view_options.names_field &&
+                         view_options.overlay.empty() && !view_options.overlay_colour &&
+                         !view_options.overlay_width_px && !view_options.overlay_fill &&
+                         !view_options.sky_openness && !view_options.labels && !view_options.edges,
+                     view.prints};
         ORO_CHECK(change_view(view, view_options));
         // A sun that its file told stays where the file has it: the same view, the same bytes.
         if (view_options.sun_time) aim_sun(view.sun, view.camera.eye);

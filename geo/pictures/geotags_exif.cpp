@@ -221,6 +221,41 @@ double focal_length_35mm(double vertical_fov_deg, int width_px, int height_px) {
     return half_diagonal_mm / (half_height * std::hypot(width_px, height_px) / height_px);
 }
 
+namespace {
+
+// What tells the angle of view of a picture on a plane; a panorama has no such angle.
+std::vector<ExifField> lens_fields(const Geotags& tags) {
+    if (tags.panorama) return {};
+    const double focal_mm = focal_length_35mm(tags.vertical_fov_deg, tags.width_px, tags.height_px);
+    // A frame of the picture's shape with the diagonal of 36 x 24 mm: there the 35 mm equivalent is the focal
+    // length itself, and has fractions.
+    constexpr std::uint32_t finest = 1'000'000'000;
+    const ExifRational pixels_per_cm =
+        rational(std::hypot(tags.width_px, tags.height_px) / (film_diagonal_mm / 10), finest);
+    return fields_of(
+        rationals(0x920A, {rational(focal_mm, finest)}), rationals(0xA20E, {pixels_per_cm}),
+        rationals(0xA20F, {pixels_per_cm}), short_integer(0xA210, 3),
+        // 0 would mean unknown.
+        short_integer(0xA405, static_cast<std::uint32_t>(std::clamp(std::round(focal_mm), 1.0, 65535.0))));
+}
+
+std::vector<ExifField> photo_fields(const Geotags& tags, const TimeText& time) {
+    std::vector<ExifField> fields = fields_of(
+        ExifField{0x9000, ExifType::undefined, Bytes{'0', '2', '3', '1'}}, text(0x9003, time.date_time),
+        text(0x9010, "+00:00"), text(0x9011, "+00:00"),
+        ExifField{0x9101, ExifType::undefined, Bytes{1, 2, 3, 0}},
+        ExifField{0xA000, ExifType::undefined, Bytes{'0', '1', '0', '0'}}, short_integer(0xA001, 1),  // sRGB
+        ExifField{0xA002, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.width_px)}},
+        ExifField{0xA003, ExifType::long_integer,
+                  Integers{static_cast<std::uint32_t>(tags.height_px + tags.strip_px)}});
+    for (ExifField& field : lens_fields(tags)) fields.push_back(std::move(field));
+    // By number, as directories are.
+    std::ranges::sort(fields, {}, &ExifField::tag);
+    return fields;
+}
+
+}  // namespace
+
 Result<ExifFields> exif_fields(const Geotags& tags) {
     ORO_CHECK(check(tags));
     ORO_TRY(const TimeText time, time_text(tags.time_utc_s));
@@ -231,24 +266,7 @@ Result<ExifFields> exif_fields(const Geotags& tags) {
     if (!tags.software.empty()) fields.image.push_back(text(0x0131, tags.software));
     // UTF-8, as the Metadata Working Group's guidelines (2010) ask for.
     if (!tags.attribution.empty()) fields.image.push_back(text(0x8298, tags.attribution));
-    const double focal_mm = focal_length_35mm(tags.vertical_fov_deg, tags.width_px, tags.height_px);
-    // A frame of the picture's shape with the diagonal of 36 x 24 mm: there the 35 mm equivalent is the focal
-    // length itself, and has fractions.
-    constexpr std::uint32_t finest = 1'000'000'000;
-    const ExifRational pixels_per_cm =
-        rational(std::hypot(tags.width_px, tags.height_px) / (film_diagonal_mm / 10), finest);
-    fields.photo = fields_of(
-        ExifField{0x9000, ExifType::undefined, Bytes{'0', '2', '3', '1'}}, text(0x9003, time.date_time),
-        text(0x9010, "+00:00"), text(0x9011, "+00:00"),
-        ExifField{0x9101, ExifType::undefined, Bytes{1, 2, 3, 0}},
-        rationals(0x920A, {rational(focal_mm, finest)}),
-        ExifField{0xA000, ExifType::undefined, Bytes{'0', '1', '0', '0'}}, short_integer(0xA001, 1),  // sRGB
-        ExifField{0xA002, ExifType::long_integer, Integers{static_cast<std::uint32_t>(tags.width_px)}},
-        ExifField{0xA003, ExifType::long_integer,
-                  Integers{static_cast<std::uint32_t>(tags.height_px + tags.strip_px)}},
-        rationals(0xA20E, {pixels_per_cm}), rationals(0xA20F, {pixels_per_cm}), short_integer(0xA210, 3),
-        // 0 would mean unknown.
-        short_integer(0xA405, static_cast<std::uint32_t>(std::clamp(std::round(focal_mm), 1.0, 65535.0))));
+    fields.photo = photo_fields(tags, time);
     fields.gps = gps_fields(tags, time);
     return fields;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -141,6 +142,37 @@ std::string_view media_type(PictureFormat format) {
     return "image/tiff";
 }
 
+void put(std::string_view name, std::string_view value, std::string& xmp) {
+    (((((xmp += '<') += name) += '>') += value) += "</") += name;
+    xmp += ">\n";
+}
+
+// Columns count from the left border of the whole circle, whose middle is the picture's; rows of a cylinder
+// from its level line, and those above it are negative.
+std::string panorama_fields(const Geotags& tags, const PanoramaTag& panorama) {
+    std::string xmp;
+    const auto whole = [&](std::string_view name, long value) {
+        put("GPano:" + std::string(name), std::to_string(value), xmp);
+    };
+    const long all_around_px = std::lround(tags.width_px * 360.0 / panorama.sweep_deg);
+    put("GPano:ProjectionType", "cylindrical", xmp);
+    put("GPano:UsePanoramaViewer", "True", xmp);
+    put("GPano:PoseHeadingDegrees", number(tags.heading_deg), xmp);
+    put("GPano:PosePitchDegrees", "0", xmp);
+    put("GPano:PoseRollDegrees", "0", xmp);
+    whole("CroppedAreaImageWidthPixels", tags.width_px);
+    whole("CroppedAreaImageHeightPixels", tags.height_px);
+    whole("FullPanoWidthPixels", all_around_px);
+    whole("FullPanoHeightPixels", tags.height_px);
+    whole("CroppedAreaLeftPixels", (all_around_px - tags.width_px) / 2);
+    whole("CroppedAreaTopPixels", -panorama.level_row_px);
+    whole("LargestValidInteriorRectLeft", 0);
+    whole("LargestValidInteriorRectTop", panorama.first_row_px);
+    whole("LargestValidInteriorRectWidth", tags.width_px);
+    whole("LargestValidInteriorRectHeight", panorama.scene_rows_px);
+    return xmp;
+}
+
 }  // namespace
 
 Result<std::string> xmp_packet(const Geotags& tags, PictureFormat format) {
@@ -153,18 +185,16 @@ Result<std::string> xmp_packet(const Geotags& tags, PictureFormat format) {
         "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n"
         "<rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n"
         "<rdf:Description rdf:about=\"\" xmlns:dc=\"http://purl.org/dc/elements/1.1/\""
-        " xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\" xmlns:orograph=\"";
-    xmp += name_space;
-    xmp += "\">\n";
-    const auto property = [&](std::string_view name, std::string_view value) {
-        (((((xmp += '<') += name) += '>') += value) += "</") += name;
-        xmp += ">\n";
-    };
+        " xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\"";
+    if (tags.panorama) xmp += " xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\"";
+    ((xmp += " xmlns:orograph=\"") += name_space) += "\">\n";
+    const auto property = [&](std::string_view name, std::string_view value) { put(name, value, xmp); };
     property("dc:format", media_type(format));
     if (!rights.empty())
         property("dc:rights", "<rdf:Alt><rdf:li xml:lang=\"x-default\">" + rights + "</rdf:li></rdf:Alt>");
     if (!software.empty()) property("xmp:CreatorTool", software);
     property("xmp:CreateDate", iso_time(tags.time_utc_s));
+    if (tags.panorama) xmp += panorama_fields(tags, *tags.panorama);
     property("orograph:Yaw", number(tags.heading_deg));
     property("orograph:Pitch", number(tags.pitch_deg));
     property("orograph:Roll", number(tags.roll_deg));

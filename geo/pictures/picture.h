@@ -23,6 +23,14 @@ struct DestinationTag {
     double distance_m{};   // along the ellipsoid (geodesic), as GPSDestDistance wants it
 };
 
+// Of a panorama on a cylinder. Rows count from the picture's top.
+struct PanoramaTag {
+    double sweep_deg{};  // from its left border to its right one
+    int level_row_px{};  // the level line is this row's upper border
+    int first_row_px{};  // of the scene itself: names stand above it, rulers below
+    int scene_rows_px{};
+};
+
 // What a picture says about itself. Heights: H above the geoid, h above the ellipsoid, h = H + N.
 struct Geotags {
     double lat_deg{};
@@ -40,6 +48,7 @@ struct Geotags {
     int strip_px{};                // what else is below it: rows of the file beyond height_px
     std::int64_t time_utc_s{};  // since 1970-01-01T00:00:00Z
     std::optional<DestinationTag> destination;
+    std::optional<PanoramaTag> panorama;  // then it has no focal length; heading: of its middle
     std::string attribution;
     std::string software;   // "Orograph 0.1.0"
     std::string view_json;  // the whole view: what `--view FILE.png` reads back

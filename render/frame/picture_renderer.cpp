@@ -8,8 +8,8 @@ namespace oro {
 namespace {
 
 constexpr int preferred_tile_px = 4096;
-// Around a tile: what its edges depend on (shaders/shade/edges.comp) is 1 px; a multiple of 4, so that shadows
-// are looked for in the same pixels first (shaders/cast/shares.comp).
+// Around a tile: what its edges depend on (shaders/shade/edges.comp) is 1 px; a multiple of 4, so that
+// shadows are looked for in the same pixels first (shaders/cast/shares.comp).
 constexpr int edge_margin_px = 4;
 
 // What a tile draws: counted once, not for each sample.
@@ -111,25 +111,45 @@ glm::dvec2 sample_place(int index, int count) {
     return {at(1.0 / plastic), at(1.0 / (plastic * plastic))};
 }
 
-Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera& camera,
-                                     const gpu::FrameStyle& style, const PictureOptions& options,
-                                     const RowSink& sink, const RenderProgress& progress) {
-    assert(camera.width_px > 0 && camera.height_px > 0 && options.samples > 0);
+Result<PictureRenderer> PictureRenderer::create(const Gpu& gpu, const Camera& camera,
+                                                const gpu::FrameStyle& style, const PictureOptions& options) {
     FrameRendererOptions renderer_options;
     renderer_options.extent = tile_extent(gpu, camera, options.largest_tile_px);
-    int tile_width = static_cast<int>(renderer_options.extent.width);
-    int tile_height = static_cast<int>(renderer_options.extent.height);
     renderer_options.several_samples = options.samples > 1;
     renderer_options.smooth_edges = options.samples == 1 && style.smooth_edges != 0;
-    const int margin_px = renderer_options.smooth_edges ? edge_margin_px : 0;
+    renderer_options.path = options.path;
+    renderer_options.keep_depths = options.keep_depths;
+    ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
+    return PictureRenderer(options, std::move(renderer));
+}
+
+Result<void> PictureRenderer::keep_depths(const Tile& drawn, const Tile& own, int picture_width) {
+    ORO_TRY(const std::vector<float> depths,
+            renderer_.read_depths(static_cast<std::uint32_t>(drawn.width_px),
+                                  static_cast<std::uint32_t>(drawn.height_px)));
+    for (int y = 0; y < own.height_px; ++y) {
+        const auto from = depths.begin() + std::ptrdiff_t{own.y_px - drawn.y_px + y} * drawn.width_px +
+                          (own.x_px - drawn.x_px);
+        std::copy_n(from, own.width_px,
+                    depths_.begin() + std::ptrdiff_t{own.y_px + y} * picture_width + own.x_px);
+    }
+    return {};
+}
+
+Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
+                                            const RowSink& sink, const RenderProgress& progress) {
+    int tile_width = static_cast<int>(renderer_.extent().width);
+    int tile_height = static_cast<int>(renderer_.extent().height);
+    const int margin_px = options_.samples == 1 && style.smooth_edges != 0 ? edge_margin_px : 0;
     if (tile_width < camera.width_px) tile_width = std::max(1, tile_width - 2 * margin_px);
     if (tile_height < camera.height_px) tile_height = std::max(1, tile_height - 2 * margin_px);
-    renderer_options.path = options.path;
-    ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
 
     scene.cast(cast_request(style));
     PictureReport report;
-    report.path = options.path;
+    report.path = options_.path;
+    if (options_.keep_depths)
+        depths_.assign(static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px),
+                       0.0F);
     std::vector<std::uint8_t> band(std::size_t{3} * static_cast<std::size_t>(camera.width_px) *
                                    static_cast<std::size_t>(tile_height));
     for (int y = 0; y < camera.height_px; y += tile_height) {
@@ -141,10 +161,11 @@ Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera&
             tile.width_px = std::min(tile_width, camera.width_px - x);
             tile.height_px = rows;
             const Tile drawn = with_margin(tile, margin_px, camera);
-            ORO_CHECK(draw_tile(scene, camera, style, options, drawn, renderer, report));
+            ORO_CHECK(draw_tile(scene, camera, style, options_, drawn, renderer_, report));
             ORO_TRY(const std::vector<std::uint8_t> pixels,
-                    renderer.read_picture(static_cast<std::uint32_t>(drawn.width_px),
-                                          static_cast<std::uint32_t>(drawn.height_px)));
+                    renderer_.read_picture(static_cast<std::uint32_t>(drawn.width_px),
+                                           static_cast<std::uint32_t>(drawn.height_px)));
+            if (options_.keep_depths) ORO_CHECK(keep_depths(drawn, tile, camera.width_px));
             const std::vector<std::uint8_t> rgba = inner_pixels(pixels, drawn, tile);
             report.ground_px += ground_pixels(rgba);
             copy_rgb(rgba, tile, camera.width_px, band);
@@ -157,6 +178,14 @@ Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera&
         if (progress) progress(static_cast<double>(y + rows) / camera.height_px);
     }
     return report;
+}
+
+Result<PictureReport> render_picture(const Gpu& gpu, Scene& scene, const Camera& camera,
+                                     const gpu::FrameStyle& style, const PictureOptions& options,
+                                     const RowSink& sink, const RenderProgress& progress) {
+    assert(camera.width_px > 0 && camera.height_px > 0 && options.samples > 0);
+    ORO_TRY(PictureRenderer renderer, PictureRenderer::create(gpu, camera, style, options));
+    return renderer.draw(scene, camera, style, sink, progress);
 }
 
 }  // namespace oro

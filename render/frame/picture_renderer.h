@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "core/earth/camera.h"
 #include "render/frame/frame_renderer.h"
@@ -17,6 +19,7 @@ struct PictureOptions {
     RasterPath path{RasterPath::mesh};
     double tau_px{1.0};  // 0: full resolution
     WorldModel model{};
+    bool keep_depths{false};  // for PictureRenderer::depths()
 };
 
 // What it took to draw a picture: times are sums over its tiles and samples, counts those of the first sample
@@ -42,6 +45,30 @@ struct PictureReport {
 
 // Takes the next row of the picture, width * 3 bytes of sRGB.
 using RowSink = std::function<Result<void>(std::span<const std::uint8_t> rgb)>;
+
+// Draws pictures of one size, one after another: what the GPU needs for them is made once.
+//     ORO_TRY(PictureRenderer renderer, PictureRenderer::create(gpu, cameras.front(), style, options));
+//     for (const Camera& camera : cameras) ORO_TRY(report, renderer.draw(scene, camera, style, sink));
+class PictureRenderer {
+  public:
+    // `camera` and `style`: of the size and the kind of all pictures. Errors: those of the device.
+    static Result<PictureRenderer> create(const Gpu& gpu, const Camera& camera, const gpu::FrameStyle& style,
+                                          const PictureOptions& options);
+    // As render_picture().
+    Result<PictureReport> draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
+                               const RowSink& sink, const RenderProgress& progress = {});
+    // With keep_depths, of the last picture: reversed depths of its pixels (of their last samples), row by
+    // row; 0 for the sky.
+    [[nodiscard]] const std::vector<float>& depths() const { return depths_; }
+
+  private:
+    Result<void> keep_depths(const Tile& drawn, const Tile& own, int picture_width);
+    PictureRenderer(const PictureOptions& options, FrameRenderer renderer)
+        : options_(options), renderer_(std::move(renderer)) {}
+    PictureOptions options_;
+    FrameRenderer renderer_;
+    std::vector<float> depths_;
+};
 
 // Draws what the camera sees and hands it on from the top row down. Errors: those of the device and of the
 // sink.

@@ -18,8 +18,8 @@ using oro::test::run_orograph;
 using oro::test::run_program;
 using Words = std::vector<std::string>;
 
-const Words commands{"shot",  "view",    "compare",  "plan", "trade", "sun",
-                     "sight", "profile", "viewshed", "bake", "info",  "doctor"};
+const Words commands{"shot",  "panorama", "view",     "compare", "plan", "trade", "sun",
+                     "sight", "profile",  "viewshed", "bake",    "info", "doctor"};
 const std::string exit_line =
     "\nExit code: 0 done, 1 failed, 2 wrong arguments, 3 no data in the region, 4 no suitable GPU.\n";
 
@@ -122,6 +122,8 @@ TEST(Help, HidesWhatDoesNothing) {
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
           "--tolerance", "--labels", "--edges", "--samples", "--names", "--names-field", "--overlay",
           "--overlay-colour", "--overlay-width", "--overlay-fill"}},
+        {"panorama",
+         {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--tolerance"}},
         {"plan",
          {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--edges", "--samples",
           "--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width", "--overlay-fill",

@@ -57,7 +57,8 @@ std::string cache_folder() {
 // Whether a command draws in the style that a view has when nothing is said of it.
 bool draws_as_it_likes(const std::vector<std::string>& words) {
     const auto has = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
-    return !words.empty() && (words[0] == "shot" || words[0] == "trade" || words[0] == "view") &&
+    return !words.empty() &&
+           (words[0] == "shot" || words[0] == "panorama" || words[0] == "trade" || words[0] == "view") &&
            !has("--style") && !has("--view");
 }
 

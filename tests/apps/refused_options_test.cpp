@@ -128,8 +128,8 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
          {{"info", file, "--json=perhaps"}, "--json: takes no value"},
          {{"sho", file}, "sho: is no command: did you mean shot?"},
          {{"fly"},
-          "fly: is no command; these are shot, view, compare, plan, trade, sun, sight, profile, viewshed, "
-          "bake, info and doctor"}});
+          "fly: is no command; these are shot, panorama, view, compare, plan, trade, sun, sight, profile, "
+          "viewshed, bake, info and doctor"}});
 }
 
 TEST(RefusedOptions, NamesOfFilesToWrite) {

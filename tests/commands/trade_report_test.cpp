@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/report/base64.h"
 #include "apps/trade/trade_parts.h"
 #include "tests/commands/trade_page.h"
 

@@ -52,6 +52,26 @@ TEST(ViewFile, EveryFieldComesBack) {
     }
 }
 
+TEST(ViewFile, PanoramasComeBackAndHaveSomethingInThem) {
+    oro::View view = unusual_view();
+    EXPECT_FALSE(oro::view_from_json(oro::view_to_json(view, false), "test")->panorama);
+    view.panorama = oro::PanoramaFrame{300.25, 123.5, -12.125, 4.5, false};
+    const std::string text = oro::view_to_json(view, false);
+    const auto read = oro::view_from_json(text, "test");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(oro::view_to_json(*read, false), text);
+    EXPECT_EQ(read->panorama->sweep_deg, 123.5);
+    EXPECT_FALSE(read->panorama->ridges);
+    for (const oro::PanoramaFrame& bad : {oro::PanoramaFrame{0.0, 0.0, -5.0, 5.0},
+                                          {0.0, 361.0, -5.0, 5.0},
+                                          {0.0, 90.0, 5.0, 5.0},
+                                          {0.0, 90.0, -80.0, 5.0},
+                                          {400.0, 90.0, -5.0, 5.0}}) {
+        view.panorama = bad;
+        EXPECT_FALSE(oro::view_from_json(oro::view_to_json(view, false), "test").ok());
+    }
+}
+
 // Found: none; --refraction meant another law before, and views of then draw what they drew.
 TEST(ViewFile, ViewsThatDoNotNameTheirAirHaveThatOfBefore) {
     oro::View view = unusual_view();

@@ -2,6 +2,7 @@
 // libtiff.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -264,6 +265,28 @@ TEST(Geotags, DirectionsTurnIntoTheCircle) {
 
 // A 50 mm lens sees 26.99 degrees over 24 mm and 46.79 over the diagonal; a square picture of the same
 // diagonal angle has the same equivalent.
+// A cylinder has no angle of view that a lens could have.
+TEST(Geotags, PanoramasHaveNoFocalLength) {
+    Geotags tags;
+    tags.vertical_fov_deg = 20.0;
+    tags.width_px = 900;
+    tags.height_px = 300;
+    const auto numbers = [&] {
+        std::vector<int> all;
+        const auto fields = exif_fields(tags);
+        EXPECT_TRUE(fields.ok());
+        for (const ExifField& field : fields->photo) all.push_back(field.tag);
+        return all;
+    };
+    const std::vector<int> of_plane = numbers();
+    EXPECT_NE(std::find(of_plane.begin(), of_plane.end(), 0x920A), of_plane.end());
+    tags.panorama = PanoramaTag{360.0, 100, 0, 300};
+    const std::vector<int> of_cylinder = numbers();
+    EXPECT_EQ(of_cylinder.size() + 5, of_plane.size());
+    for (const int lens : {0x920A, 0xA20E, 0xA20F, 0xA210, 0xA405})
+        EXPECT_EQ(std::find(of_cylinder.begin(), of_cylinder.end(), lens), of_cylinder.end()) << lens;
+}
+
 TEST(Geotags, FocalLengthIsByTheDiagonal) {
     EXPECT_NEAR(focal_length_35mm(26.9915, 3000, 2000), 50, 1e-3);
     EXPECT_NEAR(focal_length_35mm(26.9915, 300, 200), 50, 1e-3);

@@ -30,6 +30,26 @@ TEST(ViewInXmp, IsReadAsItWasWritten) {
     EXPECT_EQ(*view, tags.view_json);
 }
 
+// Source of the names and of where rows count from: Google, Photo Sphere XMP Metadata.
+TEST(PanoramaInXmp, TellsWhereThePictureLiesOnItsCylinder) {
+    Geotags tags;
+    tags.view_json = "{}";
+    tags.width_px = 900;
+    tags.height_px = 500;
+    tags.heading_deg = 20.5;
+    EXPECT_EQ(xmp_packet(tags, PictureFormat::png)->find("GPano"), std::string::npos);
+    tags.panorama = PanoramaTag{90.0, 210, 120, 300};
+    const auto xmp = xmp_packet(tags, PictureFormat::png);
+    ASSERT_TRUE(xmp.ok());
+    for (const char* field :
+         {"xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\"", "ProjectionType>cylindrical<",
+          "PoseHeadingDegrees>20.5<", "CroppedAreaImageWidthPixels>900<", "CroppedAreaImageHeightPixels>500<",
+          "FullPanoWidthPixels>3600<", "CroppedAreaLeftPixels>1350<", "CroppedAreaTopPixels>-210<",
+          "LargestValidInteriorRectTop>120<", "LargestValidInteriorRectHeight>300<"})
+        EXPECT_NE(xmp->find(field), std::string::npos) << field;
+    EXPECT_EQ(*view_in_xmp(*xmp, "a.png"), "{}");
+}
+
 // XMP (ISO 16684-1, 7.9.2.2): a simple property may stand as an attribute, and a prefix is anybody's choice.
 TEST(ViewInXmp, IsFoundWhereOtherProgramsPutIt) {
     for (const std::string& xmp :

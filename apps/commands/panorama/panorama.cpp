@@ -1,0 +1,277 @@
+// orograph panorama: all around a place, with rulers and the names of what is seen.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "apps/command_line/refusals.h"
+#include "apps/command_line/whole_text.h"
+#include "apps/commands/commands.h"
+#include "apps/commands/panorama/panorama_json.h"
+#include "apps/drawing/drape.h"
+#include "apps/names/names_in_view.h"
+#include "apps/output/overwrite_guard.h"
+#include "apps/panorama/elevations.h"
+#include "apps/report/figures.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
+#include "apps/view/view_changes.h"
+#include "apps/view/view_limits.h"
+#include "core/base/elapsed.h"
+#include "core/base/file_there.h"
+#include "core/base/parallel.h"
+#include "core/lod/ground_means.h"
+#include "geo/pictures/picture.h"
+
+namespace oro {
+namespace {
+
+constexpr double usual_px_per_deg = 20.0;
+// Of a scene: it is held as a whole, 3 bytes each.
+constexpr double most_pixels = 2.0e8;
+
+// Options of views that say nothing of a panorama, or something that it says in another way.
+Result<void> refuse_others(const ViewOptions& view) {
+    const char* const sector =
+        "a panorama looks around at level height: give --sector FROM,TO and --elevation";
+    for (const auto& [option, is_given, why] :
+         {std::tuple{"--heading", view.heading_deg.has_value(), sector},
+          {"--pitch", view.pitch_deg.has_value(), sector},
+          {"--roll", view.roll_deg.has_value(), sector},
+          {"--look-at", view.look_at.has_value(), sector},
+          {"--fov", view.vertical_fov_deg.has_value(), sector},
+          {"--size", view.size.has_value(), "give --width PX: the height follows from the elevations"},
+          {"--labels", view.labels.has_value(), "a panorama has none"},
+          {"--tolerance", view.tolerance.has_value(),
+           "is for shot: give --accuracy or --tau to a panorama"}}) {
+        if (is_given) return refused(option, "", why);
+    }
+    return {};
+}
+
+Result<void> check_out(const PanoramaOptions& options) {
+    if (options.out.empty())
+        return refused("--out", "", "is missing: name the file to write (.png, .jpg, .tif or .svg)");
+    if (!is_svg(options.out) && !picture_format(options.out).ok())
+        return refused("--out", options.out,
+                       "the file's name must end in .png, .jpg, .jpeg, .tif, .tiff or .svg");
+    ORO_TRY(const bool there, is_there(options.out));
+    if (there && !options.overwrite)
+        return Error{ErrorKind::failed, options.out, "is there already (--overwrite replaces it)"};
+    if (const auto trial = WholeFile::create(options.out, options.overwrite); !trial.ok())
+        return trial.error();
+    return {};
+}
+
+// "90,200"
+Result<std::pair<double, double>> two_numbers(const char* option, const std::string& text, const char* must,
+                                              const Limits& limits) {
+    const std::size_t comma = text.find(',');
+    const std::string_view all(text);
+    std::pair<double, double> numbers;
+    if (comma == std::string::npos || !read_whole(all.substr(0, comma), numbers.first) ||
+        !read_whole(all.substr(comma + 1), numbers.second))
+        return refused(option, text, must);
+    if (!limits.hold(numbers.first) || !limits.hold(numbers.second))
+        return refused(option, text, "each of the two " + between_words(limits.low, limits.high));
+    return numbers;
+}
+
+// What the options say of the frame, before anything is opened. Elevations: nothing where they are to be
+// found.
+struct AskedFrame {
+    std::optional<std::pair<double, double>> sector;  // from, sweep
+    std::optional<std::pair<double, double>> elevation;
+    std::optional<int> width_px;
+    std::optional<bool> ridges;
+};
+
+Result<AskedFrame> asked_frame(const PanoramaOptions& options) {
+    AskedFrame asked;
+    if (!options.sector.empty()) {
+        ORO_TRY(const auto between,
+                two_numbers("--sector", options.sector,
+                            "must be FROM,TO in degrees clockwise from north, e.g. 90,200",
+                            view_limits::azimuth_deg));
+        const double turn_deg = between.second - between.first,
+                     sweep_deg = turn_deg == 360.0 ? 360.0 : turned_deg(turn_deg);
+        if (!view_limits::sweep_deg.hold(sweep_deg))
+            return refused("--sector", options.sector, "is empty: it must be 0.1 degree wide or more");
+        asked.sector = {turned_deg(between.first), sweep_deg};
+    }
+    if (!options.elevation.empty()) {
+        ORO_TRY(asked.elevation, two_numbers("--elevation", options.elevation,
+                                             "must be LOW,HIGH in degrees above level, e.g. -12,6",
+                                             view_limits::elevation_deg));
+        if (!(asked.elevation->second - asked.elevation->first >= view_limits::least_elevations_deg))
+            return refused("--elevation", options.elevation,
+                           "is empty: the second must be higher than the first");
+    }
+    if (options.ridges) asked.ridges = *options.ridges == "on";
+    asked.width_px = options.width_px;
+    if (options.view_file.empty()) return asked;
+    if (asked.sector)
+        return refused("--sector", "", "not together with --view, which has a sector of its own");
+    if (asked.elevation)
+        return refused("--elevation", "", "not together with --view, which has elevations of its own");
+    return asked;
+}
+
+Result<void> check_words(const PanoramaOptions& options) {
+    ORO_CHECK(check_out(options));
+    ORO_CHECK(refuse_others(options.view));
+    if (!options.view.at && options.view_file.empty())
+        return refused("--at", "", "is missing: name the place, e.g. --at 46.67,8.06");
+    return {};
+}
+
+// Light bends where nothing is said: over the distances of a panorama it counts.
+ViewOptions with_air(const PanoramaOptions& options) {
+    ViewOptions view = options.view;
+    if (options.view_file.empty() && !view.air && !view.refraction_k && !view.accuracy) view.air = "standard";
+    return view;
+}
+
+// Data are lower than a summit is, and its place in them is another: an eye may come to stand beside it.
+std::string note_of_skyline(const Elevations& found) {
+    if (!found.leaves_out_near) return "";
+    return "ground within 250 m of the eye stands higher than is shown: --elevation shows it, a larger "
+           "--above "
+           "looks over it";
+}
+
+// Completes the view's frame and its camera, which stands for the scene until the sheet is laid out.
+Result<void> set_frame(const AskedFrame& asked, const TrueSurface& surface, View& view, std::string& note) {
+    PanoramaFrame frame = view.panorama.value_or(PanoramaFrame{});
+    if (asked.sector) {
+        frame.from_deg = asked.sector->first;
+        frame.sweep_deg = asked.sector->second;
+    }
+    if (asked.elevation) {
+        frame.low_deg = asked.elevation->first;
+        frame.high_deg = asked.elevation->second;
+    } else if (!view.panorama) {
+        const Elevations found = elevations_for(surface, view.camera.eye, view.model, frame.from_deg,
+                                                frame.sweep_deg, thread_count());
+        frame.low_deg = found.low_deg;
+        frame.high_deg = found.high_deg;
+        note = note_of_skyline(found);
+    }
+    frame.ridges = asked.ridges.value_or(frame.ridges);
+    Camera& camera = view.camera;
+    if (asked.width_px)
+        camera.width_px = *asked.width_px;
+    else if (!view.panorama)
+        camera.width_px = std::max(static_cast<int>(view_limits::panorama_width_px.low),
+                                   static_cast<int>(std::lround(frame.sweep_deg * usual_px_per_deg)));
+    camera.attitude = {turned_deg(frame.from_deg + 0.5 * frame.sweep_deg), 0.0, 0.0};
+    camera.vertical_fov_deg =
+        std::clamp(frame.high_deg - frame.low_deg, view_limits::fov_deg.low, view_limits::fov_deg.high);
+    view.panorama = frame;
+    const Cylinder around = cylinder_of(view);
+    camera.height_px = around.height_px();
+    const double pixels = static_cast<double>(around.width_px) * around.height_px();
+    if (pixels > most_pixels || !view_limits::side_px.hold(around.height_px()))
+        return refused(
+            "--width", std::to_string(around.width_px),
+            "makes a scene of " + std::to_string(around.width_px) + " x " +
+                std::to_string(around.height_px()) +
+                " pixels, more than 200,000,000 or 65,500 rows: give a smaller one, or fewer --elevation");
+    return {};
+}
+
+// A style is chosen for what a part of the cylinder shows on a plane.
+Result<Style> style_of(const View& view, const Region& region) {
+    const std::vector<CylinderTile> tiles = cylinder_tiles(cylinder_of(view), view.camera.eye, {1.0});
+    View part = view;
+    part.camera = tiles[tiles.size() / 2].camera;
+    return load_style(part, region.field);
+}
+
+void say_notes_of(const PanoramaOptions& options, const PanoramaReport& report) {
+    say_notes(report.region, options.quiet);
+    if (const std::string note = note_of_year(report.view.sun); !note.empty()) say(options.quiet, note);
+    if (report.view.vectors_read) say_vectors(*report.view.vectors_read, report.view.vectors, options.quiet);
+}
+
+Result<void> draw(const PanoramaOptions& options, const TrueSurface& surface, const Style& style,
+                  ProgressBar& bar, PanoramaReport& report) {
+    const View& view = report.view;
+    const auto drawing = Clock::now();
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    ORO_TRY(std::unique_ptr<RegionPages> pages,
+            region_pages(report.region, view.exaggeration,
+                         [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), memory_of_pages(view, options.memory),
+                                      view.heights, asks_for_means(style.frame)));
+    if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
+        say(options.quiet, note);
+    ORO_CHECK(lay_images(view, report.region, options.memory, *gpu, scene, options.quiet));
+    ORO_TRY(report.scene, draw_scene(view, report.region, surface, report.laid.around, *gpu, scene, style,
+                                     [&](double share) { bar.show(share, "drawing"); }));
+    report.draw_s = seconds_since(drawing);
+    return {};
+}
+
+void tell(const PanoramaOptions& options, const Style& style, const PanoramaReport& report) {
+    say(options.quiet, "wrote " + options.out);
+    const PanoramaNames& names = report.laid.names;
+    if (names.without_letters > 0)
+        say(options.quiet,
+            "note: " + counted(static_cast<std::uint64_t>(names.without_letters), "name is", "names are") +
+                " left out: the font has not all of their letters");
+    if (!names.without_room.empty())
+        say(options.quiet, "note: " + counted(names.without_room.size(), "name has", "names have") +
+                               " no room beside greater ones (a larger --width has more)");
+    if (options.json) std::printf("%s\n", json_text(panorama_json(report, options.out, style), true).c_str());
+}
+
+}  // namespace
+
+Result<void> run_panorama(const PanoramaOptions& options) {
+    ORO_CHECK(check_words(options));
+    ORO_TRY(const AskedFrame asked, asked_frame(options));
+    ProgressBar bar(options.quiet);
+    PanoramaReport report;
+    View& view = report.view;
+    const auto reading = Clock::now();
+    ORO_CHECK(open_view(
+        options.view_file, with_air(options), options.region,
+        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
+        report.region, PictureKind::panorama));
+    ORO_CHECK(check_unchanged(view, report.region, options.data_changed, options.quiet));
+    if (options.no_paths) view.tells_paths = false;
+    say_edited(view, options.quiet);
+    ORO_CHECK(spare_inputs({options.out}, view, report.region));
+    report.read_s = seconds_since(reading);
+    bar.show(0.0, "looking around");
+    const auto looking = Clock::now();
+    const TrueSurface surface(report.region.field, view.exaggeration, thread_count());
+    std::string note;
+    ORO_CHECK(set_frame(asked, surface, view, note));
+    ORO_TRY(const Style style, style_of(view, report.region));
+    bar.clear();
+    say_notes_of(options, report);
+    if (!note.empty()) say(options.quiet, "note: " + note);
+    ORO_TRY(report.laid, lay_out(view, report.region, surface));
+    report.layout_s = seconds_since(looking);
+    ORO_CHECK(draw(options, surface, style, bar, report));
+    if (report.scene.report.ground_px == 0) {
+        ORO_TRY(const std::string nothing, nothing_in_view(view, report.region, options.view_file));
+        say(options.quiet, "note: " + nothing);
+    }
+    bar.show(1.0, "writing");
+    ORO_TRY(PanoramaFile written, write_panorama(options.out, options.overwrite, view, report.region, style,
+                                                 report.laid, report.scene));
+    view.camera.height_px = report.laid.sheet.height_px;
+    view.prints = written.prints;
+    ORO_CHECK(written.file.commit());
+    bar.clear();
+    tell(options, style, report);
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,38 @@
+// A cylinder's picture from pictures of a pinhole eye: which of these it takes, and its pixels from theirs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/earth/camera.h"
+#include "core/earth/cylinder.h"
+
+namespace oro {
+
+// A rectangle of a cylinder's picture, and the eye that sees all of it with room around.
+struct CylinderTile {
+    int x_px{};
+    int y_px{};
+    int width_px{};
+    int height_px{};
+    Camera camera;
+};
+
+// How a cylinder is cut.
+struct CylinderCut {
+    double oversampling{2.0};   // how much finer tiles are than the cylinder where it is finest in them
+    int largest_side_px{2048};  // of a tile's picture; 1.25 times that 35 degrees off level, more beyond
+    double widest_deg{45.0};    // of a tile, across and up
+    double shift_px{0.0};       // moves all borders between columns of tiles (tests)
+};
+
+// Tiles that together are the cylinder, each once; all of them have pictures of one size.
+std::vector<CylinderTile> cylinder_tiles(const Cylinder& around, const Geodetic& eye, const CylinderCut& cut);
+
+// Brings a tile's picture into the cylinder's: each pixel is the mean, in linear light, of what the tile
+// shows within it. `drawn`: rows of the tile's picture, sRGB; `rgb`: those of the cylinder's.
+void unroll(const Cylinder& around, const CylinderTile& tile, std::span<const std::uint8_t> drawn,
+            std::span<std::uint8_t> rgb, int threads);
+
+}  // namespace oro
