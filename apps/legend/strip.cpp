@@ -5,12 +5,20 @@
 
 namespace oro {
 
-Strip::Strip(int width_px, int height_px, const StripColour& paper)
-    : width_px_(width_px), height_px_(height_px) {
+namespace {
+
+std::vector<std::uint8_t> blank(int width_px, int height_px, const StripColour& paper) {
+    std::vector<std::uint8_t> rgb;
     const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-    rgb_.reserve(3 * pixels);
-    for (std::size_t i = 0; i < pixels; ++i) rgb_.insert(rgb_.end(), paper.begin(), paper.end());
+    rgb.reserve(3 * pixels);
+    for (std::size_t i = 0; i < pixels; ++i) rgb.insert(rgb.end(), paper.begin(), paper.end());
+    return rgb;
 }
+
+}  // namespace
+
+Strip::Strip(int width_px, int height_px, const StripColour& paper)
+    : width_px_(width_px), height_px_(height_px), rgb_(blank(width_px, height_px, paper)) {}
 
 void Strip::mix(int x, int y, const StripColour& colour, double share) {
     if (x < 0 || y < 0 || x >= width_px_ || y >= height_px_ || share <= 0.0) return;

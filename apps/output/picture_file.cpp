@@ -91,6 +91,21 @@ class MapRows {
     std::vector<std::uint8_t> rgb_, on_white_;
 };
 
+// That the picture is what tau and the images ask for.
+Result<void> check_drawn(const Gpu& gpu, Scene& scene, const PictureReport& report) {
+    if (!gpu.validation_messages().empty())
+        return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
+    if (!report.settled)
+        return Error{ErrorKind::failed, "--gpu-memory",
+                     "the GPU may hold " + std::to_string(scene.store().capacity()) +
+                         " pages of terrain; this view needs more (a larger --tau needs fewer)"};
+    if (!report.images_settled)
+        return Error{ErrorKind::failed, "--gpu-memory",
+                     "the GPU may hold " + std::to_string(scene.drape()->capacity()) +
+                         " tiles of images; this view needs more (a smaller --size needs fewer)"};
+    return {};
+}
+
 }  // namespace
 
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
@@ -134,16 +149,7 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
     const auto row_bytes = static_cast<std::size_t>(view.camera.width_px) * 3;
     for (std::size_t at = 0; !view.map && at < strip.size(); at += row_bytes)
         ORO_CHECK(take(strip.subspan(at, row_bytes)));
-    if (!gpu.validation_messages().empty())
-        return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
-    if (!report.settled)
-        return Error{ErrorKind::failed, "--gpu-memory",
-                     "the GPU may hold " + std::to_string(scene.store().capacity()) +
-                         " pages of terrain; this view needs more (a larger --tau needs fewer)"};
-    if (!report.images_settled)
-        return Error{ErrorKind::failed, "--gpu-memory",
-                     "the GPU may hold " + std::to_string(scene.drape()->capacity()) +
-                         " tiles of images; this view needs more (a smaller --size needs fewer)"};
+    ORO_CHECK(check_drawn(gpu, scene, report));
     ORO_TRY(WholeFile file, writer->finished_file());
     if (drawn.prints) {
         drawn.prints->pixels = pixels.print();
