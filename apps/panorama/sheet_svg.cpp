@@ -89,6 +89,7 @@ Result<std::string> sheet_svg(const Sheet& sheet, std::span<const std::uint8_t> 
     std::string svg = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     svg += printed(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+        "xml:space=\"preserve\" "
         "width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
         "font-family=\"'DejaVu Sans', Verdana, sans-serif\">\n",
         sheet.width_px, sheet.height_px, sheet.width_px, sheet.height_px);
