@@ -123,6 +123,8 @@ class LegendPage {
         const double wide = std::min(22.0 * em_, width_px_ - margin_ - at.x - em_), tall = 1.1 * em_;
         const double top = at.y + 1.55 * em_;
         ORO_CHECK(strip.write(face_, key_.title, {at.x, at.y + 0.85 * em_}, 0.9 * em_, quiet));
+        // Light colours end at a frame, not in the paper.
+        strip.fill({at.x - 1.0, top - 1.0}, {wide + 2.0, tall + 2.0}, quiet);
         strip.fill({at.x, top}, {wide, tall}, [&](glm::dvec2 share) {
             return key_.colour(key_.low + share.x * (key_.high - key_.low));
         });
