@@ -223,8 +223,11 @@ TEST_F(ToldView, PictureAndErrorsAreOneStep) {
     const std::string session = R"(
         there=$1; shift
         "$@" & child=$!
-        until ls -l /proc/$child/fd 2>/dev/null | grep -qF "$there"; do
+        # A file there that stays open: not the one that tries, before anything is drawn, whether there can be one.
+        open=0
+        until [ $open -ge 5 ]; do
             kill -0 $child 2>/dev/null || exit 97
+            if ls -l /proc/$child/fd 2>/dev/null | grep -qF "$there"; then open=$((open + 1)); else open=0; fi
             sleep 0.02
         done
         mv "$there/p.png" "$there/old"; mkdir "$there/p.png"
