@@ -13,6 +13,7 @@
 #include "geo/region/region.h"
 #include "render/frame/picture_renderer.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/real_views.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -201,7 +202,7 @@ TEST_F(SmoothEdges, AreThoseOfSixtyFourSamples) {
     const auto between = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < test::view_count(1); ++i) {
         const double above_m = between(30.0, 1500.0), pitch_deg = between(-6.0, 0.0),
                      fov_deg = between(7.0, 30.0);
         const Camera camera =
