@@ -13,6 +13,7 @@
 namespace oro::gpu {
 using glm::mat3;
 using glm::uvec2;
+using glm::uvec3;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
@@ -101,10 +102,20 @@ struct PageBlock {
     // to be multiplied by the cosine of the latitude. At the page's middle.
     float row_spacing_m;
     float column_spacing_m;
+    // By how much rows are turned from east, towards north, radians: at the page's first post, and what the
+    // next row and the next column add. In a grid with a CRS of its own (FrameConstants.has_net); there
+    // column_spacing_m needs no cosine of a latitude.
+    vec3 turn;
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
     // (core/terrain/height_quantization.h).
     int heights[17161];
+};
+
+// Where a page's 129 x 129 posts are, on a net: steps of height_step_m along x, y and z of ECEF, from the
+// lattice point of the page's origin.
+struct PagePlaces {
+    int steps[49923];
 };
 
 // A page of this frame: one that is drawn, or one above such a page. Its number in the frame's list is in the
@@ -116,8 +127,13 @@ struct FramePage {
     vec3 horizon_direction;  // scaled direction of the eye minus that of the page
     uvec2 block;             // device address of its PageBlock
     uvec2 means;             // of its PageMeans; 0 where there are none
-    uint cull;               // bits: 1 the frustum, 2 the horizon may hide some meshlets of it; 4 none of its
-                             // nodes may stand for finer ones
+    // On a net: of its PagePlaces, and from the eye's lattice point to its origin's, 64 bits along each axis
+    // (core/net/page_on_net.h).
+    uvec2 places;
+    uvec3 from_eye_low;
+    uvec3 from_eye_high;
+    uint cull;  // bits: 1 the frustum, 2 the horizon may hide some meshlets of it; 4 none of its
+                // nodes may stand for finer ones
     uint level;
     uint first_row;  // number in the region of the page's first post
     uint first_column;
@@ -280,6 +296,19 @@ struct EyePost {
 };
 #include "shaders/shared_drape.h"
 
+// From places to posts of a grid on a net (core/net/grid_net.h, GridNet::Inverse): row and column as a polynomial of
+// (u, v), the ellipsoid's normal along two axes.
+struct NetMap {
+    vec3 along_u;  // in the eye's meridian frame
+    vec3 along_v;
+    vec2 middle;
+    vec2 scale;     // (dot products - middle) * scale is in -1 .. 1
+    vec2 beyond_u;  // rows and columns a step outwards, beyond the grid
+    vec2 beyond_v;
+    vec2 turn;      // of rows in the grid's middle, from east towards north: cosine, sine
+    vec2 coefficients[28];  // of u^i v^j: i from 0, and of each j from 0 to 6 - i
+};
+
 struct FrameConstants {
     mat3 view_from_eye;     // rotation, from the eye's meridian frame
     int reference_steps;    // height that the row terms are for, a whole number of metres
@@ -299,7 +328,9 @@ struct FrameConstants {
     uint height_bits;         // 32 or 16, see PageBlock
     uint height_shift;        // of 16: steps = code << shift + offset
     int height_offset;
-    vec3 up_view;  // the ellipsoid's normal at the eye, in view coordinates
+    uint has_net;        // 1: posts are where PagePlaces has them, not where row and column terms say
+    vec3 eye_remainder;  // then: the eye from its lattice point, metres, ECEF
+    vec3 up_view;        // the ellipsoid's normal at the eye, in view coordinates
     float eye_h_m;
     float earth_radius_m;  // Gaussian radius of curvature at the eye
     uint width_px;
@@ -327,9 +358,9 @@ struct FrameConstants {
     uvec2 live_pages;  // LivePages
     uvec2 counts;      // device address of FrameCounts
     uvec2 depths;      // float for each pixel, row by row: reversed depth of what is seen; 0 when not wanted
-    uvec2 tiles_in_parts;  // uint for each 8 x 8 pixels: 1 where some are left to the program for footprints of
-                           // several parts; 0 where there is none such
-    uvec2 triangles;   // DrawnTriangle for each pixel of triangle_rows rows, row by row; 0 when not wanted
+    uvec2 tiles_in_parts;  // uint for each 8 x 8 pixels: 1 where some are left to the program for footprints
+                           // of several parts; 0 where there is none such
+    uvec2 triangles;  // DrawnTriangle for each pixel of triangle_rows rows, row by row; 0 when not wanted
     uint triangle_rows;
     uvec2 recorded;    // device address of recorded positions, or 0 (tests only)
     uint record_view;  // 1: positions in view coordinates are recorded, not those in the eye's meridian frame
@@ -344,6 +375,7 @@ struct FrameConstants {
     UndulationTable undulation;
     FrameStyle style;
     EyePost eye_post;
+    NetMap net;
     DrapeTable drape;
 };
 

@@ -78,6 +78,7 @@ Result<UnseenGround> unseen_in(const View& view, const Region& region, double ce
     if (!region.geoid_left_out.N_m.empty()) {
         lifted = region.field;
         lifted->undulation = region.geoid_left_out;
+        lifted->N_of_posts_m = region.N_of_posts_left_out_m;
     }
     const TrueSurface surface(lifted ? *lifted : region.field, view.exaggeration, thread_count());
     const UnseenGround unseen = unseen_over(view, region, surface, true_sight(view, region), ceiling_m);

@@ -28,6 +28,7 @@ Result<std::unique_ptr<TrueScene>> TrueScene::of(const View& view, const Region&
     } else if (!region.geoid_left_out.N_m.empty()) {
         scene->field_ = region.field;
         scene->field_->undulation = region.geoid_left_out;
+        scene->field_->N_of_posts_m = region.N_of_posts_left_out_m;
     }
     scene->surface_.emplace(scene->field_ ? *scene->field_ : region.field, view.exaggeration, thread_count());
     scene->sight_ = true_sight(view, region);

@@ -214,8 +214,11 @@ std::string info_text(const Region& region) {
     std::string text = region.file ? baked_text(*region.file) : "";
     text += "region: " + counted(region.sources.size(), "file", "files") + "\n";
     text += line("box", box_text(grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()));
-    text += line("posts", text_of("%d x %d, every %.6g x %.6g degrees", grid.columns(), grid.rows(),
-                                  grid.lon.spacing_deg(), grid.lat.spacing_deg()));
+    text +=
+        line("posts", grid.net ? text_of("%d x %d, the file's own, every %.6g x %.6g m at most",
+                                         grid.columns(), grid.rows(), grid.net->column_m(), grid.net->row_m())
+                               : text_of("%d x %d, every %.6g x %.6g degrees", grid.columns(), grid.rows(),
+                                         grid.lon.spacing_deg(), grid.lat.spacing_deg()));
     text +=
         line("H", heights_text(static_cast<double>(range.lowest_m), static_cast<double>(range.highest_m)) +
                       " above the geoid " + region.geoid);

@@ -200,6 +200,11 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
               "Stop where heights cannot be converted from a file's vertical datum (what they are heights "
               "above), or where PROJ lacks a grid or a way for its horizontal datum. Without this they count "
               "as heights above sea level (EGM96), places are as good as they can be, and a note says so.");
+    data.flag(
+        "--own-posts", options.own_posts,
+        "Draw the points of a file where its own CRS has them (a projected one, say). Without this such a "
+        "file is resampled onto latitudes and longitudes, which rounds off summits. For one file; not with "
+        "images, other models of the Earth or baking yet.");
     data.flag("--fill-voids", options.fill_voids,
               "Give points without a height (voids) one from their neighbours. Without this they are holes.");
 }

@@ -19,6 +19,7 @@ struct RegionOptions {
     std::string height_unit;
     bool strict_datum{false};
     bool fill_voids{false};
+    bool own_posts{false};
 };
 
 // From where, and how it looks.

@@ -65,8 +65,8 @@ double data_reach_m(const PostGrid& grid, const Geodetic& place, double azimuth_
         const double east = azimuth.sine * std::sin(angle) * lat.cosine;
         const double lon_deg =
             place.lon_deg + deg_from_radians(Radians{std::atan2(east, std::cos(angle) - lat.sine * sine)});
-        const double row = grid.lat.index_at(deg_from_radians(Radians{std::asin(sine)}));
-        const double column = grid.column_at(std::remainder(lon_deg, 360.0));
+        const auto [row, column] =
+            grid.post_at(deg_from_radians(Radians{std::asin(sine)}), std::remainder(lon_deg, 360.0));
         if (!(row >= 0.0 && row <= grid.rows() - 1 && column >= 0.0 && column <= grid.columns() - 1)) break;
         reach_m += step_m;
     }
@@ -115,6 +115,7 @@ Result<void> leave_terrain_out(const SunOptions& options) {
                                            {"--tile", !region.tile.empty()},
                                            {"--height-unit", !region.height_unit.empty()},
                                            {"--strict-datum", region.strict_datum},
+                                           {"--own-posts", region.own_posts},
                                            {"--fill-voids", region.fill_voids}}) {
         if (is_given) return refused(option, "", "says nothing without elevation data: name them, too");
     }

@@ -10,6 +10,7 @@
 #include "apps/accuracy/accuracy.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/drawing/own_posts_limits.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/output/overwrite_guard.h"
@@ -158,6 +159,7 @@ Result<void> run_trade(const TradeOptions& options) {
     const std::string csv = (fs::path(options.out) / "trade.csv").string();
     const std::string html = (fs::path(options.out) / "trade.html").string();
     ORO_CHECK(check_options(options, csv, html));
+    ORO_CHECK(refuse_own_posts(options.region.own_posts, "trade"));
     ViewOptions view_options = options.view;
     if (!view_options.size && options.view_file.empty()) view_options.size = "640x360";
     ProgressBar bar(options.quiet);

@@ -24,7 +24,9 @@ GridAxis every(const GridAxis& axis, int step) {
 }  // namespace
 
 bool measures_long(const Region& region) {
-    return !region.file && !region.field.posts && region.field.grid.post_count() > 4 * posts_in_a_moment;
+    // Of posts on a net nothing coarser is made: their levels are waited for.
+    return !region.file && !region.field.posts && !region.field.grid.net &&
+           region.field.grid.post_count() > 4 * posts_in_a_moment;
 }
 
 HeightField coarse_field(const HeightField& field) {

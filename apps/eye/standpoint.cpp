@@ -15,7 +15,7 @@ std::string place_name(double lat_deg, double lon_deg) {
 }
 
 bool holds(const PostGrid& grid, double lat_deg, double lon_deg) {
-    const double row = grid.lat.index_at(lat_deg), column = grid.column_at(lon_deg);
+    const auto [row, column] = grid.post_at(lat_deg, lon_deg);
     return row >= 0.0 && row <= grid.rows() - 1 && column >= 0.0 && column <= grid.columns() - 1;
 }
 

@@ -76,8 +76,7 @@ Result<SeenHeights> seen_heights(const Gpu& gpu, Scene& scene, const Camera& cam
     SeenHeights seen = no_heights(camera);
     const auto take = [&](int x, int y, const DrawnPoint& point) {
         if (point.background()) return;
-        const double lat_deg = field.grid.north_deg() - point.row * field.grid.lat.spacing_deg(),
-                     lon_deg = field.grid.west_deg() + point.column * field.grid.lon.spacing_deg();
+        const auto [lat_deg, lon_deg] = field.grid.place_at(point.row, point.column);
         const std::size_t node = seen.at(x / seen.step_px, y / seen.step_px);
         seen.H_m[node] =
             static_cast<float>((point.h_m - field.undulation.at_m(lat_deg, lon_deg)) / exaggeration);

@@ -47,7 +47,7 @@ void find_ground(MapPlaces& places, const TrueSurface& surface, bool voids_are_s
         for (int x = 0; x < square.width_px; ++x) {
             const auto& place = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
             if (!place) continue;
-            const double row = grid.lat.index_at(place->lat_deg), column = grid.column_at(place->lon_deg);
+            const auto [row, column] = grid.post_at(place->lat_deg, place->lon_deg);
             const bool inside =
                 row >= 0.0 && column >= 0.0 && row <= grid.rows() - 1.0 && column <= grid.columns() - 1.0;
             if (!inside) continue;

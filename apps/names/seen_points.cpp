@@ -90,7 +90,7 @@ bool PointsInView::in_picture(const SeenPoint& point) const {
 
 std::optional<Geodetic> PointsInView::summit_near(const Geodetic& place) const {
     const PostGrid& grid = surface_.field().grid;
-    const double row = grid.lat.index_at(place.lat_deg), column = grid.column_at(place.lon_deg);
+    const auto [row, column] = grid.post_at(place.lat_deg, place.lon_deg);
     std::optional<Geodetic> highest;
     for (int down = -posts_to_summit; down <= posts_to_summit; ++down) {
         for (int right = -posts_to_summit; right <= posts_to_summit; ++right) {
@@ -98,8 +98,11 @@ std::optional<Geodetic> PointsInView::summit_near(const Geodetic& place) const {
                       c = static_cast<int>(std::lround(column)) + right;
             if (r < 0 || c < 0 || r >= grid.rows() || c >= grid.columns()) continue;
             const auto h_m = surface_.post_h_m(r, c);
-            if (h_m && *h_m > (highest ? highest->h_m : place.h_m))
-                highest = Geodetic{grid.lat.at_deg(r), normalised_lon_deg(grid.lon.at_deg(c)), *h_m};
+            if (h_m && *h_m > (highest ? highest->h_m : place.h_m)) {
+                const PostPlace at =
+                    grid.net ? grid.net->place_at(r, c) : PostPlace{grid.lat.at_deg(r), grid.lon.at_deg(c)};
+                highest = Geodetic{at.lat_deg, normalised_lon_deg(at.lon_deg), *h_m};
+            }
         }
     }
     return highest;

@@ -75,15 +75,15 @@ Result<std::vector<InkedText>> area_masks(const Gpu& gpu, Scene& scene, const Vi
             {std::move(area), static_cast<std::uint8_t>(std::lround(255.0 * fill.opacity)), found->second});
     });
     if (!filled.empty()) {
-        ORO_CHECK(shown_ground(
-            gpu, scene, view.camera, options, 1, [&](int x_px, int y_px, const DrawnPoint& point) {
-                if (point.background()) return;
-                const double lat_deg = grid.north_deg() - point.row * grid.lat.spacing_deg();
-                const double lon_deg = grid.west_deg() + point.column * grid.lon.spacing_deg();
-                for (const Filled& one : filled) {
-                    if (one.area.holds(lat_deg, lon_deg)) masks[one.mask].cover(x_px, y_px, one.cover);
-                }
-            }));
+        ORO_CHECK(shown_ground(gpu, scene, view.camera, options, 1,
+                               [&](int x_px, int y_px, const DrawnPoint& point) {
+                                   if (point.background()) return;
+                                   const auto [lat_deg, lon_deg] = grid.place_at(point.row, point.column);
+                                   for (const Filled& one : filled) {
+                                       if (one.area.holds(lat_deg, lon_deg))
+                                           masks[one.mask].cover(x_px, y_px, one.cover);
+                                   }
+                               }));
     }
     std::vector<InkedText> inked;
     for (std::size_t i = 0; i < masks.size(); ++i) masks[i].give(colours[i], inked);

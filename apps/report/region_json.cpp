@@ -49,7 +49,11 @@ ordered_json region_json(const Region& region) {
     ordered_json json = ordered_json::object();
     json["bbox"] = json_list(grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg());
     json["posts"] = json_object("rows", grid.rows(), "columns", grid.columns());
-    json["spacing_deg"] = json_object("lat", grid.lat.spacing_deg(), "lon", grid.lon.spacing_deg());
+    json["own_posts"] = grid.net != nullptr;
+    if (grid.net)
+        json["largest_spacing_m"] = json_object("rows", grid.net->row_m(), "columns", grid.net->column_m());
+    else
+        json["spacing_deg"] = json_object("lat", grid.lat.spacing_deg(), "lon", grid.lon.spacing_deg());
     json["H_m"] = json_object("lowest", range.lowest_m, "highest", range.highest_m);
     json["geoid"] = region.geoid;
     json["voids"] = region.void_posts();

@@ -44,8 +44,14 @@ std::optional<Geodetic> ground_seen(const HeightField& field, double exaggeratio
 // How fast H changes on the picture at a place, metres per pixel; 0 on level ground.
 std::optional<double> H_per_px(const HeightField& field, double exaggeration, const Geodetic& place,
                                const glm::dvec3& from_eye, double px_rad) {
-    const PostSpacing post = post_spacing(field.grid, place.lat_deg);
-    const double row_deg = field.grid.lat.spacing_deg(), column_deg = field.grid.lon.spacing_deg();
+    PostSpacing post = post_spacing(field.grid, place.lat_deg);
+    double row_deg = field.grid.lat.spacing_deg(), column_deg = field.grid.lon.spacing_deg();
+    if (field.grid.net) {
+        post.row_m = post.column_m = field.grid.net->row_m();
+        row_deg = deg_from_radians(Radians(post.row_m / meridian_radius_m(place.lat_deg)));
+        column_deg = deg_from_radians(Radians(
+            post.row_m / (prime_vertical_radius_m(place.lat_deg) * sine_cosine_deg(place.lat_deg).cosine)));
+    }
     const auto north = field.surface_H_m(place.lat_deg + row_deg, place.lon_deg),
                south = field.surface_H_m(place.lat_deg - row_deg, place.lon_deg),
                east = field.surface_H_m(place.lat_deg, place.lon_deg + column_deg),

@@ -196,6 +196,7 @@ View read_fields(const nlohmann::json& json) {
     if (!view.region.height_unit.empty() && !metres_in(view.region.height_unit))
         throw JsonFault{"'height_unit' is '" + view.region.height_unit + "', none of m, ft, us-ft, cm"};
     view.region.fill_voids = json_flag(json, "fill_voids");
+    view.region.own_posts = json.contains("own_posts") && json_flag(json, "own_posts");
     view.region.strict_datum = json_flag(json, "strict_datum");
     read_camera(json, view.camera);
     read_map(json, view);
@@ -267,6 +268,7 @@ std::string view_to_json(const View& view, bool pretty) {
         json["bbox"] = json_list(box->west_deg, box->south_deg, box->east_deg, box->north_deg);
     json["height_unit"] = view.region.height_unit;
     json["fill_voids"] = view.region.fill_voids;
+    if (view.region.own_posts) json["own_posts"] = true;
     json["strict_datum"] = view.region.strict_datum;
     const Camera& camera = view.camera;
     json["eye"] =

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/drawing/own_posts_limits.h"
 #include "apps/view/view.h"
 #include "core/base/file_there.h"
 
@@ -10,6 +11,8 @@ namespace oro {
 void leave_geoid_out(Region& region) {
     region.geoid_left_out = std::move(region.field.undulation);
     region.field.undulation = {};
+    region.N_of_posts_left_out_m = std::move(region.field.N_of_posts_m);
+    region.field.N_of_posts_m.clear();
     region.geoid = "none";
 }
 
@@ -98,6 +101,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         if (!opened) return with_way_out(opened.error(), view, region_options);
         region = std::move(*opened);
         view.prints = prints_of(region);
+        ORO_CHECK(check_own_posts(view, region));
         if (!view.has_geoid) leave_geoid_out(region);
         // Those that somebody names instead are others on purpose.
         if (!view_options.drape.empty() && view.told->prints) view.told->prints->images.clear();
@@ -109,6 +113,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     ORO_TRY(region, open_region(view.region, progress));
     view.prints = prints_of(region);
+    ORO_CHECK(check_own_posts(view, region));
     ORO_CHECK(open_files(view));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);

@@ -179,6 +179,7 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
     request.paths = options.paths;
     request.strict_datum = options.strict_datum;
     request.fill_voids = options.fill_voids;
+    request.own_posts = options.own_posts;
     request.height_unit = options.height_unit;
     if (!options.bbox.empty()) {
         const Result<BoundingBox> box = parse_bounding_box(options.bbox);
@@ -247,6 +248,7 @@ Result<void> change_region(View& view, const RegionOptions& options) {
                                            {"--tile", !options.tile.empty()},
                                            {"--height-unit", !options.height_unit.empty()},
                                            {"--strict-datum", options.strict_datum},
+                                           {"--own-posts", options.own_posts},
                                            {"--fill-voids", options.fill_voids}}) {
         if (is_given) return refused(option, "", "not together with a picture's view, which says it itself");
     }

@@ -22,10 +22,6 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double sun_radius_rad = 0.00465;
 constexpr int cells_max = 128;  // along a side of the map of what is shaded
 
-double post_rad(const GridAxis& axis) {
-    return radians_from_deg(axis.spacing_deg()).rad;
-}
-
 // Cells of pages of one level over the region: what the lines from all that is seen towards the sun need.
 class CastMap {
   public:
@@ -90,6 +86,14 @@ class CastMap {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(layout_.columns) +
                static_cast<std::size_t>(column);
     }
+    // How the posts lie around one of them.
+    struct CellLie {
+        PostPlace place;
+        double row_m, column_m;  // from one to the next
+        SineCosine turn;         // of rows, from east towards north
+        double bend;  // how far a line strays from a straight one among them, of a great circle's stray
+    };
+    [[nodiscard]] CellLie lie_of_cell(std::int64_t row, std::int64_t column) const;
     void cast_from(int row, int column);
     void mark(double north, double south, double west, double east, const Need& need);
 
@@ -116,18 +120,31 @@ void CastMap::mark(double north, double south, double west, double east, const N
         }
 }
 
+CastMap::CellLie CastMap::lie_of_cell(std::int64_t row, std::int64_t column) const {
+    if (grid_.net) {
+        const auto y = static_cast<double>(row), x = static_cast<double>(column);
+        const GridNet::Lie lie = grid_.net->lie_at(y, x);
+        return {grid_.net->place_at(y, x), lie.row_m, lie.column_m,
+                sine_cosine_deg(deg_from_radians(Radians(lie.turn_rad))), 1.0 + grid_.net->bend()};
+    }
+    const double lat_deg = row_lat_deg(grid_, row);
+    return {{lat_deg, grid_.lon.at_deg(column)},
+            meridian_radius_m(lat_deg) * grid_.row_step_rad(),
+            prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine * grid_.column_step_rad(),
+            {0.0, 1.0},
+            1.0 + std::abs(std::tan(radians_from_deg(lat_deg).rad))};
+}
+
 // Moves a cell towards the sun, half a cell at a time, until it is above all terrain.
 void CastMap::cast_from(int row, int column) {
     const Need& receiver = receivers_[place(row, column)];
     const auto posts = static_cast<double>(posts_);
-    const double lat_deg =
-        row_lat_deg(grid_, std::min<std::int64_t>(row * posts_ + posts_ / 2, grid_.rows() - 1));
-    const double lon_deg =
-        grid_.lon.at_deg(std::min<std::int64_t>(column * posts_ + posts_ / 2, grid_.columns() - 1));
-    const glm::dvec3 sun = glm::transpose(ecef_from_enu(lat_deg, lon_deg)) * sun_ecef_;
-    const double row_m = posts * meridian_radius_m(lat_deg) * post_rad(grid_.lat);
-    const double column_m = std::max(1.0, posts * prime_vertical_radius_m(lat_deg) *
-                                              sine_cosine_deg(lat_deg).cosine * post_rad(grid_.lon));
+    const std::int64_t at_post_row = std::min<std::int64_t>(row * posts_ + posts_ / 2, grid_.rows() - 1);
+    const std::int64_t at_post_column =
+        std::min<std::int64_t>(column * posts_ + posts_ / 2, grid_.columns() - 1);
+    const CellLie lie = lie_of_cell(at_post_row, at_post_column);
+    const glm::dvec3 sun = glm::transpose(ecef_from_enu(lie.place.lat_deg, lie.place.lon_deg)) * sun_ecef_;
+    const double row_m = posts * lie.row_m, column_m = std::max(1.0, posts * lie.column_m);
     const double half_rad =
         0.5 * std::hypot(row_m, column_m) / mean_radius_m;  // the sun's rise differs over the cell
     const double level = std::max(std::hypot(sun.x, sun.y), 1e-6);
@@ -135,13 +152,14 @@ void CastMap::cast_from(int row, int column) {
     const Need need{receiver.error_m * std::clamp(std::tan(rise), 0.02, 1.0), receiver.low_m};
     const double lowest = std::tan(std::clamp(rise - 1.1 * sun_radius_rad, -1.5, 1.5));
     const double step_m = 0.5 * std::min(row_m, column_m);
-    const double south = -sun.y / level / row_m, east = sun.x / level / column_m;  // cells a metre
+    // Cells a metre.
+    const double south = (sun.x * lie.turn.sine - sun.y * lie.turn.cosine) / level / row_m;
+    const double east = (sun.x * lie.turn.cosine + sun.y * lie.turn.sine) / level / column_m;
     double low_m = receiver.low_m;
     for (double from_m = 0.0; low_m <= top_m_ || from_m * lowest < 0.0; from_m += step_m) {
         const double to_m = from_m + step_m;
         // Towards the pole's side the line bends, and the sun's direction differs over the cell.
-        const double aside_m = to_m * (half_rad + to_m / (2.0 * mean_radius_m)) *
-                               (1.0 + std::abs(std::tan(radians_from_deg(lat_deg).rad)));
+        const double aside_m = to_m * (half_rad + to_m / (2.0 * mean_radius_m)) * lie.bend;
         const double rows = aside_m / row_m + 0.01, columns = aside_m / column_m + 0.01;
         const double sag_m = from_m * from_m / (2.0 * mean_radius_m);
         low_m = receiver.low_m + std::min(from_m * lowest, to_m * lowest) + 0.99 * sag_m;
@@ -348,8 +366,8 @@ Result<void> plan_casters(const RegionPages& pages,
     plan.casters.for_openness = request.sky_openness;
     gpu::Casters& frame = plan.casters.frame;
     frame.level_count = static_cast<gpu::uint>(pages.levels());
-    frame.row_rad = static_cast<float>(post_rad(facts.grid.lat));
-    frame.column_rad = static_cast<float>(post_rad(facts.grid.lon));
+    frame.row_rad = static_cast<float>(facts.grid.row_step_rad());
+    frame.column_rad = static_cast<float>(facts.grid.column_step_rad());
     frame.top_m = static_cast<float>(top_m);
     frame.error_per_m = static_cast<float>(error_per_m);
     return {};

@@ -14,6 +14,7 @@
 #include "core/frame/frame_tables.h"
 #include "core/lod/levels.h"
 #include "core/lod/levels_gpu.h"
+#include "core/net/page_on_net.h"
 
 namespace oro {
 namespace {
@@ -41,9 +42,10 @@ class PageChoice {
           view_(level_view(camera, tau_px)),
           model_(model),
           view_from_ecef_(camera.view_from_ecef()),
+          eye_ecef_(camera.eye_ecef()),
           planes_(frustum_planes_view(projection_of_tile(camera, tile))),
           horizon_(model.horizon(pages.facts().shape.occluder)),
-          post_spacing_m_(wgs84_a_m * radians_from_deg(pages.facts().grid.lat.spacing_deg()).rad),
+          post_spacing_m_(wgs84_a_m * pages.facts().grid.row_step_rad()),
           shading_spacing_px_(shading_spacing_px),
           levels_(static_cast<std::size_t>(pages.levels())) {
         for (Plane& plane : planes_) plane.w += model.rounding_m();
@@ -68,6 +70,7 @@ class PageChoice {
                                                           std::array<bool, 4>& there) const;
     [[nodiscard]] std::uint32_t number_of(const PageIndex& index) const;
     [[nodiscard]] gpu::FramePage frame_page(const WantedPage& page) const;
+    void set_from_eye(const PageSummary& page, gpu::FramePage& frame) const;
     void set_neighbours(const PageIndex& index, gpu::FramePage& frame) const;
 
     const RegionPages& pages_;
@@ -75,6 +78,7 @@ class PageChoice {
     LevelView view_;
     const ModelView& model_;
     glm::dmat3 view_from_ecef_;
+    Ecef eye_ecef_;
     std::array<Plane, 5> planes_;
     SeenHorizon horizon_;
     double post_spacing_m_;  // of level 0, along the meridian
@@ -256,6 +260,17 @@ void PageChoice::set_neighbours(const PageIndex& index, gpu::FramePage& frame) c
     if (index.column == 0) frame.west_column = static_cast<gpu::uint>((nodes - 1) / 2 % side);
 }
 
+// From the eye to the page's origin, on the lattice: 64 bits along each axis.
+void PageChoice::set_from_eye(const PageSummary& page, gpu::FramePage& frame) const {
+    const LatticePoint origin = lattice_point(page.origin_ecef.m), eye = lattice_point(eye_ecef_.m);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto from_eye = static_cast<std::uint64_t>(origin.steps[static_cast<std::size_t>(axis)] -
+                                                         eye.steps[static_cast<std::size_t>(axis)]);
+        frame.from_eye_low[axis] = static_cast<gpu::uint>(from_eye);
+        frame.from_eye_high[axis] = static_cast<gpu::uint>(from_eye >> 32U);
+    }
+}
+
 gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
     const PageSummary& summary = page.record.summary;
     const glm::dmat3 view_from_page = view_from_ecef_ * summary.ecef_from_page;
@@ -279,6 +294,7 @@ gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
     if (!model_.may_stand(page.record)) frame.cull |= gpu::stands_never;
     frame.block = {static_cast<gpu::uint>(page.address), static_cast<gpu::uint>(page.address >> 32U)};
     frame.level = static_cast<gpu::uint>(summary.index.level);
+    if (pages_.facts().grid.net) set_from_eye(summary, frame);
     frame.stand_in = page.stand_in;
     set_neighbours(summary.index, frame);
     return frame;

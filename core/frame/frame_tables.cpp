@@ -1,11 +1,13 @@
 #include "core/frame/frame_tables.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/earth/model_view.h"
 #include "core/frame/culling.h"
 #include "core/lod/levels.h"
+#include "core/net/page_on_net.h"
 #include "core/terrain/drawn_heights.h"
 
 namespace oro {
@@ -19,6 +21,11 @@ gpu::UndulationTable undulation_table(const PostGrid& grid, const UndulationFiel
     if (field.N_m.empty()) return table;
     table.rows = static_cast<gpu::uint>(field.lat.count);
     table.columns = static_cast<gpu::uint>(field.lon.count);
+    if (grid.net) {
+        // Its nodes are posts of the grid: see drawn_undulation().
+        table.per_post = gpu::vec2(1.0F / static_cast<float>(undulation_step(grid)));
+        return table;
+    }
     const double row = field.lat.index_at(grid.lat.at_deg(0));
     double column = field.lon.index_at(grid.lon.at_deg(0));
     const double turn = 360.0 * field.lon.posts_per_deg;
@@ -37,6 +44,18 @@ gpu::EyePost eye_post(const PostGrid& grid, const Geodetic& eye, Earth earth) {
     const double middle_deg = 0.5 * (grid.north_deg() + grid.south_deg());
     const SineCosine lat = sine_cosine_deg(eye.lat_deg), middle = sine_cosine_deg(middle_deg);
     const double rad_per_deg = radians_from_deg(1.0).rad;
+    if (grid.net) {
+        const PostNumber post = grid.net->post_at(eye.lat_deg, eye.lon_deg);
+        const GridNet::Lie lie = grid.net->lie_at(0.5 * (grid.rows() - 1), 0.5 * (grid.columns() - 1));
+        place.post = gpu::vec2(post.row, post.column);
+        place.post_m = gpu::vec2(lie.row_m, lie.column_m);
+        place.latitude = gpu::vec2(lat.cosine, lat.sine);
+        place.normal_m = static_cast<float>(prime_vertical_radius_m(eye.lat_deg));
+        place.meridian_m = static_cast<float>(meridian_radius_m(eye.lat_deg));
+        place.e2 = static_cast<float>(wgs84_e2);
+        place.turn = 1.0e9F;
+        return place;
+    }
     place.post = gpu::vec2(grid.lat.index_at(eye.lat_deg), grid.lon.index_at(eye.lon_deg));
     place.per_rad =
         gpu::vec2(grid.lat.posts_per_deg, grid.lon.posts_per_deg) / static_cast<float>(rad_per_deg);
@@ -50,6 +69,28 @@ gpu::EyePost eye_post(const PostGrid& grid, const Geodetic& eye, Earth earth) {
     place.e2 = static_cast<float>(sphere ? 0.0 : wgs84_e2);
     place.turn = static_cast<float>(360.0 * grid.lon.posts_per_deg);
     return place;
+}
+
+// lon: of the eye.
+gpu::NetMap net_map(const GridNet& net, const SineCosine& lon) {
+    const GridNet::Inverse& inverse = net.inverse();
+    const auto in_meridian_frame = [&](const glm::dvec3& ecef) {
+        return gpu::vec3(lon.cosine * ecef.x + lon.sine * ecef.y, lon.cosine * ecef.y - lon.sine * ecef.x,
+                         ecef.z);
+    };
+    gpu::NetMap map{};
+    map.along_u = in_meridian_frame(inverse.along_u);
+    map.along_v = in_meridian_frame(inverse.along_v);
+    map.middle = gpu::vec2(inverse.middle);
+    map.scale = gpu::vec2(inverse.scale);
+    map.beyond_u = gpu::vec2(inverse.beyond[0]);
+    map.beyond_v = gpu::vec2(inverse.beyond[1]);
+    const GridNet::Lie lie = net.lie_at(0.5 * (net.rows() - 1), 0.5 * (net.columns() - 1));
+    map.turn = gpu::vec2(std::cos(lie.turn_rad), std::sin(lie.turn_rad));
+    static_assert(std::size(gpu::NetMap{}.coefficients) == GridNet::Inverse::terms);
+    for (std::size_t i = 0; i < GridNet::Inverse::terms; ++i)
+        map.coefficients[i] = gpu::vec2(inverse.coefficients[i]);
+    return map;
 }
 
 // Of a column from the eye's meridian, within half a turn.
@@ -107,11 +148,28 @@ gpu::RowTerms FrameTables::flat_row(double lat_deg) const {
 }
 
 void FrameTables::add_row(std::int64_t row) {
+    if (grid_.net) {
+        // Where its posts are is PagePlaces' business; what is coloured by latitude takes that of the row's
+        // middle.
+        const double within = std::min(static_cast<double>(row), grid_.rows() - 1.0);
+        const SineCosine lat =
+            sine_cosine_deg(grid_.net->place_at(within, 0.5 * (grid_.columns() - 1)).lat_deg);
+        gpu::RowTerms terms{};
+        terms.C = static_cast<float>(lat.cosine);
+        terms.S = static_cast<float>(lat.sine);
+        terms.cosine = 1.0F;
+        rows_.push_back(terms);
+        return;
+    }
     const double lat_deg = row_lat_deg(grid_, row);
     rows_.push_back(earth_ == Earth::flat ? flat_row(lat_deg) : round_row(lat_deg));
 }
 
 void FrameTables::add_column(std::int64_t column) {
+    if (grid_.net) {
+        columns_.push_back({});
+        return;
+    }
     const double turn_deg = east_of_eye_deg(grid_, eye_, column);
     if (earth_ == Earth::flat) {
         columns_.push_back({0.0F, static_cast<float>(radians_from_deg(turn_deg).rad)});
@@ -166,6 +224,7 @@ void set_model(const WorldModel& model, const Camera& camera, gpu::FrameConstant
 }  // namespace
 
 gpu::uint cut_column(const PostGrid& grid, const Geodetic& eye, Earth earth) {
+    assert(earth == Earth::ellipsoid || !grid.net);
     if (earth != Earth::flat) return gpu::no_column;
     const double turn = 360.0 * grid.lon.posts_per_deg;
     const double opposite = grid.lon.index_at(eye.lon_deg + 180.0);
@@ -200,6 +259,15 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.horizon_stretch = static_cast<float>(horizon.stretch);
     const glm::dvec3 up = ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg)[2];
     constants.up_view = gpu::vec3(view_from_ecef * up);
+    if (region.grid.net) {
+        const glm::dvec3 eye_ecef = camera.eye_ecef().m;
+        const LatticePoint lattice = lattice_point(eye_ecef);
+        constants.has_net = 1;
+        for (int axis = 0; axis < 3; ++axis)
+            constants.eye_remainder[axis] = static_cast<float>(
+                eye_ecef[axis] -
+                static_cast<double>(lattice.steps[static_cast<std::size_t>(axis)]) * height_step_m);
+    }
     constants.eye_h_m = static_cast<float>(camera.eye.h_m);
     constants.earth_radius_m = static_cast<float>(seen_earth_radius_m(model, camera.eye));
     set_model(model, camera, constants);
@@ -220,6 +288,7 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.sample_count = 1;
     constants.undulation = undulation_table(region.grid, region.undulation);
     constants.eye_post = eye_post(region.grid, camera.eye, model.earth);
+    if (region.grid.net) constants.net = net_map(*region.grid.net, lon);
     return constants;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
+#include "core/net/page_on_net.h"
 
 namespace oro {
 namespace {
@@ -26,7 +27,7 @@ class PagesInMemory : public RegionPages {
         const PageHeights heights = page_heights(facts().grid, heights_, page);
         std::copy(built.nodes.begin(), built.nodes.end(), std::begin(block.meshlets));
         std::copy(heights.steps.begin(), heights.steps.end(), std::begin(block.heights));
-        set_spacing(facts().grid, built.summary.origin, block);
+        set_spacing(facts().grid, built.summary, block);
         return {};
     }
 
@@ -59,10 +60,22 @@ Result<void> RegionPages::load_means(const PageIndex&, gpu::PageMeans&) const {
     return Error{ErrorKind::failed, "pages", "no means are known of these"};
 }
 
+Result<void> RegionPages::load_places(const PageIndex& page, const gpu::PageBlock& block,
+                                      gpu::PagePlaces& places) const {
+    ORO_TRY(const PageRecord whole, record(page));
+    PageHeights heights;
+    std::copy(std::begin(block.heights), std::end(block.heights), heights.steps.begin());
+    if (fill_places(facts_.grid, whole.summary, heights, places)) return {};
+    return Error{
+        ErrorKind::failed, "region too large",
+        "its own posts lie more than 1,048 km from the middle of one page; open a part of it (--bbox)"};
+}
+
 std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,
                                              const std::function<void(double share)>& progress,
                                              const std::stop_token& stop) {
-    RegionFacts facts{field.grid, field.undulation, region_shape(field, exaggeration), 0};
+    RegionFacts facts{field.grid, field.grid.net ? drawn_undulation(field) : field.undulation,
+                      region_shape(field, exaggeration), 0};
     DrawnHeights heights = drawn_heights(field, exaggeration, threads);
     std::uint64_t all = 0;
     for (int level = 0; level < level_count(field.grid); ++level) {

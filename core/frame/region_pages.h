@@ -45,6 +45,10 @@ class RegionPages {
     // known. The first call takes all posts.
     [[nodiscard]] virtual bool knows_means() const { return false; }
     virtual Result<void> load_means(const PageIndex& page, gpu::PageMeans& means) const;
+    // Where the page's posts are, of a grid on a net (core/net). Errors: as load(); a page that reaches too
+    // far.
+    Result<void> load_places(const PageIndex& page, const gpu::PageBlock& block,
+                             gpu::PagePlaces& places) const;
 
   private:
     RegionFacts facts_;

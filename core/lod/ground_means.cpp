@@ -46,7 +46,7 @@ GroundMeans::GroundMeans(const PostGrid& grid, const DrawnHeights& heights, doub
       heights_(heights),
       exaggeration_(static_cast<float>(exaggeration)),
       goes_round_(grid.goes_round()) {
-    for (int row = 0; row < grid.rows(); ++row) {
+    for (int row = 0; !grid.net && row < grid.rows(); ++row) {
         const double lat_deg = row_lat_deg(grid, row);
         const double down_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
         const double right_m = prime_vertical_radius_m(lat_deg) * std::abs(sine_cosine_deg(lat_deg).cosine) *
@@ -54,9 +54,37 @@ GroundMeans::GroundMeans(const PostGrid& grid, const DrawnHeights& heights, doub
         rows_.push_back({static_cast<float>(height_step_m / down_m),
                          static_cast<float>(height_step_m / std::max(right_m, 1.0e-3))});
     }
+    if (grid.net) measure_net();
     levels_.push_back({grid.rows(), goes_round_ ? grid.columns() - 1 : grid.columns(), {}});
     std::vector<Sums> below;
     for (int level = 1; level < level_count(grid); ++level) add_level(below, threads);
+}
+
+void GroundMeans::measure_net() {
+    net_columns_ = (grid_.columns() + scale_posts - 2) / scale_posts + 1;
+    const int rows = (grid_.rows() + scale_posts - 2) / scale_posts + 1;
+    for (int i = 0; i < rows * net_columns_; ++i) {
+        const GridNet::Lie lie =
+            grid_.net->lie_at(i / net_columns_ * scale_posts, i % net_columns_ * scale_posts);
+        net_scales_.push_back(
+            {static_cast<float>(height_step_m / lie.row_m), static_cast<float>(height_step_m / lie.column_m),
+             static_cast<float>(std::cos(lie.turn_rad)), static_cast<float>(std::sin(lie.turn_rad))});
+    }
+}
+
+GroundMeans::NetScale GroundMeans::scale_on_net(int row, int column) const {
+    const float down = static_cast<float>(row % scale_posts) / scale_posts,
+                right = static_cast<float>(column % scale_posts) / scale_posts;
+    const NetScale* const north =
+        net_scales_.data() + row / scale_posts * net_columns_ + column / scale_posts;
+    const int on = column % scale_posts == 0 ? 0 : 1, below = row % scale_posts == 0 ? 0 : net_columns_;
+    const auto mixed = [&](float NetScale::*part) {
+        const float upper = north[0].*part + right * (north[on].*part - north[0].*part);
+        const float lower = north[below].*part + right * (north[below + on].*part - north[below].*part);
+        return upper + down * (lower - upper);
+    };
+    return {mixed(&NetScale::down_per_m), mixed(&NetScale::right_per_m), mixed(&NetScale::turn_cosine),
+            mixed(&NetScale::turn_sine)};
 }
 
 std::int32_t GroundMeans::steps(int row, int column) const {
@@ -91,9 +119,18 @@ GroundMeans::Sums GroundMeans::post(int row, int column, float beside) const {
             right_whole += beside;
         }
     }
-    const RowScale& scale = rows_[static_cast<std::size_t>(row)];
-    down *= scale.down_per_m / down_whole;
-    right *= scale.right_per_m / right_whole;
+    if (grid_.net) {
+        // Rows and columns are turned from south and east.
+        const NetScale scale = scale_on_net(row, column);
+        const float along = right * scale.right_per_m / right_whole,
+                    back = down * scale.down_per_m / down_whole;
+        right = along * scale.turn_cosine + back * scale.turn_sine;
+        down = back * scale.turn_cosine - along * scale.turn_sine;
+    } else {
+        const RowScale& scale = rows_[static_cast<std::size_t>(row)];
+        down *= scale.down_per_m / down_whole;
+        right *= scale.right_per_m / right_whole;
+    }
     const float length = std::sqrt(down * down + right * right + 1.0F);
     const float h_m = static_cast<float>(here) * static_cast<float>(height_step_m) / exaggeration_;
     const float x = -right / length, y = down / length;

@@ -49,6 +49,18 @@ class GroundMeans {
         float right_per_m;  // ... east
     };
     std::vector<RowScale> rows_;
+    // The same on a net: of every scale_posts-th post each way, bilinear between.
+    struct NetScale {
+        float down_per_m;
+        float right_per_m;
+        float turn_cosine;  // of rows, from east towards north
+        float turn_sine;
+    };
+    static constexpr int scale_posts = 32;
+    void measure_net();
+    [[nodiscard]] NetScale scale_on_net(int row, int column) const;
+    int net_columns_{};
+    std::vector<NetScale> net_scales_;
     std::vector<Level> levels_;
 };
 

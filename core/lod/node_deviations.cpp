@@ -29,7 +29,7 @@ NodeDeviations::NodeDeviations(const PostGrid& grid, const DrawnHeights& heights
       whole_node_(stitched_triangles(node_quads, node_quads,
                                      gpu::edge_north | gpu::edge_east | gpu::edge_south | gpu::edge_west)) {
     assert(heights.rows == grid.rows() && heights.columns == grid.columns());
-    for (int i = 0; i < level_.row.nodes(); ++i) {
+    for (int i = 0; !grid.net && i < level_.row.nodes(); ++i) {
         const double north_deg = grid.lat.at_deg(level_.row.region_post(i * node_quads));
         const double south_deg =
             grid.lat.at_deg(level_.row.region_post(std::min((i + 1) * node_quads, level_.row.quads)));
@@ -202,6 +202,7 @@ NodeDeviations::PostRange NodeDeviations::post_range(int node_row, int node_colu
 // square of offsets within a range is at most a quarter of its square. M' is below 0.0102 M and at right
 // angles to the first term. A stitched triangle is up to two quads long along one axis.
 NodeDeviations::Sag NodeDeviations::sag(int node_row, double dh_m, double finest_dh_m) const {
+    if (grid_.net) return sag_of_net(dh_m, finest_dh_m);
     const Curvature& at = curvature_[static_cast<std::size_t>(node_row)];
     const auto bound_m = [&](double dlat, double dlon, double dh) {
         return 0.125 * (at.M_m * dlat * dlat + at.r_m * dlon * dlon + 2.0 * at.M_m * at.sine * dlat * dlon +
@@ -215,6 +216,23 @@ NodeDeviations::Sag NodeDeviations::sag(int node_row, double dh_m, double finest
             std::max(bound_m(2.0 * dlat, dlon, dh_m), bound_m(dlat, 2.0 * dlon, dh_m)),
             bound_m(finest_lat, finest_lon, finest_dh_m),
             placement_share * gpu::page_quads * (at.M_m * dlat + at.r_m * dlon)};
+}
+
+// The same where rows and columns are those of a net: its bend is what ways along them have at most of a
+// second derivative, of height's the turn of the normal along them.
+NodeDeviations::Sag NodeDeviations::sag_of_net(double dh_m, double finest_dh_m) const {
+    const double radius_m = wgs84_a_m + highest_m_;
+    const auto bound_m = [&](double down, double right, double dh) {
+        const double both = down + right;
+        return 0.125 * (grid_.net->bend() * radius_m * both * both + 2.02 * dh * both);
+    };
+    const double finest_down = grid_.row_step_rad(), finest_right = grid_.column_step_rad();
+    const double down = std::ldexp(finest_down, level_.level()),
+                 right = std::ldexp(finest_right, level_.level());
+    return {bound_m(down, right, dh_m),
+            std::max(bound_m(2.0 * down, right, dh_m), bound_m(down, 2.0 * right, dh_m)),
+            bound_m(finest_down, finest_right, finest_dh_m),
+            placement_share * gpu::page_quads * radius_m * (down + right)};
 }
 
 NodeDeviation NodeDeviations::deviation(int node_row, int node_column) const {

@@ -91,6 +91,7 @@ class NodeDeviations {
     [[nodiscard]] PerEdge finest_stitched_deviation(int node_row, int node_column) const;
     [[nodiscard]] PostRange post_range(int node_row, int node_column) const;
     [[nodiscard]] Sag sag(int node_row, double dh_m, double finest_dh_m) const;
+    [[nodiscard]] Sag sag_of_net(double dh_m, double finest_dh_m) const;
 
     const PostGrid& grid_;
     const DrawnHeights& heights_;

@@ -14,16 +14,22 @@
 namespace oro {
 namespace {
 
-double lat_at_deg(const PostGrid& grid, double row) {
+double lat_on_axis_deg(const PostGrid& grid, double row) {
     const double whole = std::floor(row);
     return std::clamp(
         grid.lat.at_deg(static_cast<std::int64_t>(whole)) - (row - whole) * grid.lat.spacing_deg(), -90.0,
         90.0);
 }
 
-double lon_at_deg(const PostGrid& grid, double column) {
+double lon_on_axis_deg(const PostGrid& grid, double column) {
     const double whole = std::floor(column);
     return grid.lon.at_deg(static_cast<std::int64_t>(whole)) + (column - whole) * grid.lon.spacing_deg();
+}
+
+// As PostGrid::place_at, with less rounding in large grids.
+PostPlace place_at(const PostGrid& grid, double row, double column) {
+    if (grid.net) return grid.net->place_at(row, column);
+    return {lat_on_axis_deg(grid, row), lon_on_axis_deg(grid, column)};
 }
 
 }  // namespace
@@ -48,7 +54,8 @@ std::optional<glm::dvec3> GroundMeter::seen_m(double row, double column) const {
     const std::optional<double> h_m = surface_.h_at_m(row, column);
     if (!h_m) return std::nullopt;
     const PostGrid& grid = surface_.field().grid;
-    const Ecef place = ecef_from_geodetic({lat_at_deg(grid, row), lon_at_deg(grid, column), *h_m});
+    const PostPlace at = place_at(grid, row, column);
+    const Ecef place = ecef_from_geodetic({at.lat_deg, at.lon_deg, *h_m});
     return sight_.refraction.apparent_m(place.m - sight_.eye.m);
 }
 
@@ -75,7 +82,7 @@ Distance GroundMeter::from_surface(const glm::dvec2& point_px, const DrawnPoint&
     const glm::dvec3 drawn_m = offset_m(point_px, point.z_m);
     const glm::dvec3 drawn_ecef = sight_.eye.m + sight_.refraction.true_m(drawn_m);
     const Geodetic drawn = geodetic_from_ecef({drawn_ecef});
-    double row = grid.lat.index_at(drawn.lat_deg), column = grid.column_at(drawn.lon_deg);
+    auto [row, column] = grid.post_at(drawn.lat_deg, drawn.lon_deg);
     Distance nearest = displacement;
     constexpr int steps = 4;
     constexpr double close_enough_m = 1.0e-4;
@@ -83,7 +90,8 @@ Distance GroundMeter::from_surface(const glm::dvec2& point_px, const DrawnPoint&
     for (int step = 0; step < steps; ++step) {
         const std::optional<double> h_m = surface_.h_at_m(row, column);
         if (!h_m) break;
-        const Geodetic foot{lat_at_deg(grid, row), lon_at_deg(grid, column), *h_m};
+        const PostPlace place = place_at(grid, row, column);
+        const Geodetic foot{place.lat_deg, place.lon_deg, *h_m};
         const glm::dvec3 foot_ecef = ecef_from_geodetic(foot).m;
         nearest.m = std::min(nearest.m, glm::length(drawn_ecef - foot_ecef));
         nearest.px =
@@ -95,9 +103,9 @@ Distance GroundMeter::from_surface(const glm::dvec2& point_px, const DrawnPoint&
         const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope->east, -slope->north, 1.0));
         const glm::dvec3 along = up - glm::dot(up, normal) * normal;
         if (glm::length(along) < even * glm::length(up)) break;
-        const PostSpacing apart = post_spacing(grid, foot.lat_deg);
-        row -= along.y / apart.row_m;
-        column += along.x / apart.column_m;
+        const PostNumber on = posts_along(grid, {row, column}, foot.lat_deg, along.x, along.y);
+        row += on.row;
+        column += on.column;
     }
     return nearest;
 }

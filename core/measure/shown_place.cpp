@@ -68,11 +68,16 @@ ShownPlace ShownPlaces::place_at(const glm::dvec3& direction, double distance_m,
     const Geodetic point = sight_.earth == Earth::ellipsoid
                                ? geodetic_from_ecef({sight_.eye.m + offset_m})
                                : model_point(sight_.earth, sight_.place, offset_m).value_or(Geodetic{});
-    const GridAxis& lon = surface_.field().grid.lon;
+    const PostGrid& grid = surface_.field().grid;
+    if (grid.net) {
+        const PostNumber post = grid.net->post_at(point.lat_deg, point.lon_deg);
+        return {point, post.row, post.column, distance_m};
+    }
+    const GridAxis& lon = grid.lon;
     const double turn = 360.0 * lon.posts_per_deg;
     double column = lon.index_at(point.lon_deg);
     column -= turn * std::round((column - near_column) / turn);
-    return {point, surface_.field().grid.lat.index_at(point.lat_deg), column, distance_m};
+    return {point, grid.lat.index_at(point.lat_deg), column, distance_m};
 }
 
 // By secants from where float32 has it; nothing where the ray and the triangle are all but parallel.
@@ -111,8 +116,8 @@ std::optional<ShownPlace> ShownPlaces::met_truly(const glm::dvec3& direction) co
 ShownPlace ShownPlaces::on_rim(double row, double column, double h_m) const {
     const PostGrid& grid = surface_.field().grid;
     ShownPlace place;
-    place.point = {grid.north_deg() - row * grid.lat.spacing_deg(),
-                   normalised_lon_deg(grid.west_deg() + column * grid.lon.spacing_deg()), h_m};
+    const PostPlace at = grid.place_at(row, column);
+    place.point = {at.lat_deg, normalised_lon_deg(at.lon_deg), h_m};
     place.row = row;
     place.column = column;
     const glm::dvec3 offset_m = model_offset_m(sight_.earth, camera_.eye, place.point);

@@ -20,7 +20,8 @@ class Crossings {
 
     [[nodiscard]] Step at(double along_m) const {
         const Geodetic place = way_(along_m);
-        return {along_m, grid_.lat.index_at(place.lat_deg), grid_.column_at(place.lon_deg)};
+        const PostNumber post = grid_.post_at(place.lat_deg, place.lon_deg);
+        return {along_m, post.row, post.column};
     }
     // Cuts the way until it is all but straight in rows and columns.
     void walk(const Step& from, const Step& to, int depth);

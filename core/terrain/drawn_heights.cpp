@@ -10,7 +10,7 @@ namespace oro {
 namespace {
 
 bool at_pole(const PostGrid& grid, int row) {
-    return std::abs(row_lat_deg(grid, row)) == 90.0;
+    return !grid.net && std::abs(row_lat_deg(grid, row)) == 90.0;
 }
 
 }  // namespace
@@ -46,6 +46,9 @@ double row_lat_deg(const PostGrid& grid, std::int64_t row) {
 
 double drawn_h_m(const HeightField& field, int row, int column, double exaggeration) {
     const float H_m = field.H_at_post_m(row, canonical_column(field, row, column));
+    if (field.grid.net)
+        return height_steps(static_cast<double>(H_m) * exaggeration + field.N_at_post_m(row, column)) *
+               height_step_m;
     const double N_m =
         field.undulation.at_m(row_lat_deg(field.grid, row), canonical_lon_deg(field.grid, row, column));
     return height_steps(static_cast<double>(H_m) * exaggeration + N_m) * height_step_m;
@@ -53,7 +56,7 @@ double drawn_h_m(const HeightField& field, int row, int column, double exaggerat
 
 DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int threads) {
     const PostGrid& grid = field.grid;
-    const bool has_N = !field.undulation.N_m.empty();
+    const bool has_N = !field.undulation.N_m.empty() && !grid.net;
     DrawnHeights heights;
     heights.rows = grid.rows();
     heights.columns = grid.columns();
@@ -63,16 +66,15 @@ DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int th
         columns.push_back(field.undulation.column_between(grid.lon.at_deg(column)));
     in_parallel(grid.rows(), threads, [&](int row) {
         const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns());
-        const double lat_deg = row_lat_deg(grid, row);
         const UndulationField::Between N_row =
-            has_N ? field.undulation.row_between(lat_deg) : UndulationField::Between{};
+            has_N ? field.undulation.row_between(row_lat_deg(grid, row)) : UndulationField::Between{};
         const bool pole = at_pole(grid, row);
         for (int column = 0; column < grid.columns(); ++column) {
             const std::size_t i = static_cast<std::size_t>(column);
             const float H_m = field.posts ? field.posts->H_m(row, column) : field.H_m[first + i];
             if (is_void(H_m)) {
                 heights.steps[first + i] = void_height_steps;
-            } else if (pole || column == grid.columns() - 1) {
+            } else if (pole || grid.net || column == grid.columns() - 1) {
                 heights.steps[first + i] = height_steps(drawn_h_m(field, row, column, exaggeration));
             } else {
                 const double N_m = has_N ? field.undulation.at_m(N_row, columns[i]) : 0.0;
@@ -87,6 +89,9 @@ DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int th
 
 Ecef post_ecef(const HeightField& field, int row, int column, double exaggeration) {
     assert(!is_void(field.H_at_post_m(row, column)));
+    if (field.grid.net)
+        return ecef_along(field.grid.net->normal_at(row, column),
+                          drawn_h_m(field, row, column, exaggeration));
     return ecef_from_geodetic({row_lat_deg(field.grid, row), canonical_lon_deg(field.grid, row, column),
                                drawn_h_m(field, row, column, exaggeration)});
 }

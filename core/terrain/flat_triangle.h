@@ -21,8 +21,14 @@ struct FlatTriangle {
 // verticals that are not parallel: the foot and the head of a wall.
 inline FlatTriangle flat_triangle(const PostGrid& grid, const SineCosine& lat, double h_m, double steepness,
                                   double posts) {
-    const double tall = posts * radians_from_deg(grid.lat.spacing_deg()).rad;
-    const double wide = posts * radians_from_deg(grid.lon.spacing_deg()).rad;
+    const double tall = posts * grid.row_step_rad();
+    const double wide = posts * grid.column_step_rad();
+    if (grid.net) {
+        const double bent = grid.net->bend() * (tall + wide) * (tall + wide) / 8.0;
+        const double off_m = (wgs84_a_m + std::max(0.0, h_m)) * bent;
+        return {off_m,
+                off_m + (wgs84_a_m + std::max(0.0, h_m)) * steepness * (tall + wide) * (tall + wide) / 4.0};
+    }
     const double cosine = std::min(1.0, lat.cosine + tall), sine = std::abs(lat.sine);
     const double radius_m = wgs84_a_m + std::max(0.0, h_m);
     const double up = (tall * tall + wide * wide * cosine * cosine) / 8.0;

@@ -10,6 +10,9 @@ std::optional<double> ground_h_m(const HeightField& field, double lat_deg, doubl
     const auto post_h_m = [&](int row, int column) -> std::optional<double> {
         if (is_void(field.H_at_post_m(row, column))) return std::nullopt;
         const int canonical = canonical_column(field, row, column);
+        if (field.grid.net)
+            return static_cast<double>(field.H_at_post_m(row, column)) * exaggeration +
+                   field.N_at_post_m(row, column);
         return static_cast<double>(field.H_at_post_m(row, canonical)) * exaggeration +
                field.undulation.at_m(row_lat_deg(field.grid, row),
                                      canonical_lon_deg(field.grid, row, canonical));

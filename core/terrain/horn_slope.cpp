@@ -61,7 +61,7 @@ std::optional<double> horn_slope_deg(const HeightField& field, double row, doubl
         whole += share;
     }
     if (whole <= 0.0) return std::nullopt;
-    const PostSpacing spacing = post_spacing(grid, grid.north_deg() - row * grid.lat.spacing_deg());
+    const PostSpacing spacing = post_spacing_at(grid, row, column);
     const double steepness = std::hypot(rise.east / spacing.column_m, rise.north / spacing.row_m) / whole;
     return deg_from_radians(Radians{std::atan(steepness)});
 }

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "core/base/lent.h"
+#include "core/net/page_on_net.h"
+#include "core/terrain/page_posts.h"
 
 namespace oro {
 namespace {
@@ -26,48 +28,6 @@ constexpr int meshlets_per_side = static_cast<int>(gpu::meshlets_per_side);
 // Distance of a place from the Earth's axis.
 double cylinder_rho_m(const Geodetic& place) {
     return (prime_vertical_radius_m(place.lat_deg) + place.h_m) * sine_cosine_deg(place.lat_deg).cosine;
-}
-
-// Where the posts of a page lie in the region.
-class PagePosts {
-  public:
-    PagePosts(const PostGrid& grid, PageIndex index)
-        : level_(level_grid(grid, index.level)),
-          first_row_(index.row * quads),
-          first_column_(index.column * quads),
-          goes_round_(grid.goes_round()) {}
-
-    // The region's post at a page's row and column, -1 .. 129; nothing outside the region. The apron goes on
-    // round the Earth.
-    [[nodiscard]] std::optional<PageIndex> region_post(int row, int column) const {
-        const int level_row = first_row_ + row;
-        int level_column = first_column_ + column;
-        const int quads_round = level_.column.quads;
-        if (goes_round_) {
-            if (level_column == -1) level_column = quads_round - 1;
-            if (level_column == quads_round + 1 && column == posts) level_column = 1;
-        }
-        if (level_row < 0 || level_row > level_.row.quads) return std::nullopt;
-        if (level_column < 0 || level_column > quads_round) return std::nullopt;
-        return PageIndex{level_.row.region_post(level_row), level_.column.region_post(level_column)};
-    }
-    [[nodiscard]] const LevelGrid& level() const { return level_; }
-    [[nodiscard]] int first_row() const { return first_row_; }  // of the level's posts
-    [[nodiscard]] int first_column() const { return first_column_; }
-
-  private:
-    LevelGrid level_;
-    int first_row_;
-    int first_column_;
-    bool goes_round_;
-};
-
-template <class Visit>
-void for_each_post(const PagePosts& page, const Visit& visit) {
-    for (int row = -1; row <= posts; ++row) {
-        for (int column = -1; column <= posts; ++column)
-            visit(static_cast<std::size_t>((row + 1) * stride + column + 1), page.region_post(row, column));
-    }
 }
 
 // The posts of a page in double. Lent for page after page: fresh memory for each costs more than what is
@@ -105,6 +65,7 @@ class PageBuilder {
     void place_origin();
     void fill_block();
     void place_posts();
+    void place_by_net();
     void bound_meshlets();
     void bound_page();
     void bound_meshlet(int number);
@@ -157,6 +118,14 @@ void PageBuilder::place_origin() {
         return axis.level == 0 ? first + quads : axis.region_post(std::min(first + quads, axis.quads));
     };
     const LevelGrid& level = posts_.level();
+    if (grid_.net) {
+        const PostPlace middle = net_page_middle(grid_, summary_.index);
+        summary_.origin = {middle.lat_deg, middle.lon_deg, summary_.origin.h_m};
+        set_page_frame(summary_);
+        rho0_m_ = cylinder_rho_m(summary_.origin);
+        z0_m_ = summary_.origin_ecef.m.z;
+        return;
+    }
     const double lat_deg = 0.5 * (grid_.lat.at_deg(post_beyond(level.row, posts_.first_row())) +
                                   grid_.lat.at_deg(end(level.row, posts_.first_row())));
     middle_lon_deg_ = 0.5 * (grid_.lon.at_deg(post_beyond(level.column, posts_.first_column())) +
@@ -170,12 +139,27 @@ void PageBuilder::place_origin() {
 }
 
 void PageBuilder::fill_block() {
-    set_spacing(grid_, summary_.origin, block_);
+    set_spacing(grid_, summary_, block_);
     std::copy(heights_.steps.begin(), heights_.steps.end(), std::begin(block_.heights));
+}
+
+// By the grid's net, turned into the page's frame.
+void PageBuilder::place_by_net() {
+    const glm::dmat3 page_from_ecef = glm::transpose(summary_.ecef_from_page);
+    for_each_normal(grid_, summary_.index, [&](int i, int j, const glm::dvec3& normal) {
+        if (!drawable(i, j)) return;
+        const Ecef place = ecef_along(normal, steps(i, j) * height_step_m);
+        placed_.position_m[at(i, j)] = page_from_ecef * (place.m - summary_.origin_ecef.m);
+        placed_.horizon[at(i, j)] = horizon_point_at(placed_.position_m[at(i, j)]);
+    });
 }
 
 void PageBuilder::place_posts() {
     std::ranges::fill(placed_.drawn, static_cast<unsigned char>(whole_ ? 1 : 0));
+    if (grid_.net) {
+        place_by_net();
+        return;
+    }
     std::array<double, gpu::page_posts> V{};
     std::array<double, gpu::page_posts> W{};
     for (int j = 0; j < posts; ++j) {
@@ -318,7 +302,13 @@ std::int64_t post_beyond(const LevelAxis& axis, int post) {
     return post <= axis.quads ? axis.region_post(post) : std::int64_t{post} << axis.level;
 }
 
-void set_spacing(const PostGrid& grid, const Geodetic& origin, gpu::PageBlock& block) {
+void set_spacing(const PostGrid& grid, const PageSummary& page, gpu::PageBlock& block) {
+    const Geodetic& origin = page.origin;
+    block.turn = gpu::vec3(0.0F);
+    if (grid.net) {
+        set_net_spacing(*grid.net, page, block);
+        return;
+    }
     block.row_spacing_m = static_cast<float>((meridian_radius_m(origin.lat_deg) + origin.h_m) *
                                              radians_from_deg(grid.lat.spacing_deg()).rad);
     block.column_spacing_m = static_cast<float>((prime_vertical_radius_m(origin.lat_deg) + origin.h_m) *
@@ -333,51 +323,6 @@ void set_page_frame(PageSummary& summary) {
     const double z_m = (normal_m * (1.0 - wgs84_e2) + summary.origin.h_m) * lat.sine;
     summary.origin_ecef = Ecef{{rho_m * lon.cosine, rho_m * lon.sine, z_m}};
     summary.ecef_from_page = glm::dmat3(lon.cosine, lon.sine, 0.0, -lon.sine, lon.cosine, 0.0, 0.0, 0.0, 1.0);
-}
-
-PageLayout page_layout(const PostGrid& grid) {
-    return level_grid(grid, 0).pages();
-}
-
-PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, PageIndex index) {
-    assert(heights.rows == grid.rows() && heights.columns == grid.columns());
-    PageHeights page;
-    for_each_post(PagePosts(grid, index), [&](std::size_t i, const std::optional<PageIndex>& post) {
-        page.steps[i] = post ? heights.at(post->row, post->column) : void_height_steps;
-    });
-    return page;
-}
-
-PageElevations page_elevations(const HeightField& field, PageIndex index) {
-    PageElevations page;
-    for_each_post(PagePosts(field.grid, index), [&](std::size_t i, const std::optional<PageIndex>& post) {
-        page.H_m[i] = post ? field.H_at_post_m(post->row, canonical_column(field, post->row, post->column))
-                           : void_height_m;
-    });
-    return page;
-}
-
-PageHeights page_heights(const PostGrid& grid, const UndulationField& undulation, double exaggeration,
-                         const PageElevations& elevations, PageIndex index) {
-    const bool has_N = !undulation.N_m.empty();
-    const PagePosts page_posts(grid, index);
-    PageHeights page;
-    for (int row = -1; row <= posts; ++row) {
-        UndulationField::Between N_row{};
-        for (int column = -1; column <= posts; ++column) {
-            const auto i = static_cast<std::size_t>((row + 1) * stride + column + 1);
-            page.steps[i] = void_height_steps;
-            if (is_void(elevations.H_m[i])) continue;
-            const std::optional<PageIndex> post = page_posts.region_post(row, column);
-            if (!post) continue;
-            N_row = has_N ? undulation.row_between(row_lat_deg(grid, post->row)) : N_row;
-            const double N_m = has_N ? undulation.at_m(N_row, undulation.column_between(canonical_lon_deg(
-                                                                  grid, post->row, post->column)))
-                                     : 0.0;
-            page.steps[i] = height_steps(static_cast<double>(elevations.H_m[i]) * exaggeration + N_m);
-        }
-    }
-    return page;
 }
 
 PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,

@@ -53,7 +53,26 @@ double PostGrid::column_at(double lon_deg) const {
     return turned_index(lon, lon_deg);
 }
 
+PostNumber PostGrid::post_at(double lat_deg, double lon_deg) const {
+    if (net) return net->post_at(lat_deg, lon_deg);
+    return {lat.index_at(lat_deg), column_at(lon_deg)};
+}
+
+PostPlace PostGrid::place_at(double row, double column) const {
+    if (net) return net->place_at(row, column);
+    return {north_deg() - row * lat.spacing_deg(), west_deg() + column * lon.spacing_deg()};
+}
+
+double PostGrid::row_step_rad() const {
+    return net ? net->row_m() / wgs84_a_m : radians_from_deg(lat.spacing_deg()).rad;
+}
+
+double PostGrid::column_step_rad() const {
+    return net ? net->column_m() / wgs84_a_m : radians_from_deg(lon.spacing_deg()).rad;
+}
+
 bool PostGrid::goes_round() const {
+    if (net) return false;
     return std::abs(lon.count - 1 - 360.0 * lon.posts_per_deg) < 0.01;
 }
 
@@ -81,14 +100,21 @@ double UndulationField::at_m(const Between& row, const Between& column) const {
     return (1.0 - row.share) * N_north + row.share * N_south;
 }
 
+double HeightField::N_at_post_m(int row, int column) const {
+    if (!grid.net) return undulation.at_m(grid.lat.at_deg(row), grid.lon.at_deg(column));
+    if (N_of_posts_m.empty()) return 0.0;
+    return static_cast<double>(
+        N_of_posts_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
+                     static_cast<std::size_t>(column)]);
+}
+
 double HeightField::h_at_post_m(int row, int column) const {
-    return static_cast<double>(H_at_post_m(row, column)) +
-           undulation.at_m(grid.lat.at_deg(row), grid.lon.at_deg(column));
+    return static_cast<double>(H_at_post_m(row, column)) + N_at_post_m(row, column);
 }
 
 std::optional<double> HeightField::surface_H_m(double lat_deg, double lon_deg) const {
-    double y = grid.lat.index_at(lat_deg);
-    double x = grid.column_at(lon_deg);
+    const PostNumber at = grid.post_at(lat_deg, lon_deg);
+    double y = at.row, x = at.column;
     const double last_row = grid.rows() - 1;
     const double last_column = grid.columns() - 1;
     if (!(y >= -edge_slack_posts && y <= last_row + edge_slack_posts)) return std::nullopt;

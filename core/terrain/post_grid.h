@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/net/grid_net.h"
 
 namespace oro {
 
@@ -35,21 +36,33 @@ struct GridAxis {
 // Rows run from north to south, columns from west to east. Longitudes may run past 180 where a region crosses
 // the antimeridian (first column in [-180, 180)); a region is at most 360 degrees wide, and one that wide has
 // the same meridian in its first and last column.
+// Or the posts are those of a source with a CRS of its own: then `net` says where they lie, rows run as south
+// does from east, and of the axes only the counts mean anything.
 struct PostGrid {
     GridAxis lat;
     GridAxis lon;
+    std::shared_ptr<const GridNet> net{};  // null: posts lie on latitudes and longitudes
 
     [[nodiscard]] int rows() const { return lat.count; }
     [[nodiscard]] int columns() const { return lon.count; }
-    [[nodiscard]] double north_deg() const { return lat.at_deg(0); }
-    [[nodiscard]] double south_deg() const { return lat.at_deg(lat.count - 1); }
-    [[nodiscard]] double west_deg() const { return lon.at_deg(0); }
-    [[nodiscard]] double east_deg() const { return lon.at_deg(lon.count - 1); }
+    // Box of all posts.
+    [[nodiscard]] double north_deg() const { return net ? net->box().north_deg : lat.at_deg(0); }
+    [[nodiscard]] double south_deg() const { return net ? net->box().south_deg : lat.at_deg(lat.count - 1); }
+    [[nodiscard]] double west_deg() const { return net ? net->box().west_deg : lon.at_deg(0); }
+    [[nodiscard]] double east_deg() const { return net ? net->box().east_deg : lon.at_deg(lon.count - 1); }
     [[nodiscard]] std::size_t post_count() const {
         return static_cast<std::size_t>(rows()) * static_cast<std::size_t>(columns());
     }
     // Column number of a longitude: that of the whole turn which falls into the grid, or the nearest to it.
     [[nodiscard]] double column_at(double lon_deg) const;
+    // Fractional numbers of the post at a place, as lat.index_at and column_at give them.
+    [[nodiscard]] PostNumber post_at(double lat_deg, double lon_deg) const;
+    // The place at a fractional row and column; its longitude may be in any whole turn.
+    [[nodiscard]] PostPlace place_at(double row, double column) const;
+    // Angles, at the Earth's centre, from a post to the next, along rows and along columns; the largest in
+    // the grid where it has a net, and there of all places as if they lay on the equator.
+    [[nodiscard]] double row_step_rad() const;
+    [[nodiscard]] double column_step_rad() const;
     // True for a region 360 degrees wide: its last column is its first.
     [[nodiscard]] bool goes_round() const;
 };
@@ -111,6 +124,8 @@ struct HeightField {
     std::shared_ptr<const PostSource> posts;
     std::optional<HeightRange> range;
     UndulationField undulation;
+    // N of each post where the grid has a net (and N is not 0 everywhere): to look it up by place takes long.
+    std::vector<float> N_of_posts_m;
 
     [[nodiscard]] float H_at_post_m(int row, int column) const {
         if (posts) return posts->H_m(row, column);
@@ -121,6 +136,8 @@ struct HeightField {
     // void, so that an answer about the surface is one only when this is asked afterwards: before it is
     // shown, and before anything that it decides is written. Always well where the posts are in memory.
     [[nodiscard]] Result<void> health() const { return posts ? posts->health() : Result<void>(); }
+    // N at a post.
+    [[nodiscard]] double N_at_post_m(int row, int column) const;
     // Height above the ellipsoid of a post that is not void.
     [[nodiscard]] double h_at_post_m(int row, int column) const;
     // H of the surface at a place, or void_height_m outside the region and on triangles with a void post.

@@ -21,12 +21,14 @@ RegionShape region_shape(const HeightField& field, double exaggeration) {
             if (is_void(H_m) || static_cast<double>(H_m) * exaggeration + lowest_N_m >= lowest_h_m) continue;
             lowest_h_m = std::min(lowest_h_m, drawn_h_m(field, row, column, exaggeration));
         }
+        if (grid.net) continue;
         const double lat_deg = grid.lat.at_deg(row);
         const double south_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
         const double east_m = prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine *
                               radians_from_deg(grid.lon.spacing_deg()).rad;
         diagonal_m = std::max(diagonal_m, std::hypot(south_m, east_m));
     }
+    if (grid.net) diagonal_m = std::hypot(grid.net->row_m(), grid.net->column_m());
     return {occluder_below(lowest_h_m, diagonal_m), exaggeration};
 }
 

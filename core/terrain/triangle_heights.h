@@ -58,7 +58,8 @@ std::optional<double> h_at_row_column_m(const PostGrid& grid, const PostHeight& 
 template <class PostHeight>
 std::optional<double> h_on_grid_m(const PostGrid& grid, const PostHeight& post_h_m, double lat_deg,
                                   double lon_deg) {
-    return h_at_row_column_m(grid, post_h_m, grid.lat.index_at(lat_deg), grid.column_at(lon_deg));
+    const PostNumber at = grid.post_at(lat_deg, lon_deg);
+    return h_at_row_column_m(grid, post_h_m, at.row, at.column);
 }
 
 }  // namespace oro

@@ -21,7 +21,7 @@ class BehindEdges {
           view_from_ecef_(camera.view_from_ecef()),
           pixels_per_tangent_(0.5 * camera.height_px / camera.half_fov_tangent().y),
           reach_m_(picture_reach_m(surface, sight, camera.eye.h_m)),
-          step_m_(step_cells * wgs84_a_m * radians_from_deg(surface.field().grid.lat.spacing_deg()).rad) {
+          step_m_(step_cells * wgs84_a_m * surface.field().grid.row_step_rad()) {
         if (surface.levels() > 0) highest_h_m_ = surface.layer({surface.levels() - 1, 0, 0}).highest_h_m;
     }
 
@@ -48,7 +48,7 @@ class BehindEdges {
     // The ground straight above or below a place.
     [[nodiscard]] std::optional<ViewSample> ground_at(const Geodetic& place, const ViewSample& near) const {
         const PostGrid& grid = surface_.field().grid;
-        const double row = grid.lat.index_at(place.lat_deg), column = grid.column_at(place.lon_deg);
+        const auto [row, column] = grid.post_at(place.lat_deg, place.lon_deg);
         const auto h_m = surface_.h_at_m(row, column);
         if (!h_m) return std::nullopt;
         const Geodetic point{place.lat_deg, place.lon_deg, *h_m};

@@ -47,8 +47,7 @@ double transform_m(const glm::dmat3& rotation, const glm::dvec3& ecef_m, const g
 // What drawing rounds off, by no more than is known beforehand; nothing for other effects.
 std::optional<EffectSize> EffectPrediction::known_bound(EffectKind kind) const {
     const PostGrid& grid = surface_.field().grid;
-    const double cell_m = wgs84_a_m * std::hypot(radians_from_deg(grid.lat.spacing_deg()).rad,
-                                                 radians_from_deg(grid.lon.spacing_deg()).rad);
+    const double cell_m = wgs84_a_m * std::hypot(grid.row_step_rad(), grid.column_step_rad());
     // Along the sight line nothing moves on the picture.
     const auto along_m = [](const Sample& sample) { return 4.0 * float_rounding * sample.distance_m; };
     constexpr double corner_px = std::numbers::sqrt2 / 256.0;
@@ -105,8 +104,8 @@ EffectSize EffectPrediction::in_float32(Precision precision) const {
 // The posts of a sample's triangle, and how much each counts there.
 std::array<EffectPrediction::PostShare, 3> EffectPrediction::shares_of(const Sample& sample) const {
     const PostGrid& grid = surface_.field().grid;
-    const double down = grid.lat.index_at(sample.point.lat_deg) - sample.row;
-    const double right = grid.column_at(sample.point.lon_deg) - sample.column;
+    const PostNumber post = grid.post_at(sample.point.lat_deg, sample.point.lon_deg);
+    const double down = post.row - sample.row, right = post.column - sample.column;
     const double north_west = 1.0 - std::max(down, right), south_east = std::min(down, right);
     return {{{sample.row, sample.column, north_west},
              {sample.row + 1, sample.column + 1, south_east},
@@ -120,8 +119,10 @@ EffectSize EffectPrediction::in_sixteen_bits() const {
     const PostGrid& grid = surface_.field().grid;
     const auto off_m = [&](int row, int column) {
         // As it is drawn: without a geoid, if that is how pages have it.
-        const double h_m = surface_.post_h_m(row, column).value_or(0.0) -
-                           left_out_N_m(row_lat_deg(grid, row), grid.lon.at_deg(column));
+        const PostPlace place = grid.net ? grid.net->place_at(row, column)
+                                         : PostPlace{row_lat_deg(grid, row), grid.lon.at_deg(column)};
+        const double h_m =
+            surface_.post_h_m(row, column).value_or(0.0) - left_out_N_m(place.lat_deg, place.lon_deg);
         return world_.sixteen.steps(world_.sixteen.code(height_steps(h_m))) * height_step_m - h_m;
     };
     const EffectSize usual = lifted([&](const Sample& sample) {

@@ -124,6 +124,10 @@ Oracle::Search::RayPoint Oracle::Search::point_at(double t_m, double near_column
     const Geodetic point = sight.earth == Earth::ellipsoid
                                ? geodetic_from_ecef({sight.eye.m + offset_m})
                                : model_point(sight.earth, sight.place, offset_m).value_or(nowhere);
+    if (grid_.net) {
+        const PostNumber post = grid_.net->post_at(point.lat_deg, point.lon_deg);
+        return {t_m, post.row, post.column, point.h_m, point};
+    }
     const double turn = 360.0 * grid_.lon.posts_per_deg;
     double column = grid_.lon.index_at(point.lon_deg);
     column -= turn * std::round((column - near_column) / turn);
@@ -188,7 +192,7 @@ Span where_positive(double at_0, double slope, double square, Span span, double 
 // is met.
 Span Oracle::Search::between_meridians(const Block& block, Span span) const {
     const Sight& sight = scenery_.sight;
-    if (sight.earth == Earth::flat) return span;  // it has no pole where meridians meet
+    if (sight.earth == Earth::flat || grid_.net) return span;  // neither has a pole where meridians meet
     const auto& meridians = scenery_.columns;
     const SineCosine& west = meridians[static_cast<std::size_t>(block.column)];
     const SineCosine& east =
@@ -340,26 +344,6 @@ bool Oracle::Search::take_root(const Triangle& triangle, const Piece& piece, dou
     nearest_m_ = t_m;
     hit_ = SightHit{here.point, t_m, triangle.row, triangle.column, triangle.south_west, rise > 0.0, above_m};
     return true;
-}
-
-Sight sight_from(const Geodetic& eye, const Air& air) {
-    return {ecef_from_geodetic(eye), air.k == 0.0 ? Refraction() : Refraction(eye, air)};
-}
-
-Sight sight_of(const WorldModel& model, const Geodetic& eye) {
-    Sight sight = sight_from(eye, model.air);
-    sight.eye = model_eye_ecef(model.earth, eye);
-    sight.earth = model.earth;
-    sight.place = eye;
-    return sight;
-}
-
-double sight_reach_m(double eye_h_m) {
-    // From the highest mountain one sees 340 km; twice that to another of its kind, and as much again for odd
-    // air.
-    constexpr double over_the_earth_m = 1.5e6;
-    const double eye_m = std::max(0.0, eye_h_m);
-    return over_the_earth_m + std::sqrt(eye_m * (2.0 * wgs84_a_m + eye_m));
 }
 
 Oracle::Oracle(const TrueSurface& surface, const Sight& sight)

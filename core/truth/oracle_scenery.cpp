@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -31,6 +32,10 @@ Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from)
     const double lon_deg = flat ? sight.place.lon_deg : 0.5 * (grid.west_deg() + grid.east_deg());
     frame_from_ecef = glm::transpose(ecef_from_enu(lat_deg, lon_deg));
     constexpr int step = TrueSurface::block_cells;
+    if (grid.net) {
+        assert(sight.earth == Earth::ellipsoid);
+        return;
+    }
     for (int row = 0; row - step < grid.rows() - 1; row += step) {
         const double at_deg = row_lat_deg(grid, std::min(row, grid.rows() - 1));
         const SineCosine angle = sine_cosine_deg(at_deg);
@@ -81,6 +86,11 @@ void Oracle::Scenery::flat_box(const Patch& patch, const TrueSurface::Layer& lay
 }
 
 glm::dvec3 Oracle::Scenery::seen(int row, int column, double h_m) const {
+    const TrueSurface::Corners& corners = surface.corners();
+    if (!corners.normals.empty()) {
+        const glm::dvec3& normal = corners.normals[static_cast<std::size_t>(row * corners.columns + column)];
+        return frame_from_ecef * sight.refraction.apparent_m(ecef_along(normal, h_m).m - sight.eye.m);
+    }
     const RowTerms& terms = rows[static_cast<std::size_t>(row)];
     const SineCosine& lon = columns[static_cast<std::size_t>(column)];
     const double e2 = sight.earth == Earth::sphere ? 0.0 : wgs84_e2;
@@ -94,8 +104,11 @@ bool Oracle::Scenery::box(const TrueSurface::Block& block, glm::dvec3& low, glm:
     const TrueSurface::Layer layer = surface.layer(block);
     if (layer.empty()) return false;
     const int north = block.row << block.level, west = block.column << block.level;
-    const int south = std::min(((block.row + 1) << block.level), static_cast<int>(rows.size()) - 1);
-    const int east = std::min(((block.column + 1) << block.level), static_cast<int>(columns.size()) - 1);
+    const bool on_net = surface.field().grid.net != nullptr;
+    const int last_row = on_net ? surface.corners().rows - 1 : static_cast<int>(rows.size()) - 1;
+    const int last_column = on_net ? surface.corners().columns - 1 : static_cast<int>(columns.size()) - 1;
+    const int south = std::min((block.row + 1) << block.level, last_row);
+    const int east = std::min((block.column + 1) << block.level, last_column);
     if (sight.earth == Earth::flat) {
         flat_box({north, south, west, east}, layer, low, high);
         return true;
@@ -116,15 +129,18 @@ bool Oracle::Scenery::box(const TrueSurface::Block& block, glm::dvec3& low, glm:
     // another eighth.
     const PostGrid& grid = surface.field().grid;
     const double cells = TrueSurface::block_cells;
-    const double tall = radians_from_deg((south - north) * cells * grid.lat.spacing_deg()).rad;
-    const double wide = radians_from_deg((east - west) * cells * grid.lon.spacing_deg()).rad;
+    const double tall = (south - north) * cells * grid.row_step_rad();
+    const double wide = (east - west) * cells * grid.column_step_rad();
     const double radius_m = 1.02 * (wgs84_a_m + std::max(0.0, layer.highest_h_m));
     // The cosine of a latitude changes by at most its angle.
-    const double cosine = std::min(1.0, std::max(rows[static_cast<std::size_t>(north)].cosine,
-                                                 rows[static_cast<std::size_t>(south)].cosine) +
-                                            tall);
+    const double cosine = on_net ? 1.0
+                                 : std::min(1.0, std::max(rows[static_cast<std::size_t>(north)].cosine,
+                                                          rows[static_cast<std::size_t>(south)].cosine) +
+                                                     tall);
     const glm::dvec3 across = high - low;
-    const double pad_m = (tall * tall + wide * wide * cosine) / 8.0 * radius_m * 1.1 +
+    const double bulge =
+        on_net ? grid.net->bend() * (tall + wide) * (tall + wide) : tall * tall + wide * wide * cosine;
+    const double pad_m = bulge / 8.0 * radius_m * 1.1 +
                          std::abs(sight.refraction.curvature_per_m()) * glm::dot(across, across) / 8.0 +
                          1.0e-3;
     low -= pad_m;

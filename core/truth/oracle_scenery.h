@@ -26,7 +26,8 @@ class Oracle::Scenery {
     const TrueSurface& surface;
     const Sight sight;
     glm::dmat3 frame_from_ecef;
-    std::vector<RowTerms> rows;  // of the grid, each block_cells-th and the last
+    // Of the grid, each block_cells-th and the last; on a net TrueSurface::corners() are instead of them.
+    std::vector<RowTerms> rows;
     std::vector<SineCosine> columns;
     // Of the flat Earth instead: metres north and east of the eye.
     std::vector<double> rows_north_m, columns_east_m;

@@ -57,7 +57,12 @@ struct TrueSurface::Chunk {
 TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int threads)
     : field_(field), exaggeration_(exaggeration) {
     const PostGrid& grid = field.grid;
-    if (!field.undulation.N_m.empty()) {
+    if (grid.net && !field.N_of_posts_m.empty()) {
+        const auto [lowest, highest] =
+            std::minmax_element(field.N_of_posts_m.begin(), field.N_of_posts_m.end());
+        N_range_m_ = {static_cast<double>(*lowest), static_cast<double>(*highest)};
+    }
+    if (!field.undulation.N_m.empty() && !grid.net) {
         for (int row = 0; row < grid.rows(); ++row)
             N_rows_.push_back(field.undulation.row_between(row_lat_deg(grid, row)));
         for (int column = 0; column < grid.columns(); ++column)
@@ -74,6 +79,21 @@ TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int thre
     chunks_ =
         std::vector<std::atomic<Chunk*>>(static_cast<std::size_t>(down) * static_cast<std::size_t>(across));
     measure_above(threads);
+    if (grid.net) place_corners(threads);
+}
+
+void TrueSurface::place_corners(int threads) {
+    const PostGrid& grid = field_.grid;
+    corners_.rows = divided_up(grid.rows() - 1, block_cells) + 1;
+    corners_.columns = divided_up(grid.columns() - 1, block_cells) + 1;
+    const auto columns = static_cast<std::size_t>(corners_.columns);
+    corners_.normals.resize(static_cast<std::size_t>(corners_.rows) * columns);
+    in_parallel(corners_.rows, threads, [&](int row) {
+        for (std::size_t column = 0; column < columns; ++column)
+            corners_.normals[static_cast<std::size_t>(row) * columns + column] =
+                grid.net->normal_at(std::min(row * block_cells, grid.rows() - 1),
+                                    std::min(static_cast<int>(column) * block_cells, grid.columns() - 1));
+    });
 }
 
 TrueSurface::~TrueSurface() {
@@ -94,6 +114,7 @@ std::optional<double> TrueSurface::post_h_m(int row, int column) const {
         H_m = field_.H_at_post_m(row, column);
     }
     const double H = static_cast<double>(H_m) * exaggeration_;
+    if (grid.net) return H + field_.N_at_post_m(row, column);
     if (N_rows_.empty()) return H;
     return H + field_.undulation.at_m(N_rows_[static_cast<std::size_t>(row)],
                                       N_columns_[static_cast<std::size_t>(column)]);
@@ -120,6 +141,12 @@ std::optional<TrueSurface::Slope> TrueSurface::slope_at(double row, double colum
     if (!north_west || !south_east || !corner) return std::nullopt;
     const double down_m = south_west ? *corner - *north_west : *south_east - *corner;
     const double right_m = south_west ? *south_east - *corner : *corner - *north_west;
+    if (grid.net) {
+        const GridNet::Lie lie = grid.net->lie_at(row, column);
+        const double down = down_m / lie.row_m, right = right_m / lie.column_m;
+        const double cosine = std::cos(lie.turn_rad), sine = std::sin(lie.turn_rad);
+        return Slope{sine * right - cosine * down, cosine * right + sine * down};
+    }
     const double lat_deg = std::clamp(grid.lat.at_deg(0) - row * grid.lat.spacing_deg(), -90.0, 90.0);
     const PostSpacing apart = post_spacing(grid, lat_deg);
     return Slope{-down_m / apart.row_m, right_m / apart.column_m};

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,7 +21,8 @@ namespace oro {
 class TrueSurface {
   public:
     // `field` outlives the surface. Reads every post once where they are in memory, shared between `threads`;
-    // posts of a file are read when they are asked for. Keeps 0.7 byte for each post that was looked at.
+    // posts of a file are read when they are asked for. Keeps 0.7 byte for each post that was looked at, on a
+    // net 1.5 bytes more.
     TrueSurface(const HeightField& field, double exaggeration, int threads);
     ~TrueSurface();
     TrueSurface(const TrueSurface&) = delete;
@@ -66,6 +68,13 @@ class TrueSurface {
     // Number of blocks of a level, (rows, columns).
     [[nodiscard]] std::pair<int, int> blocks(int level) const;
 
+    // Of a grid on a net: the ellipsoid's normals at the corners of level 0's blocks, row by row; else empty.
+    struct Corners {
+        int rows{}, columns{};
+        std::vector<glm::dvec3> normals;
+    };
+    [[nodiscard]] const Corners& corners() const { return corners_; }
+
     [[nodiscard]] const HeightField& field() const { return field_; }
     [[nodiscard]] double exaggeration() const { return exaggeration_; }
 
@@ -75,11 +84,13 @@ class TrueSurface {
     [[nodiscard]] Chunk* new_chunk(int row, int column) const;
     [[nodiscard]] Layer scanned_layer(int chunk_row, int chunk_column) const;
     void measure_above(int threads);
+    void place_corners(int threads);
 
     const HeightField& field_;
     double exaggeration_;
     int levels_{0};
     Layer N_range_m_{0.0, 0.0};
+    Corners corners_;
     std::vector<UndulationField::Between> N_rows_;
     std::vector<UndulationField::Between> N_columns_;
     std::vector<std::vector<Layer>> above_;  // of the chunks' level and those above it

@@ -41,8 +41,8 @@ class ViewSampler {
         const auto hit = oracle_.first_hit(direction, reach_m_);
         if (!hit) return std::nullopt;
         const PostGrid& grid = surface_.field().grid;
-        const auto slope =
-            surface_.slope_at(grid.lat.index_at(hit->point.lat_deg), grid.column_at(hit->point.lon_deg));
+        const PostNumber post = grid.post_at(hit->point.lat_deg, hit->point.lon_deg);
+        const auto slope = surface_.slope_at(post.row, post.column);
         return ViewSample{hit->point,      hit->distance_m * direction,
                           hit->distance_m, slope ? slope->steepness() : 0.0,
                           hit->row,        hit->column,

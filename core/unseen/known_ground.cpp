@@ -111,7 +111,7 @@ void KnownGround::find_rims(const HeightField& field) {
 }
 
 bool KnownGround::holds(double lat_deg, double lon_deg) const {
-    const double row = grid_.lat.index_at(lat_deg), column = grid_.column_at(lon_deg);
+    const auto [row, column] = grid_.post_at(lat_deg, lon_deg);
     if (!(row >= -edge_slack_posts && row <= grid_.rows() - 1 + edge_slack_posts)) return false;
     if (!(column >= -edge_slack_posts && column <= grid_.columns() - 1 + edge_slack_posts)) return false;
     if (!missing_.empty() && missing_.contains(degree_cell_at(lat_deg, lon_deg))) return false;

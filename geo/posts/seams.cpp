@@ -116,6 +116,7 @@ void JoinedSurface::finish() {
         if (is_void(heights_[later.post])) heights_[later.post] = later.height;
     }
     later_ = {};
+    if (grid_.net) return;
     const auto columns = static_cast<std::size_t>(grid_.columns());
     if (grid_.columns() > 1 && std::abs(grid_.east_deg() - grid_.west_deg() - 360.0) < 1e-9) {
         for (std::size_t first = 0; first < heights_.size(); first += columns) {

@@ -106,11 +106,13 @@ double usual_resolution(const PostGrid& grid, const GridInCrs& in_crs, OGRSpatia
     const double lat_deg = 0.5 * (grid.north_deg() + grid.south_deg());
     const double lon_deg = 0.5 * (grid.west_deg() + grid.east_deg());
     double x = 0.0, y = 0.0, next_x = 0.0, next_y = 0.0;
+    const double step_deg =
+        grid.net ? deg_from_radians(Radians(grid.row_step_rad())) : grid.lat.spacing_deg();
     if (!in_crs.place(lat_deg, lon_deg, x, y) ||
-        !in_crs.place(lat_deg - grid.lat.spacing_deg(), lon_deg, next_x, next_y))
+        !in_crs.place(lat_deg - step_deg, lon_deg, next_x, next_y))
         return 0.0;
     const double spacing = std::hypot(next_x - x, next_y - y);
-    if (OSRIsGeographic(crs)) return grid.lat.spacing_deg() * spacing / std::abs(next_y - y);
+    if (OSRIsGeographic(crs)) return step_deg * spacing / std::abs(next_y - y);
     const double digit = std::pow(10.0, std::floor(std::log10(spacing)) - 1.0);
     return std::floor(spacing / digit) * digit;
 }

@@ -9,6 +9,7 @@
 #include "geo/datum/vertical_datum.h"
 #include "geo/posts/holes.h"
 #include "geo/posts/laying.h"
+#include "geo/posts/own_posts.h"
 #include "geo/posts/seams.h"
 #include "geo/posts/voids.h"
 #include "geo/region/baked_region.h"
@@ -68,6 +69,20 @@ void add_doubts(const RegionRequest& request, std::span<const Source> sources, c
                             ": that crosses the antimeridian, and most of the way round the Earth");
 }
 
+// The posts that a region is to keep where they are, if that is asked for; nothing where they lie on
+// latitudes and longitudes anyway.
+Result<std::optional<OwnPosts>> own_posts_of(std::span<const Source> sources, const RegionRequest& request) {
+    if (!request.own_posts || std::ranges::all_of(sources, &Source::on_degrees))
+        return std::optional<OwnPosts>();
+    const auto on_degrees = std::ranges::find_if(sources, &Source::on_degrees);
+    if (on_degrees != sources.end())
+        return Error{ErrorKind::usage, "--own-posts",
+                     "needs files whose posts lie on one lattice: " + on_degrees->report.path +
+                         " is on latitudes and longitudes, another is not"};
+    ORO_TRY(OwnPosts own, own_posts(sources, request.box));
+    return std::optional<OwnPosts>(std::move(own));
+}
+
 // Of large rasters, whether their last row is there: a file that says more than it holds is told before
 // memory is taken for its posts.
 Result<void> check_last_rows(std::span<const Source> sources) {
@@ -82,6 +97,11 @@ Result<void> check_last_rows(std::span<const Source> sources) {
 
 // The last step: counts the posts without a height, and why.
 void describe_voids(std::span<const Source> sources, const JoinedSurface& surface, Region& region) {
+    if (region.field.grid.net) {
+        for (std::size_t post = 0; post < region.field.H_m.size(); ++post)
+            region.outside += is_void(region.field.H_m[post]) && !surface.covered(post) ? 1U : 0U;
+        return;
+    }
     region.missing_cells = cells_without(sources, region.field.grid);
     const Uncovered uncovered = count_uncovered(region.field, region.missing_cells,
                                                 [&](std::size_t post) { return surface.covered(post); });
@@ -104,7 +124,9 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     Region region;
     region.notes = std::move(found.notes);
     ORO_TRY(const GeoidOfRegion geoid, GeoidOfRegion::open(request.strict_datum));
-    ORO_TRY(const PostGrid grid, region_grid(sources, *extent));
+    ORO_TRY(const std::optional<OwnPosts> own, own_posts_of(sources, request));
+    Result<PostGrid> chosen = own ? Result<PostGrid>(own->grid) : region_grid(sources, *extent);
+    ORO_TRY(const PostGrid grid, std::move(chosen));
     const BoundingBox posts{grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()};
     region.field.grid = grid;
     ORO_TRY(region.field.undulation, geoid.undulation(posts));
@@ -115,8 +137,13 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     ORO_CHECK(check_last_rows(sources));
 
     JoinedSurface surface(grid);
-    ORO_CHECK(lay_sources(sources, {grid, region.field.undulation, geoid, request.strict_datum}, surface,
-                          region.notes, progress));
+    if (own) {
+        ORO_CHECK(lay_own_posts(sources, {*own, region.field.undulation, geoid, request.strict_datum},
+                                surface, region.field.N_of_posts_m, region.notes, progress));
+    } else {
+        ORO_CHECK(lay_sources(sources, {grid, region.field.undulation, geoid, request.strict_datum}, surface,
+                              region.notes, progress));
+    }
     surface.finish();
     if (request.fill_voids) {
         if (progress) progress(0.95, "filling voids");

@@ -29,6 +29,8 @@ struct RegionRequest {
     bool strict_datum{false};        // refuse instead of letting another geoid stand in
     bool fill_voids{
         false};  // fill void posts from their neighbours (GDALFillNodata) instead of leaving holes
+    bool own_posts{
+        false};  // draw the posts of a file in a CRS of its own where they are: nothing is resampled
     std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
 };
 
@@ -43,6 +45,7 @@ struct Region {
     SeamReport seams;
     std::string geoid;               // "EGM96 (egm96_15.gtx)": what N in the field is
     UndulationField geoid_left_out;  // N that the field had, where a view goes without it
+    std::vector<float> N_of_posts_left_out_m;
     std::vector<std::string>
         missing_cells;           // whole-degree cells of the region without any source, e.g. "N45E008"
     std::uint64_t voids{};       // posts of the region without a height, for whatever reason; of these:

@@ -165,6 +165,8 @@ std::string large_by(std::span<const Source> sources) {
            ": open such files by themselves, or leave them out";
 }
 
+}  // namespace
+
 Result<void> check_size(double rows, double columns, const BoundingBox& box,
                         std::span<const Source> sources) {
     // Heights, what is known of each post, and the pages built from them.
@@ -184,8 +186,6 @@ Result<void> check_size(double rows, double columns, const BoundingBox& box,
                   (box.east_deg - box.west_deg) * side * 0.99, (box.north_deg - box.south_deg) * side * 0.99);
     return Error{ErrorKind::failed, "region too large", what + large_by(sources)};
 }
-
-}  // namespace
 
 BoundingBox unwrapped(const BoundingBox& box) {
     BoundingBox result = box;

@@ -37,6 +37,10 @@ bool meets(const Source& source, const BoundingBox& box);
 std::optional<RegionExtent> region_extent(std::span<const Source> sources,
                                           const std::optional<BoundingBox>& asked);
 
+// That a grid of so many posts over a box fits this machine's memory; else the error says what makes it so
+// large.
+Result<void> check_size(double rows, double columns, const BoundingBox& box, std::span<const Source> sources);
+
 // The grid over an extent. Spacing: per axis that of the finest source. Alignment: the finest source on a
 // grid of WGS84 degrees, so that its posts are the grid's (a finer spacing is then a whole part of that
 // source's); otherwise posts at whole parts of a degree. The poles are never passed. Error: more posts than

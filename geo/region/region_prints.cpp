@@ -15,25 +15,45 @@ void add_axis(RunningChecksum& sum, const GridAxis& axis, int first, int count) 
     sum.add(std::as_bytes(std::span(place)));
 }
 
+// Of a net: where four of its posts lie, and how many there are.
+void add_net(RunningChecksum& sum, const GridNet& net) {
+    constexpr double parts_of_a_degree = 1e7;
+    for (const double row : {0.0, net.rows() - 1.0}) {
+        for (const double column : {0.0, net.columns() - 1.0}) {
+            const PostPlace place = net.place_at(row, column);
+            const std::array<std::int64_t, 2> whole{std::llround(place.lat_deg * parts_of_a_degree),
+                                                    std::llround(place.lon_deg * parts_of_a_degree)};
+            sum.add(std::as_bytes(std::span(whole)));
+        }
+    }
+    const std::array<std::int64_t, 2> counts{net.rows(), net.columns()};
+    sum.add(std::as_bytes(std::span(counts)));
+}
+
+void add_grid(RunningChecksum& sum, const PostGrid& grid) {
+    if (grid.net) return add_net(sum, *grid.net);
+    add_axis(sum, grid.lat, 0, grid.rows());
+    add_axis(sum, grid.lon, 0, grid.columns());
+}
+
 }  // namespace
 
 void SourcePrint::begin(const PostGrid& grid, int first_row, int first_column, int rows, int columns) {
+    if (grid.net) return add_net(sum_, *grid.net);
     add_axis(sum_, grid.lat, first_row, rows);
     add_axis(sum_, grid.lon, first_column, columns);
 }
 
 std::uint64_t grid_print(const PostGrid& grid) {
     RunningChecksum sum;
-    add_axis(sum, grid.lat, 0, grid.rows());
-    add_axis(sum, grid.lon, 0, grid.columns());
+    add_grid(sum, grid);
     return sum.sum();
 }
 
 std::uint64_t posts_print(const HeightField& field) {
     assert(!field.posts);
     RunningChecksum sum;
-    add_axis(sum, field.grid.lat, 0, field.grid.rows());
-    add_axis(sum, field.grid.lon, 0, field.grid.columns());
+    add_grid(sum, field.grid);
     sum.add(std::as_bytes(std::span(field.H_m)));
     return sum.sum();
 }

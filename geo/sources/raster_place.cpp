@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 
 #include "core/earth/ellipsoid.h"
@@ -167,6 +168,21 @@ Result<void> place_by_samples(Source& source, const Outwards& outwards) {
     return {};
 }
 
+// The smaller ground distance between neighbouring posts in a source's middle, where degrees of longitude say
+// nothing.
+std::optional<double> spacing_at_pole(const Source& source, const Outwards& outwards) {
+    const double column = 0.5 * (source.report.columns - 1), row = 0.5 * (source.report.rows - 1);
+    const auto here = outwards.at(column, row), right = outwards.at(column + 1.0, row),
+               below = outwards.at(column, row + 1.0);
+    if (!here || !right || !below) return std::nullopt;
+    const auto ecef_m = [](const Spot& spot) {
+        return ecef_from_geodetic({spot.lat_deg, spot.lon_deg, 0.0}).m;
+    };
+    const double spacing_m =
+        std::min(glm::length(ecef_m(*right) - ecef_m(*here)), glm::length(ecef_m(*below) - ecef_m(*here)));
+    return spacing_m > 0.0 ? std::optional(spacing_m) : std::nullopt;
+}
+
 // Ground distance between neighbouring posts, the smaller of both directions, and its degrees; the median of
 // five places.
 Result<void> measure_spacing(Source& source, const Outwards& outwards) {
@@ -190,6 +206,14 @@ Result<void> measure_spacing(Source& source, const Outwards& outwards) {
         };
         const double spacing = std::min(metres(*right), metres(*below));
         if (spacing > 0.0) found.push_back({spacing, spacing / meridian, spacing / parallel});
+    }
+    if (found.empty()) {
+        // All of it lies within 1 km of a pole.
+        if (const auto spacing = spacing_at_pole(source, outwards)) {
+            const double degree_m = radians_from_deg(1.0).rad * wgs84_a_m;
+            constexpr double cosine = 1.7e-4;  // at 89.99
+            found.push_back({*spacing, *spacing / degree_m, *spacing / (degree_m * cosine)});
+        }
     }
     if (found.empty())
         return reason(

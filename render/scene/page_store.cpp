@@ -14,19 +14,22 @@ constexpr std::size_t pages_in_staging = 64;
 
 }  // namespace
 
-std::size_t page_bytes(const HeightQuantization& coding, bool means) {
+std::size_t page_bytes(const HeightQuantization& coding, const PageParts& parts) {
     const std::size_t block = coding.sixteen ? offsetof(gpu::PageBlock, heights) +
                                                    sizeof(std::uint32_t) * ((gpu::page_heights + 1) / 2)
                                              : sizeof(gpu::PageBlock);
-    return means ? (block + 15) / 16 * 16 + sizeof(gpu::PageMeans) : block;
+    const auto with = [](std::size_t bytes, std::size_t part) { return (bytes + 15) / 16 * 16 + part; };
+    const std::size_t placed = parts.places ? with(block, sizeof(gpu::PagePlaces)) : block;
+    return parts.means ? with(placed, sizeof(gpu::PageMeans)) : placed;
 }
 
 Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity, const HeightQuantization& coding,
-                                    bool means) {
+                                    const PageParts& parts) {
     PageStore store(gpu);
     store.coding_ = coding;
-    store.page_bytes_ = page_bytes(coding, means);
-    if (means) store.means_offset_ = store.page_bytes_ - sizeof(gpu::PageMeans);
+    store.page_bytes_ = page_bytes(coding, parts);
+    if (parts.means) store.means_offset_ = store.page_bytes_ - sizeof(gpu::PageMeans);
+    if (parts.places) store.places_offset_ = page_bytes(coding, {false, true}) - sizeof(gpu::PagePlaces);
     store.capacity_ = std::max<std::size_t>(1, capacity);
     ORO_TRY(store.commands_, Commands::create(gpu, "page upload"));
     ORO_TRY(store.staging_,
@@ -102,6 +105,7 @@ bool PageStore::reuse_slot(std::size_t& slot) {
 void PageStore::stage(const LoadedPage& page, std::byte* to) const {
     const gpu::PageBlock& block = *page.block;
     if (means_offset_ > 0) std::memcpy(to + means_offset_, page.means.get(), sizeof(gpu::PageMeans));
+    if (places_offset_ > 0) std::memcpy(to + places_offset_, page.places.get(), sizeof(gpu::PagePlaces));
     if (!coding_.sixteen) {
         std::memcpy(to, &block, sizeof(block));
         return;

@@ -18,11 +18,17 @@ namespace oro {
 struct LoadedPage {
     PageIndex index;
     std::unique_ptr<gpu::PageBlock> block;
-    std::unique_ptr<gpu::PageMeans> means;  // where the store keeps them
+    std::unique_ptr<gpu::PageMeans> means;    // where the store keeps them
+    std::unique_ptr<gpu::PagePlaces> places;  // likewise
 };
 
+// What a store keeps of pages beside their blocks.
+struct PageParts {
+    bool means{};
+    bool places{};
+};
 // Bytes that a page takes on the GPU.
-std::size_t page_bytes(const HeightQuantization& coding, bool means = false);
+std::size_t page_bytes(const HeightQuantization& coding, const PageParts& parts = {});
 
 // The pages of one region that are on the GPU. What has not been used for longest makes room for what comes.
 class PageStore {
@@ -31,12 +37,14 @@ class PageStore {
     // lie there as `coding` says, with their means behind them where these are wanted. Buffers are made when
     // they are needed.
     static Result<PageStore> create(const Gpu& gpu, std::size_t capacity,
-                                    const HeightQuantization& coding = {}, bool means = false);
+                                    const HeightQuantization& coding = {}, const PageParts& parts = {});
 
     // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame.
     std::uint64_t address(const PageIndex& page);
     // From a page's block to its means, bytes; 0 where none are kept.
     [[nodiscard]] std::uint64_t means_offset() const { return means_offset_; }
+    // The same to its places.
+    [[nodiscard]] std::uint64_t places_offset() const { return places_offset_; }
     // From here on pages count as used by another frame: those of earlier ones may make room.
     void begin_frame() { ++frame_; }
 
@@ -67,6 +75,7 @@ class PageStore {
     HeightQuantization coding_;
     std::size_t page_bytes_{sizeof(gpu::PageBlock)};
     std::size_t means_offset_{};
+    std::size_t places_offset_{};
     Commands commands_;
     Buffer staging_;
     std::vector<Buffer> chunks_;

@@ -7,8 +7,8 @@
 
 namespace oro {
 
-PageStream::PageStream(const RegionPages& pages, int threads, std::size_t capacity, bool means)
-    : pages_(pages), capacity_(std::max<std::size_t>(1, capacity)), means_(means) {
+PageStream::PageStream(const RegionPages& pages, int threads, std::size_t capacity, const PageParts& parts)
+    : pages_(pages), capacity_(std::max<std::size_t>(1, capacity)), parts_(parts) {
     start_threads(threads_, std::max(1, threads), [this](const std::stop_token& stop) { work(stop); });
 }
 
@@ -70,11 +70,15 @@ void PageStream::load_next(std::unique_lock<std::mutex>& lock) {
     try {
         under_way_.insert(key(page));
         lock.unlock();
-        LoadedPage loaded{page, std::make_unique<gpu::PageBlock>(), nullptr};
+        LoadedPage loaded{page, std::make_unique<gpu::PageBlock>(), nullptr, nullptr};
         Result<void> done = pages_.load(page, *loaded.block);
-        if (means_ && done.ok()) {
+        if (parts_.means && done.ok()) {
             loaded.means = std::make_unique<gpu::PageMeans>();
             done = pages_.load_means(page, *loaded.means);
+        }
+        if (parts_.places && done.ok()) {
+            loaded.places = std::make_unique<gpu::PagePlaces>();
+            done = pages_.load_places(page, *loaded.block, *loaded.places);
         }
         lock.lock();
         if (done.ok()) {

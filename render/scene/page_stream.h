@@ -23,8 +23,8 @@ class PageStream {
     // `capacity`: pages that may be under way or ready at a time, at least 1; 80 KB each. `pages` outlives
     // the stream. Where fewer threads are to be had, or none, it does with those: without any, take() loads
     // pages itself.
-    // means: pages come with theirs, 222 KB more.
-    PageStream(const RegionPages& pages, int threads, std::size_t capacity, bool means = false);
+    // parts: pages come with these, too; means are 222 KB more, places 200 KB.
+    PageStream(const RegionPages& pages, int threads, std::size_t capacity, const PageParts& parts = {});
     ~PageStream();
     PageStream(const PageStream&) = delete;
     PageStream& operator=(const PageStream&) = delete;
@@ -47,7 +47,7 @@ class PageStream {
 
     const RegionPages& pages_;
     std::size_t capacity_;
-    bool means_;
+    PageParts parts_;
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;
     std::deque<PageIndex> wanted_;

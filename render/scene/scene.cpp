@@ -21,21 +21,26 @@ Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
     return buffer;
 }
 
+// Device address of what lies behind a page's block.
+gpu::uvec2 behind(const gpu::FramePage& page, std::uint64_t offset) {
+    return address_words((std::uint64_t{page.block.y} << 32U | page.block.x) + offset);
+}
+
 }  // namespace
 
 Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
                             HeightStorage heights, bool means) {
-    means = means && pages->knows_means();
+    const PageParts parts{means && pages->knows_means(), pages->facts().grid.net != nullptr};
     constexpr std::uint64_t most = std::uint64_t{2} << 30U;
     const std::uint64_t bytes = memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most);
     ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
-    ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding, means), coding, means));
+    ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding, parts), coding, parts));
     Scene scene(std::move(pages), std::move(store));
     static std::atomic<std::uint64_t> scenes{0};
     scene.number_ = ++scenes;
     const std::uint64_t under_way = memory.main > 0 ? memory.main : default_main_bytes;
-    const std::size_t page_size = sizeof(gpu::PageBlock) + (means ? sizeof(gpu::PageMeans) : 0);
-    scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, means);
+    const std::size_t page_size = page_bytes({}, parts);
+    scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, parts);
     const UndulationField& undulation = scene.pages_->facts().undulation;
     if (!undulation.N_m.empty()) {
         ORO_TRY(scene.undulation_, create_undulation(gpu, undulation));
@@ -59,9 +64,10 @@ Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau
     }
     if (store_.means_offset() > 0) {
         plan.constants.has_means = 1;
-        for (gpu::FramePage& page : plan.pages)
-            page.means =
-                address_words((std::uint64_t{page.block.y} << 32U | page.block.x) + store_.means_offset());
+        for (gpu::FramePage& page : plan.pages) page.means = behind(page, store_.means_offset());
+    }
+    if (store_.places_offset() > 0) {
+        for (gpu::FramePage& page : plan.pages) page.places = behind(page, store_.places_offset());
     }
     plan.constants.undulation.N_m = address_words(undulation_.address);
     plan.heights = number_;

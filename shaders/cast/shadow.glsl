@@ -24,6 +24,9 @@ float small_atan(float y, float x) {
 struct CastFrame {
     vec3 sun;  // east, north, up
     vec2 latitude;
+    vec2 longitude;        // from the eye's
+    vec2 uv;               // on a net, and the post there
+    vec2 net_post;
     float normal_m;        // radii of curvature: across the meridian,
     float meridian_m;      // ... along it,
     float meridian_change; // ... and how fast that changes, metres a radian
@@ -35,9 +38,16 @@ CastFrame cast_frame(CastPoint point, float h_m) {
     vec3 east = FRAME.view_from_eye * vec3(0.0, 1.0, 0.0), up = FRAME.up_view;
     vec3 sun_view = FRAME.style.sun_enu.x * east + FRAME.style.sun_enu.y * cross(up, east) + FRAME.style.sun_enu.z * up;
     vec3 sun = sun_view * FRAME.view_from_eye;  // in the eye's meridian frame
+    bool on_net = FRAME.has_net != 0u;
     CastFrame frame;
     frame.latitude = normalize(point.latitude);
     vec2 turn = normalize(point.longitude);
+    frame.longitude = turn;
+    frame.uv = frame.net_post = vec2(0.0);
+    if (on_net) {
+        frame.uv = net_uv_at(frame.latitude, turn);
+        frame.net_post = post_on_net(frame.uv);
+    }
     vec2 level = vec2(turn.x * sun.x + turn.y * sun.y, -turn.y * sun.x + turn.x * sun.y);
     float c = frame.latitude.x, s = frame.latitude.y;
     frame.sun = normalize(vec3(level.y, -s * level.x + c * sun.z, c * level.x + s * sun.z));
@@ -63,6 +73,10 @@ vec3 towards_sun_m(CastFrame at, float t_m) {
     float rise = (up * (2.0 * radius + up) + north * north) / (length(vec2(radius + up, north)) + radius);
     rise -= at.meridian_change * turn * turn * turn / 6.0;
     turn -= at.meridian_change * turn * turn / (2.0 * radius);
+    if (FRAME.has_net != 0u) {
+        vec2 uv = at.uv + net_uv_change(at.latitude, at.longitude, turn, turned);
+        return vec3(post_on_net(uv) - at.net_post, rise);
+    }
     return vec3(-turn / CASTERS.row_rad, turned / CASTERS.column_rad, rise);
 }
 

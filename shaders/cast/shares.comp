@@ -14,6 +14,7 @@ const bool opens = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
+#include "shaders/place/net.glsl"
 #include "shaders/shade/surface.glsl"
 #include "shaders/air/air.glsl"
 #include "shaders/cast/casters.glsl"

@@ -8,6 +8,7 @@
 #define ORO_PRECISE precise
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer PageBlocks { PageBlock at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer PlacesOfPages { PagePlaces at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FramePages { FramePage at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer RowTable { RowTerms at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ColumnTable { ColumnTerms at[]; };

@@ -13,8 +13,34 @@ int stored_height(PageBlocks block, uint place) {
 
 int post_height(PageBlocks block, uvec2 post) { return stored_height(block, (post.x + 1u) * height_stride + post.y + 1u); }
 
+// The sum of a 64-bit and a 32-bit whole number of steps, rounded once if it fits 32 bits, and by its value alone otherwise. Metres.
+float lattice_m(uint low, uint high, int more) {
+    uint carry, sum = uaddCarry(low, uint(more), carry);
+    int top = int(high) + (more >> 31) + int(carry);
+    precise float whole = float(int(sum));
+    if (top != (int(sum) >> 31)) whole = float(top) * 4294967296.0 + float(sum);
+    return whole * height_step_m;
+}
+
+// The same for a grid whose posts lie on a net (PagePlaces): along the axes of ECEF. The difference of post and eye is exact until it is
+// rounded to a float.
+vec3 place_on_net(FramePage page, uvec2 post) {
+    PlacesOfPages places = PlacesOfPages(page.places);
+    uint first = 3u * (post.x * page_posts + post.y);
+    precise vec3 position;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        position[axis] = lattice_m(page.from_eye_low[axis], page.from_eye_high[axis], places.at[0].steps[first + axis]) - FRAME.eye_remainder[axis];
+    return position;
+}
+
 // Position in the eye's meridian frame; within 1 mm up to 4 km away, and 1 mm and 3.2e-7 of the distance beyond (0.0005 px).
 vec3 place_from_eye(FramePage page, uvec2 post, int height) {
+    if (FRAME.has_net != 0u) {
+        vec2 meridian = FRAME.eye_meridian;
+        precise vec3 ecef = place_on_net(page, post);
+        precise vec3 turned = vec3(meridian.x * ecef.x + meridian.y * ecef.y, meridian.x * ecef.y - meridian.y * ecef.x, ecef.z);
+        return turned;
+    }
     RowTerms t = RowTable(FRAME.row_terms).at[page.row_terms + post.x];
     ColumnTerms u = ColumnTable(FRAME.column_terms).at[page.column_terms + post.y];
     precise float dh = float(height - FRAME.reference_steps) * height_step_m;
@@ -48,9 +74,14 @@ vec3 view_by_ecef(vec3 from_eye) {
 
 // Position in view coordinates, as it is seen. post: (row, column) within the page.
 vec3 place_in_view(FramePage page, uvec2 post, int height) {
-    vec3 from_eye = place_from_eye(page, post, height);
-    precise vec3 position = FRAME.view_from_eye * from_eye;
-    if (FRAME.placing != placing_relative) position = view_by_ecef(from_eye);
+    precise vec3 position;
+    if (FRAME.has_net != 0u) {
+        position = FRAME.view_from_ecef * place_on_net(page, post);
+    } else {
+        vec3 from_eye = place_from_eye(page, post, height);
+        position = FRAME.view_from_eye * from_eye;
+        if (FRAME.placing != placing_relative) position = view_by_ecef(from_eye);
+    }
     if (FRAME.refraction_per_m != 0.0) position = bent(position);
     return position;
 }

@@ -54,7 +54,7 @@ mat2 drape_per_px(SurfacePoint point) {
     for (int i = 0; i < 2; ++i) {
         vec3 turn = i == 0 ? vec3(px.x, 0.0, 0.0) : vec3(0.0, px.y, 0.0);
         vec3 step_m = -point.view.z * (turn - ray * (dot(normal, turn) / facing));
-        per_px[i] = vec2(-dot(step_m, north), dot(step_m, east)) / point.drape_post_m;
+        per_px[i] = posts_along(vec2(dot(step_m, east), dot(step_m, north)), point.drape_post_m);
     }
     return per_px;
 }

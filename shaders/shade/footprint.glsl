@@ -100,7 +100,7 @@ Footprint footprint_at(vec3 view, vec2 region, vec3 normal, mat3 axes, vec2 post
     y = -view.z * (y - ray * (dot(across, y) / facing));
     Footprint foot;
     foot.to_next = mat2(vec2(dot(x, axes[0]), dot(x, axes[1])), vec2(dot(y, axes[0]), dot(y, axes[1])));
-    vec2 to_x = vec2(-dot(x, axes[1]), dot(x, axes[0])) / post_m, to_y = vec2(-dot(y, axes[1]), dot(y, axes[0])) / post_m;
+    vec2 to_x = posts_along(foot.to_next[0], post_m), to_y = posts_along(foot.to_next[1], post_m);
     float area = abs(to_x.x * to_y.y - to_x.y * to_y.x);
     foot.region = region;
     foot.round_posts = length(view) / (FRAME.pixels_per_tangent * post_m.x);
@@ -116,7 +116,7 @@ Footprint footprint_at(vec3 view, vec2 region, vec3 normal, mat3 axes, vec2 post
 // The pixel's middle is on a peak or in a hollow, `higher_m` from the mean ground: where the pixel's ray meets that.
 vec2 to_mean_ground(Footprint foot, vec3 normal, vec3 to_eye, float higher_m, vec2 post_m) {
     float facing = max(dot(normal, to_eye), 0.12 * length(normal));
-    vec2 on = higher_m * normal.z / facing * vec2(-to_eye.y, to_eye.x) / post_m;
+    vec2 on = higher_m * normal.z / facing * posts_along(to_eye.xy, post_m);
     return on * min(0.25 * foot.across_posts / max(length(on), 1.0e-6), 1.0);
 }
 
@@ -264,6 +264,7 @@ void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     uint row = min(uint(max(point.post.x, 0.0)), page_posts - 1u);
     float cosine = abs(RowTable(FRAME.row_terms).at[frame_pages().at[number].row_terms + row].cosine);
     vec2 post_m = vec2(PageBlocks(block).at[0].row_spacing_m, max(cosine * PageBlocks(block).at[0].column_spacing_m, 1.0e-3));
+    find_row_turn(PageBlocks(block), point.post);
     point.page = number;
     point.region = region;
     point.post_m = post_m.x;

@@ -14,6 +14,7 @@ layout(constant_id = 9) const bool parts_alone = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
+#include "shaders/place/net.glsl"
 #include "shaders/shade/surface.glsl"
 #include "shaders/air/air.glsl"
 #include "shaders/air/sky.glsl"

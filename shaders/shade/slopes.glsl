@@ -48,5 +48,6 @@ vec3 horn_normal_at(PageBlocks block, FramePage page, vec2 post) {
     vec2 rise = mix(north, south, in_cell.x) - geoid_rise(region_post(page, post), post_m);
     float step_m = height_step_m * (FRAME.height_bits == 32u ? 1.0 : float(1u << FRAME.height_shift));
     if (all(lessThan(abs(rise) * 2.0 * post_m * float(1u << page.level), vec2(1.01 * step_m)))) rise = vec2(0.0);
-    return normalize(vec3(-rise, 1.0));
+    find_row_turn(block, post);
+    return turned_east(normalize(vec3(-rise, 1.0)));
 }

@@ -79,6 +79,24 @@ vec2 slope_at_post(PageBlocks block, FramePage page, ivec2 post) {
     return height_step_m * vec2(down / max(down_posts, 1.0), right / max(right_posts, 1.0));
 }
 
+// How the rows of the pixel's page are turned from east, towards north: cosine, sine (PageBlock.turn).
+vec2 row_turn = vec2(1.0, 0.0);
+void find_row_turn(PageBlocks block, vec2 post) {
+    if (FRAME.has_net == 0u) return;
+    float angle = dot(block.at[0].turn, vec3(1.0, post));
+    row_turn = vec2(cos(angle), sin(angle));
+}
+// From along the row and back along the column to east and north.
+vec3 turned_east(vec3 normal) {
+    if (FRAME.has_net == 0u) return normal;
+    return vec3(row_turn.x * normal.x - row_turn.y * normal.y, row_turn.y * normal.x + row_turn.x * normal.y, normal.z);
+}
+// How many rows and columns so many metres eastwards and northwards are.
+vec2 posts_along(vec2 east_north, vec2 post_m) {
+    if (FRAME.has_net == 0u) return vec2(-east_north.y, east_north.x) / post_m;
+    return vec2(row_turn.y * east_north.x - row_turn.x * east_north.y, row_turn.x * east_north.x + row_turn.y * east_north.y) / post_m;
+}
+
 // Normal of the smoothed surface: slopes at the cell's four posts, bilinear between them.
 vec3 normal_at(PageBlocks block, FramePage page, vec2 post) {
     ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
@@ -88,7 +106,8 @@ vec3 normal_at(PageBlocks block, FramePage page, vec2 post) {
     vec2 slope = mix(north, south, in_cell.x);
     float cosine = RowTable(FRAME.row_terms).at[page.row_terms + uint(cell.x)].cosine;
     float column_spacing_m = max(abs(cosine) * block.at[0].column_spacing_m, 1.0e-3);
-    return normalize(vec3(-slope.y / column_spacing_m, slope.x / block.at[0].row_spacing_m, 1.0));
+    find_row_turn(block, post);
+    return turned_east(normalize(vec3(-slope.y / column_spacing_m, slope.x / block.at[0].row_spacing_m, 1.0)));
 }
 
 // The geoid's undulation at a post of the region.

@@ -99,9 +99,9 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
 
 // A value word for all but flags; a sentence, which begins in the same column and ends with a full stop.
 TEST(Help, ExplainsEachOption) {
-    const Words flags{"--verify",       "--layers",       "--ortho",   "--legend",    "--no-paths",
-                      "--data-changed", "--overwrite",    "--json",    "-q, --quiet", "--check",
-                      "--fill-voids",   "--strict-datum", "-h, --help"};
+    const Words flags{"--verify",       "--layers",       "--ortho",    "--legend",    "--no-paths",
+                      "--data-changed", "--overwrite",    "--json",     "-q, --quiet", "--check",
+                      "--fill-voids",   "--strict-datum", "-h, --help", "--own-posts"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;
@@ -121,15 +121,15 @@ TEST(Help, HidesWhatDoesNothing) {
         {"trade",
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
           "--tolerance", "--labels", "--edges", "--samples", "--names", "--names-field", "--overlay",
-          "--overlay-colour", "--overlay-width", "--overlay-fill"}},
+          "--overlay-colour", "--overlay-width", "--overlay-fill", "--own-posts"}},
         {"panorama",
          {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--tolerance"}},
         {"plan",
          {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--edges", "--samples",
           "--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width", "--overlay-fill",
-          "--pipeline", "--time"}},
+          "--pipeline", "--time", "--own-posts"}},
         {"view", {"--tolerance", "--time"}},
-        {"compare", {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids"}}};
+        {"compare", {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids", "--own-posts"}}};
     const std::string shot = help_of({"shot"});
     for (const auto& [command, options] : hidden) {
         const std::string help = help_of({command});

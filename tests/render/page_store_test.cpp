@@ -11,7 +11,7 @@ class Store : public test::GpuTest {
     static std::vector<LoadedPage> some(int first, int count) {
         std::vector<LoadedPage> pages;
         for (int i = first; i < first + count; ++i)
-            pages.push_back({{0, i, 0}, std::make_unique<gpu::PageBlock>(), nullptr});
+            pages.push_back({{0, i, 0}, std::make_unique<gpu::PageBlock>(), nullptr, nullptr});
         return pages;
     }
 };

@@ -12,6 +12,7 @@
 #include "render/frame/picture_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/made_terrain.h"
+#include "tests/support/net_terrain.h"
 
 namespace oro {
 namespace {
@@ -51,6 +52,13 @@ class PlacementOnGpu : public test::GpuTest {
             for (int column = 0; column < 129; ++column) field.H_m.push_back(at_pole ? one : height(random));
         }
 
+        // In the page's middle: posts are placed relative to the eye.
+        return draw_page(field,
+                         {field.grid.lat.at_deg(64), normalised_lon_deg(field.grid.lon.at_deg(64)), h0_m});
+    }
+
+    // Posts of a field of one page as an eye over it has them.
+    Placed draw_page(const HeightField& field, const Geodetic& eye) {
         auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2));
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         FrameRendererOptions options;
@@ -59,8 +67,7 @@ class PlacementOnGpu : public test::GpuTest {
         auto renderer = FrameRenderer::create(*gpu_, options);
         EXPECT_TRUE(renderer.ok()) << renderer.error().line();
         Camera camera;
-        // In the page's middle: posts are placed relative to the eye.
-        camera.eye = {field.grid.lat.at_deg(64), normalised_lon_deg(field.grid.lon.at_deg(64)), h0_m};
+        camera.eye = eye;
         camera.vertical_fov_deg = 110.0;
         camera.width_px = camera.height_px = 64;
         auto plan = scene->settled_plan(camera, {0, 0, 64, 64, {0.5, 0.5}}, 0.0);
@@ -73,6 +80,16 @@ class PlacementOnGpu : public test::GpuTest {
         return worst_error(field, camera, renderer->recorded());
     }
 
+    // The same of a page whose posts lie on a net.
+    Placed place_net_page(const test::PlaneOfPosts& plane, double h0_m, std::mt19937& random) {
+        std::uniform_real_distribution<float> height(static_cast<float>(h0_m) - 2000.0F,
+                                                     static_cast<float>(h0_m) + 2000.0F);
+        const HeightField field = test::net_field(
+            plane, [&](double, double) { return height(random); }, 47.25F);
+        const PostPlace middle = field.grid.place_at(64, 64);
+        return draw_page(field, {middle.lat_deg, middle.lon_deg, h0_m});
+    }
+
     static Placed worst_error(const HeightField& field, const Camera& camera,
                               const std::vector<gpu::vec3>& recorded) {
         const auto& earth = GeographicLib::Geocentric::WGS84();
@@ -82,8 +99,11 @@ class PlacementOnGpu : public test::GpuTest {
         for (int row = 0; row < 129; ++row) {
             for (int column = 0; column < 129; ++column) {
                 glm::dvec3 truth;
-                earth.Forward(field.grid.lat.at_deg(row), field.grid.lon.at_deg(column),
-                              field.h_at_post_m(row, column), truth.x, truth.y, truth.z);
+                const PostPlace place =
+                    field.grid.net ? field.grid.net->place_at(row, column)
+                                   : PostPlace{field.grid.lat.at_deg(row), field.grid.lon.at_deg(column)};
+                earth.Forward(place.lat_deg, place.lon_deg, field.h_at_post_m(row, column), truth.x, truth.y,
+                              truth.z);
                 const glm::dvec3 from_gpu(recorded[static_cast<std::size_t>(row * 129 + column)]);
                 ++placed.posts;
                 const double error = glm::length(camera.eye_ecef().m + ecef_from_eye * from_gpu - truth);
@@ -112,6 +132,24 @@ TEST_F(PlacementOnGpu, AgreesWithGeographicLibAtAllLatitudes) {
         }
     }
     EXPECT_GE(posts, 100000U);
+}
+
+// Posts that have places of their own: whole steps from the eye, rounded once.
+TEST_F(PlacementOnGpu, OfNetsAgreesWithGeographicLib) {
+    std::mt19937 random(seed);
+    for (const double page_m : {placement_near_reach_m, 12000.0}) {
+        for (const double lat_deg : {-90.0, -71.3, -33.0, 0.0, 46.5, 80.0, 89.99}) {
+            const double lon_deg = std::uniform_real_distribution<double>(-180.0, 180.0)(random);
+            const double h0_m = std::uniform_real_distribution<double>(-9000.0, 7000.0)(random);
+            const double turn_deg = std::uniform_real_distribution<double>(-180.0, 180.0)(random);
+            const Placed placed =
+                place_net_page({129, 129, {lat_deg, lon_deg}, page_m / 128.0, turn_deg}, h0_m, random);
+            std::printf("net at %6.2f°, %6.0f m, turned by %4.0f°: %zu posts, worst %.3f mm\n", lat_deg,
+                        page_m, turn_deg, placed.posts, 1e3 * placed.worst_m);
+            EXPECT_LE(placed.worst_m, page_m <= placement_near_reach_m ? placement_near_m : 0.003)
+                << "at latitude " << lat_deg;
+        }
+    }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/terrain/ground.h"
 #include "geo/region/region.h"
 #include "tests/support/drawn_scene.h"
+#include "tests/support/net_terrain.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -42,6 +43,13 @@ Camera random_camera(std::mt19937_64& random, const HeightField& field) {
     camera.eye.lat_deg =
         grid.south_deg() + (0.02 + 0.96 * unit(random)) * (grid.north_deg() - grid.south_deg());
     camera.eye.lon_deg = grid.west_deg() + (0.02 + 0.96 * unit(random)) * (grid.east_deg() - grid.west_deg());
+    if (grid.net) {
+        // Its box has corners that are not over it.
+        const double row = (0.02 + 0.96 * unit(random)) * (grid.rows() - 1);
+        const PostPlace over = grid.place_at(row, (0.02 + 0.96 * unit(random)) * (grid.columns() - 1));
+        camera.eye.lat_deg = over.lat_deg;
+        camera.eye.lon_deg = over.lon_deg;
+    }
     const auto ground_m = ground_h_m(field, camera.eye.lat_deg, camera.eye.lon_deg);
     // What is drawn may be as much coarser as its distance allows: an eye close to the ground has it exact.
     camera.eye.h_m = ground_m.value_or(0.0) + 2.0 * std::pow(2.5e5, unit(random));
@@ -140,6 +148,12 @@ class Cracks : public test::GpuTest, public ::testing::WithParamInterface<Raster
 
 TEST_P(Cracks, NoneInMadeTerrain) {
     look_for_holes("made terrain", patchy_field(), camera_count() / 4, 101);
+}
+TEST_P(Cracks, NoneOnNets) {
+    for (const auto& [name, plane] :
+         {std::pair("a turned net", test::PlaneOfPosts{900, 1100, {46.5, 8.0}, 80.0, 27.0}),
+          std::pair("a net over the pole", test::PlaneOfPosts{700, 700, {89.9, 40.0}, 90.0, 0.0})})
+        look_for_holes(name, test::net_field(plane, test::patchy_H_m, 40.0F), camera_count() / 8, 105);
 }
 TEST_P(Cracks, NoneInTheAlps) {
     look_over_real_data("alps", "N46E006:N47E009", 102);

@@ -11,6 +11,7 @@
 #include "geo/region/region.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/net_terrain.h"
 #include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
@@ -132,6 +133,16 @@ TEST_F(ErrorsOfPictures, OfMadeTerrainIsWithinTau) {
     const int views = (test::view_count(15) + 4) / 5;
     look("made terrain", test::rough_field(47.0, 8.0, 700, 900), views);
     print_all("made terrain", views);
+}
+
+// Posts that lie on nets: turned, and over a pole.
+TEST_F(ErrorsOfPictures, OnNetsIsWithinTau) {
+    const int views = (test::view_count(15) + 4) / 5;
+    look("a turned net", test::net_field({700, 900, {46.5, 8.0}, 80.0, 27.0}, test::patchy_H_m, 40.0F),
+         views);
+    look("a net over the pole", test::net_field({700, 700, {89.9, 40.0}, 90.0, 0.0}, test::patchy_H_m),
+         views);
+    print_all("nets", 2 * views);
 }
 
 TEST_F(ErrorsOfPictures, OfRealTerrainIsWithinTau) {

@@ -12,6 +12,7 @@
 #include "geo/region/region.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/net_terrain.h"
 #include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
@@ -44,8 +45,8 @@ Truth truth_at(const TrueSurface& surface, const DrawnPoint& point, const glm::d
     const PostGrid& grid = surface.field().grid;
     const auto h_m = surface.h_at_m(point.row, point.column);
     if (point.background() || !h_m) return Truth::none;
-    const Geodetic place{grid.lat.at_deg(0) - point.row * grid.lat.spacing_deg(),
-                         grid.lon.at_deg(0) + point.column * grid.lon.spacing_deg(), *h_m + lift_m};
+    const PostPlace at = grid.place_at(point.row, point.column);
+    const Geodetic place{at.lat_deg, at.lon_deg, *h_m + lift_m};
     return first_hit(surface, sight_from(place), sun_ecef, reach_m) ? Truth::dark : Truth::lit;
 }
 
@@ -194,6 +195,16 @@ TEST_F(ShadowsOfPictures, OfMadeTerrainAreTheOracles) {
     const int views = (test::view_count(6) + 2) / 3;
     look_over("made terrain", test::rough_field(47.0, 8.0, 700, 900), views);
     judge(views);
+}
+
+// Posts that lie on nets: turned, and over a pole.
+TEST_F(ShadowsOfPictures, OnNetsAreTheOracles) {
+    const int views = (test::view_count(6) + 2) / 3;
+    for (const auto& [name, plane] :
+         {std::pair("a turned net", test::PlaneOfPosts{700, 900, {46.5, 8.0}, 80.0, 27.0}),
+          std::pair("a net over the pole", test::PlaneOfPosts{700, 700, {89.9, 40.0}, 90.0, 0.0})})
+        look_over(name, test::net_field(plane, test::patchy_H_m, 40.0F), views);
+    judge(2 * views);
 }
 
 TEST_F(ShadowsOfPictures, OfRealTerrainAreTheOracles) {

@@ -8,6 +8,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/sight_ground.h"
+#include "apps/drawing/own_posts_limits.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -216,6 +217,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_CHECK(check_words(options));
     ViewshedReport report;
     report.target_m = options.target_m.value_or(0.0);
+    ORO_CHECK(refuse_own_posts(options.region.own_posts, "viewshed"));
     report.radius_km = options.radius_km.value_or(usual_radius_km);
     ORO_TRY(report.air, air_asked_for(options.air.refraction_k, options.air.air, standard_air));
     ProgressBar bar(options.quiet);

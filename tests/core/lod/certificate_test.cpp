@@ -14,6 +14,7 @@
 #include "core/lod/levels.h"
 #include "tests/core/lod/pyramid_region.h"
 #include "tests/core/truth/world_field.h"
+#include "tests/support/net_terrain.h"
 
 namespace oro {
 namespace {
@@ -94,10 +95,13 @@ TEST(Certificate, NothingInViewIsFartherThanTauFromItsPlace) {
         Region(test::world_field(30.0, 2700, 0, 300, 2700, [](double lat_deg, double lon_deg) {
             return 500.0 + 300.0 * std::sin(4.0 * lat_deg) * std::sin(0.5 * lon_deg) +
                    20.0 * std::sin(50.0 * lat_deg);
-        }))};
+        })),
+        // On nets: turned, and over a pole.
+        Region(test::net_field({400, 360, {46.5, 8.0}, 60.0, 27.0}, test::patchy_H_m, 47.0F)),
+        Region(test::net_field({300, 300, {89.9, 40.0}, 150.0, 0.0}, test::patchy_H_m))};
     Worst worst;
-    for (int i = 0; i < 200; ++i) {
-        const Region& region = regions[i % 4 == 3 ? 0 : i % 4];
+    for (int i = 0; i < 300; ++i) {
+        const Region& region = regions[i % 6 == 5 ? 0 : i % 6];
         const Camera camera = random_camera(random, region);
         const double tau_px = taus_px[i % 3];
         add_errors(region, camera, select_nodes(region.pyramid, camera, whole(camera), tau_px), tau_px,
@@ -111,7 +115,7 @@ TEST(Certificate, NothingInViewIsFartherThanTauFromItsPlace) {
         return *place;
     };
     std::printf(
-        "seed %u: 200 cameras, %zu places in view off the full resolution; distance / tau: median %.4f, 90 "
+        "seed %u: 300 cameras, %zu places in view off the full resolution; distance / tau: median %.4f, 90 "
         "%% "
         "%.4f, "
         "99 %% %.4f, 99.9 %% %.4f, largest %.4f; beyond tau: %zu\n",

@@ -71,10 +71,9 @@ inline Camera random_camera(std::mt19937_64& random, const Region& region) {
     const double beside_deg = random() % 3 == 0 ? 0.3 + 1.0e-5 * h_m : 0.0;
     const double row = unit(random) * (grid.rows() - 1);
     const double column = unit(random) * (grid.columns() - 1);
-    camera.eye.lat_deg =
-        grid.lat.at_deg(0) - row * grid.lat.spacing_deg() + beside_deg * (2.0 * unit(random) - 1.0);
-    camera.eye.lon_deg =
-        grid.lon.at_deg(0) + column * grid.lon.spacing_deg() + beside_deg * (2.0 * unit(random) - 1.0);
+    const PostPlace over = grid.place_at(row, column);
+    camera.eye.lat_deg = over.lat_deg + beside_deg * (2.0 * unit(random) - 1.0);
+    camera.eye.lon_deg = over.lon_deg + beside_deg * (2.0 * unit(random) - 1.0);
     const std::int32_t ground = region.heights.at(static_cast<int>(row), static_cast<int>(column));
     camera.eye.h_m = h_m + (ground == void_height_steps ? 0.0 : ground * height_step_m);
     camera.vertical_fov_deg = 10.0 + 80.0 * unit(random);
@@ -83,10 +82,9 @@ inline Camera random_camera(std::mt19937_64& random, const Region& region) {
     if (random() % 3 == 0) {
         camera.attitude = {360.0 * unit(random), -30.0 + 35.0 * unit(random), 0.0};  // grazing
     } else {
-        const Geodetic target{
-            grid.lat.at_deg(0) - unit(random) * (grid.rows() - 1) * grid.lat.spacing_deg(),
-            grid.lon.at_deg(0) + unit(random) * (grid.columns() - 1) * grid.lon.spacing_deg(), 1000.0};
-        camera.attitude = attitude_towards(camera.eye, target);
+        const double target_row = unit(random) * (grid.rows() - 1);
+        const PostPlace target = grid.place_at(target_row, unit(random) * (grid.columns() - 1));
+        camera.attitude = attitude_towards(camera.eye, {target.lat_deg, target.lon_deg, 1000.0});
         camera.attitude.roll_deg = random() % 2 == 0 ? 0.0 : 360.0 * unit(random);
     }
     return camera;

@@ -290,7 +290,7 @@ TEST(Page, SpacingIsThatOfTheRegionsPostsAtThePagesMiddle) {
     EXPECT_NEAR(coarse.block->row_spacing_m, page.block->row_spacing_m, 0.01);
     EXPECT_NEAR(coarse.block->column_spacing_m, page.block->column_spacing_m, 0.01);
     gpu::PageBlock again;
-    set_spacing(field.grid, page.summary.origin, again);
+    set_spacing(field.grid, page.summary, again);
     EXPECT_EQ(again.row_spacing_m, page.block->row_spacing_m);
     EXPECT_EQ(again.column_spacing_m, page.block->column_spacing_m);
 }

@@ -1,0 +1,156 @@
+// Where the posts of a grid lie whose source has a CRS of its own (projected, turned, of another datum):
+// smooth functions of row and column, held against the exact places when they were made.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/earth/ellipsoid.h"
+
+namespace oro {
+
+// A post's number, or a place between posts.
+struct PostNumber {
+    double row;
+    double column;
+};
+// A place on the ellipsoid.
+struct PostPlace {
+    double lat_deg;
+    double lon_deg;
+};
+
+// The ellipsoid's normal over a grid as polynomials in row and column, in patches. A normal is smooth
+// everywhere, also at the poles and across the antimeridian, where latitude and longitude are not. A post
+// belongs to one patch by its number alone, so it has the same bits in whichever page or level it is asked
+// for. Beyond the grid the map goes on straight.
+class GridNet {
+  public:
+    // The exact places of posts; as many as are asked for.
+    using ExactPlaces = std::function<Result<void>(std::span<const PostNumber>, std::span<PostPlace>)>;
+    static constexpr double largest_error_m = 2.0e-5;
+
+    // For rows x columns posts (2 at least of each). Places are within largest_error_m of the exact ones:
+    // patches are halved until that holds at places between those that made them. Rows must run clockwise
+    // from columns, seen from above, as south does from east. Errors: those of `exact`; a map that is not
+    // smooth enough, is mirrored or has a fold.
+    static Result<std::shared_ptr<const GridNet>> fit(int rows, int columns, const ExactPlaces& exact);
+
+    [[nodiscard]] PostPlace place_at(double row, double column) const;
+    // Fractional numbers of the post at a place. Within 1e-9 of a post inside the grid; outside it, a place
+    // that is outside, too (all that is a quarter of the Earth away is one).
+    [[nodiscard]] PostNumber post_at(double lat_deg, double lon_deg) const;
+
+    // Unit normal.
+    [[nodiscard]] glm::dvec3 normal_at(double row, double column) const;
+    // The same of posts first_column ... of a row.
+    void normals_of_row(int row, int first_column, std::span<glm::dvec3> normals) const;
+
+    // How rows and columns lie on the ground at a post: metres from it to the next, and by how much the way
+    // from column to column is turned from east, towards north.
+    struct Lie {
+        double row_m;
+        double column_m;
+        double turn_rad;
+    };
+    [[nodiscard]] Lie lie_at(double row, double column) const;
+
+    [[nodiscard]] int rows() const { return down_.posts; }
+    [[nodiscard]] int columns() const { return across_.posts; }
+    // Largest distance from the exact places that was seen when the net was made.
+    [[nodiscard]] double error_m() const { return error_m_; }
+    // Largest distances from post to post anywhere.
+    [[nodiscard]] double row_m() const { return row_m_; }
+    [[nodiscard]] double column_m() const { return column_m_; }
+    // How much ways along rows and columns bend at most, 1 being a great circle: a stretch of them of s
+    // metres is at most bend s^2 / (8 R) off its chord.
+    [[nodiscard]] double bend() const { return bend_; }
+    // From places to posts by one polynomial, for what needs it quickly and not quite exactly: row and column
+    // as a sum of powers of (u, v), the place's normal along two axes, moved and scaled to -1 .. 1 over the
+    // grid. Beyond those it goes on straight.
+    struct Inverse {
+        static constexpr int degree = 6;
+        static constexpr int terms = (degree + 1) * (degree + 2) / 2;
+        glm::dvec3 along_u, along_v;  // ECEF
+        glm::dvec2 middle, scale;     // (dot products - middle) * scale is in -1 .. 1
+        std::array<glm::dvec2, terms>
+            coefficients;      // of u^i v^j: i from 0, and of each j from 0 to degree - i
+        glm::dmat2 beyond;     // posts a step of (u, v), outside
+        double error_posts{};  // largest seen over the grid
+
+        [[nodiscard]] glm::dvec2 uv(const glm::dvec3& normal) const {
+            return (glm::dvec2(glm::dot(normal, along_u), glm::dot(normal, along_v)) - middle) * scale;
+        }
+        [[nodiscard]] PostNumber post(const glm::dvec3& normal) const;
+    };
+    [[nodiscard]] const Inverse& inverse() const { return inverse_; }
+    // Box of all posts; east may run past 180.
+    struct Box {
+        double west_deg, south_deg, east_deg, north_deg;
+    };
+    [[nodiscard]] const Box& box() const { return box_; }
+
+  private:
+    static constexpr int terms = 9;
+    using Terms = std::array<double, terms>;
+    struct Patch {
+        std::array<glm::dvec3, terms * terms> coefficients;
+    };
+    struct Jet {
+        glm::dvec3 normal, by_row, by_column;  // not of unit length, but all but
+    };
+    GridNet(int rows, int columns, int patches_a_side);
+    Result<bool> fit_patches(const ExactPlaces& exact);
+    Result<void> fit_patch(const ExactPlaces& exact, int row, int column);
+    Result<double> patch_error_m(const ExactPlaces& exact, int row, int column) const;
+    Result<void> measure();
+    void find_box();
+    Result<void> fit_inverse();
+    [[nodiscard]] const Patch& patch(int row, int column) const {
+        return patches_[static_cast<std::size_t>(row * across_.patches + column)];
+    }
+    [[nodiscard]] Jet jet_at(double row, double column) const;
+
+    // The patches along one axis.
+    struct Cut {
+        int posts;  // of the grid
+        int patch_posts;
+        int patches;
+        [[nodiscard]] int patch_of(double number) const;
+        // -1 .. 1 from the patch's first post to the next one's.
+        [[nodiscard]] double in_patch(double number, int patch) const {
+            return 2.0 * (number - static_cast<double>(patch) * patch_posts) / patch_posts - 1.0;
+        }
+        [[nodiscard]] double last() const { return posts - 1.0; }
+    };
+    static Cut cut(int posts, int patches);
+
+    Cut down_, across_;
+    std::vector<Patch> patches_;
+    double error_m_{};
+    double row_m_{}, column_m_{}, bend_{};
+    Box box_{};
+    glm::dvec3 middle_{};  // normal of the grid's middle
+    Inverse inverse_{};
+};
+
+// The place with a unit normal.
+PostPlace place_of_normal(const glm::dvec3& normal);
+
+// Position of what is h_m above the ellipsoid along its unit normal. Error: below 1e-8 m.
+inline Ecef ecef_along(const glm::dvec3& normal, double h_m) {
+    const double across_m = wgs84_a_m / std::sqrt(1.0 - wgs84_e2 * normal.z * normal.z);
+    return {{(across_m + h_m) * normal.x, (across_m + h_m) * normal.y,
+             (across_m * (1.0 - wgs84_e2) + h_m) * normal.z}};
+}
+
+}  // namespace oro

@@ -1,0 +1,323 @@
+#include "geo/posts/own_posts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "geo/posts/laying.h"
+#include "geo/region/region_grid.h"
+#include "geo/region/region_prints.h"
+#include "geo/sources/raster_library.h"
+
+namespace oro {
+namespace {
+
+// A rectangle of a lattice: posts by the numbers that the first source would give them.
+struct LatticeWindow {
+    std::int64_t row{}, column{};
+    int rows{}, columns{};
+};
+
+// Exact places of the posts of a lattice.
+class SourcePlaces {
+  public:
+    explicit SourcePlaces(const Source& source)
+        : source_(source),
+          crs_(spatial_reference(source.crs_wkt)),
+          outwards_(crs_ ? OCTNewCoordinateTransformation(crs_.get(), wgs84_degrees().get()) : nullptr) {}
+    [[nodiscard]] bool usable() const { return outwards_ != nullptr; }
+
+    // Of posts of a window whose rows may run the other way.
+    Result<void> places(const LatticeWindow& window, bool upside_down, std::span<const PostNumber> posts,
+                        std::span<PostPlace> places) const {
+        const auto& m = source_.crs_from_post;
+        std::vector<double> x(posts.size()), y(posts.size()), z(posts.size());
+        std::vector<int> done(posts.size());
+        for (std::size_t i = 0; i < posts.size(); ++i) {
+            const double row = static_cast<double>(window.row) +
+                               (upside_down ? window.rows - 1 - posts[i].row : posts[i].row);
+            const double column = static_cast<double>(window.column) + posts[i].column;
+            x[i] = m[0] + m[1] * column + m[2] * row;
+            y[i] = m[3] + m[4] * column + m[5] * row;
+        }
+        const GdalMessages messages;
+        OCTTransformEx(outwards_.get(), static_cast<int>(x.size()), x.data(), y.data(), z.data(),
+                       done.data());
+        for (std::size_t i = 0; i < posts.size(); ++i) {
+            if (!done[i] || !std::isfinite(x[i]) || !std::isfinite(y[i]))
+                return Error{
+                    ErrorKind::failed, source_.report.path,
+                    "post " + std::to_string(posts[i].row) + ", " + std::to_string(posts[i].column) +
+                        " cannot be placed on the Earth: " + messages.last("it lies outside its CRS")};
+            places[i] = {y[i], x[i]};
+        }
+        return {};
+    }
+
+  private:
+    const Source& source_;
+    SpatialReference crs_;
+    CoordinateTransformation outwards_;
+};
+
+// Do rows run as north does from east in the window's middle, seen from above?
+Result<bool> runs_northwards(const SourcePlaces& source, const LatticeWindow& window) {
+    const double row = 0.5 * (window.rows - 1), column = 0.5 * (window.columns - 1);
+    const std::array<PostNumber, 3> posts{{{row, column}, {row, column + 1.0}, {row + 1.0, column}}};
+    std::array<PostPlace, 3> places{};
+    ORO_CHECK(source.places(window, false, posts, places));
+    std::array<glm::dvec3, 3> at{};
+    for (std::size_t i = 0; i < 3; ++i) at[i] = ecef_from_enu(places[i].lat_deg, places[i].lon_deg)[2];
+    return glm::dot(glm::cross(at[1] - at[0], at[2] - at[0]), at[0]) > 0.0;
+}
+
+Result<std::shared_ptr<const GridNet>> net_of(const Source& source, const SourcePlaces& places,
+                                              const LatticeWindow& window, bool upside_down) {
+    auto net = GridNet::fit(window.rows, window.columns,
+                            [&](std::span<const PostNumber> posts, std::span<PostPlace> there) {
+                                return places.places(window, upside_down, posts, there);
+                            });
+    if (!net.ok() && net.error().where == "grid of posts")
+        return Error{net.error().kind, source.report.path,
+                     net.error().what + ". Leave --own-posts out: it is then resampled"};
+    return net;
+}
+
+// Rows and columns of a net that a box touches, one post more on each side; none of those where it touches
+// none.
+PostWindow window_in(const GridNet& net, const BoundingBox& box) {
+    constexpr int steps = 64;
+    double north = net.rows(), south = -1.0, west = net.columns(), east = -1.0;
+    for (int i = 0; i <= steps; ++i) {
+        for (int j = 0; j <= steps; ++j) {
+            const PostNumber post = net.post_at(box.south_deg + (box.north_deg - box.south_deg) * i / steps,
+                                                box.west_deg + (box.east_deg - box.west_deg) * j / steps);
+            north = std::min(north, post.row);
+            south = std::max(south, post.row);
+            west = std::min(west, post.column);
+            east = std::max(east, post.column);
+        }
+    }
+    const auto held = [](double number, int posts) {
+        return static_cast<int>(std::clamp(number, 0.0, posts - 1.0));
+    };
+    if (north > net.rows() - 1.0 || south < 0.0 || west > net.columns() - 1.0 || east < 0.0) return {};
+    const int first_row = held(std::floor(north), net.rows()), last_row = held(std::ceil(south), net.rows());
+    const int first_column = held(std::floor(west), net.columns()),
+              last_column = held(std::ceil(east), net.columns());
+    return {first_row, first_column, last_row - first_row + 1, last_column - first_column + 1};
+}
+
+PostGrid grid_of(std::shared_ptr<const GridNet> net) {
+    // Its axes count, and say nothing else: what asks them for an angle gets no number.
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    PostGrid grid;
+    grid.lat = {nothing, nothing, 0, -1, net->rows()};
+    grid.lon = {nothing, nothing, 0, +1, net->columns()};
+    grid.net = std::move(net);
+    return grid;
+}
+
+// Where a source's first post lies on the lattice of another; an error where it is not on it.
+struct LatticePlace {
+    std::int64_t row{}, column{};
+};
+Result<LatticePlace> place_on_lattice(const Source& source, const Source& first) {
+    const Error apart{
+        ErrorKind::usage, "--own-posts",
+        "needs files whose posts lie on one lattice: " + source.report.path + " and " + first.report.path +
+            " differ in their CRS, spacing, turn or by parts of a post. Open them one by one, or leave "
+            "--own-posts out: they are then resampled onto one grid"};
+    const SpatialReference one = spatial_reference(source.crs_wkt), other = spatial_reference(first.crs_wkt);
+    if (!one || !other || !OSRIsSame(one.get(), other.get())) return apart;
+    const auto &m = source.crs_from_post, &to = first.crs_from_post;
+    const double determinant = to[1] * to[5] - to[2] * to[4];
+    const double x = m[0] - to[0], y = m[3] - to[3];
+    const double column = (x * to[5] - y * to[2]) / determinant, row = (y * to[1] - x * to[4]) / determinant;
+    // At the far end of the source, too.
+    constexpr double same_post = 0.01;
+    const double far = std::max(source.report.rows, source.report.columns);
+    const double post = std::sqrt(std::abs(determinant));
+    double off = std::max(std::abs(row - std::round(row)), std::abs(column - std::round(column)));
+    for (const std::size_t i : {1U, 2U, 4U, 5U}) off = std::max(off, std::abs(m[i] - to[i]) * far / post);
+    if (!(off < same_post)) return apart;
+    return LatticePlace{std::llround(row), std::llround(column)};
+}
+
+// The rectangle of all sources; the places of each.
+Result<LatticeWindow> window_of_all(std::span<const Source> sources, std::vector<LatticePlace>& places) {
+    std::int64_t north = 0, west = 0, south = 0, east = 0;
+    for (const Source& source : sources) {
+        ORO_TRY(const LatticePlace place, place_on_lattice(source, sources.front()));
+        places.push_back(place);
+        north = std::min(north, place.row);
+        west = std::min(west, place.column);
+        south = std::max(south, place.row + source.report.rows);
+        east = std::max(east, place.column + source.report.columns);
+    }
+    const BoundingBox box = sources.front().report.box;
+    ORO_CHECK(check_size(static_cast<double>(south - north), static_cast<double>(east - west), box, sources));
+    return LatticeWindow{north, west, static_cast<int>(south - north), static_cast<int>(east - west)};
+}
+
+}  // namespace
+
+Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<BoundingBox>& box) {
+    const Source& first = sources.front();
+    const SourcePlaces places(first);
+    if (!places.usable())
+        return Error{ErrorKind::failed, first.report.path,
+                     "cannot be placed on the Earth: PROJ knows no way"};
+    std::vector<LatticePlace> starts;
+    ORO_TRY(LatticeWindow window, window_of_all(sources, starts));
+    if (window.rows < 2 || window.columns < 2)
+        return Error{ErrorKind::no_data, first.report.path,
+                     "its posts lie on a line or a point, and cover no area"};
+    OwnPosts own;
+    ORO_TRY(own.upside_down, runs_northwards(places, window));
+    ORO_TRY(auto net, net_of(first, places, window, own.upside_down));
+    if (box) {
+        const PostWindow part = window_in(*net, unwrapped(*box));
+        if (part.rows < 2 || part.columns < 2)
+            return Error{ErrorKind::no_data, first.report.path, "has no posts in the box that was asked for"};
+        window.column += part.column;
+        window.row += own.upside_down ? window.rows - part.row - part.rows : part.row;
+        window.columns = part.columns;
+        window.rows = part.rows;
+        ORO_TRY(net, net_of(first, places, window, own.upside_down));
+    }
+    for (const LatticePlace& start : starts)
+        own.parts.push_back(
+            {static_cast<int>(start.row - window.row), static_cast<int>(start.column - window.column)});
+    own.grid = grid_of(std::move(net));
+    return own;
+}
+
+namespace {
+
+// N of all posts.
+std::vector<float> N_of_all_m(const PostGrid& grid, const UndulationField& undulation) {
+    std::vector<float> N_m;
+    if (undulation.N_m.empty()) return N_m;
+    N_m.resize(grid.post_count());
+    const auto columns = static_cast<std::size_t>(grid.columns());
+    in_parallel(grid.rows(), thread_count(), [&](int row) {
+        std::vector<glm::dvec3> normals(columns);
+        grid.net->normals_of_row(row, 0, normals);
+        for (std::size_t c = 0; c < columns; ++c) {
+            const PostPlace place = place_of_normal(normals[c]);
+            N_m[static_cast<std::size_t>(row) * columns + c] =
+                static_cast<float>(undulation.at_m(place.lat_deg, place.lon_deg));
+        }
+    });
+    return N_m;
+}
+
+// Heights of a stretch of one of the region's rows.
+Result<void> shift_row(GeoidOfRegion::Shift& shift, const OwnLaying& laying, int row, int first_column,
+                       std::span<float> heights) {
+    if (shift.does_nothing()) return {};
+    for (std::size_t c = 0; c < heights.size(); ++c) {
+        if (is_void(heights[c])) continue;
+        const PostPlace place = laying.posts.grid.net->place_at(row, first_column + static_cast<double>(c));
+        ORO_CHECK(shift.apply(laying.undulation, place.lat_deg, {&place.lon_deg, 1}, heights.subspan(c, 1)));
+    }
+    return {};
+}
+
+// What of a source lies in the region, by its own numbers.
+PostWindow window_within(const Source& source, const OwnPart& part, const PostGrid& grid) {
+    const auto from = [](int start) { return std::max(0, -start); };
+    const int row = from(part.row), column = from(part.column);
+    return {row, column, std::min(source.report.rows, grid.rows() - part.row) - row,
+            std::min(source.report.columns, grid.columns() - part.column) - column};
+}
+
+// Reads a source in strips that fit memory.
+Result<void> lay_rows(Source& source, const OwnPart& part, const OwnLaying& laying,
+                      GeoidOfRegion::Shift& shift, JoinedSurface& surface) {
+    constexpr std::size_t posts_a_strip = std::size_t{1} << 26;
+    const PostGrid& grid = laying.posts.grid;
+    const PostWindow window = window_within(source, part, grid);
+    if (window.rows <= 0 || window.columns <= 0) return {};
+    SourceReport& report = source.report;
+    const auto columns = static_cast<std::size_t>(window.columns);
+    const int strip = static_cast<int>(
+        std::clamp<std::size_t>(posts_a_strip / columns, 1, static_cast<std::size_t>(window.rows)));
+    const int first_column = part.column + window.column;
+    std::vector<float> heights(columns);
+    const std::vector<unsigned char> inside(columns, 1);
+    SourcePrint print;
+    print.begin(grid, part.row + window.row, first_column, window.rows, window.columns);
+    for (int first = window.row; first < window.row + window.rows; first += strip) {
+        const int rows = std::min(strip, window.row + window.rows - first);
+        ORO_TRY(const PostBlock block, read_posts(source, {first, window.column, rows, window.columns}));
+        report.voids += block.voids;
+        report.implausible += block.implausible;
+        for (int from = first; from < first + rows; ++from) {
+            const int row = laying.posts.upside_down ? grid.rows() - 1 - (part.row + from) : part.row + from;
+            for (std::size_t c = 0; c < columns; ++c)
+                heights[c] = block.at(from, window.column + static_cast<int>(c));
+            ORO_CHECK(shift_row(shift, laying, row, first_column, heights));
+            surface.lay(row, first_column, heights, inside, true, report.seams);
+            print.add(heights);
+            for (const float height : heights) {
+                if (is_void(height)) continue;
+                report.lowest_m = std::min(report.lowest_m, static_cast<double>(height));
+                report.highest_m = std::max(report.highest_m, static_cast<double>(height));
+            }
+        }
+    }
+    report.posts_print = print.print();
+    return {};
+}
+
+Result<void> lay_one(Source& source, const OwnPart& part, const OwnLaying& laying, JoinedSurface& surface,
+                     std::vector<std::string>& notes) {
+    SourceReport& report = source.report;
+    const PostGrid& grid = laying.posts.grid;
+    GeoidOfRegion::Shift shift;
+    if (!source.vertical_crs.empty()) {
+        const BoundingBox box{grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()};
+        auto found = laying.geoid.shift_from(source.vertical_crs, box, laying.strict_datum);
+        if (!found) return Error{found.error().kind, report.path, found.error().line()};
+        shift = std::move(*found);
+        report.vertical_datum.egm96_stands_in = shift.egm96_stands_in();
+        add_note(notes, shift.note());
+    }
+    report.lowest_m = std::numeric_limits<double>::max();
+    report.highest_m = std::numeric_limits<double>::lowest();
+    report.placement = Placement{Fit::same_posts, 0.0, 1, 1};
+    ORO_CHECK(lay_rows(source, part, laying, shift, surface));
+    if (report.lowest_m > report.highest_m) report.lowest_m = report.highest_m = 0.0;
+    if (shift.beyond_grid() > 0) {
+        const std::string what = std::to_string(shift.beyond_grid()) + " posts of " + report.path +
+                                 " lie outside the grid of its vertical datum";
+        if (laying.strict_datum) return Error{ErrorKind::failed, report.path, what};
+        add_note(notes, what + ": EGM96 stands in there");
+    }
+    if (report.implausible > 0)
+        add_note(notes, report.path + ": " + std::to_string(report.implausible) +
+                            " heights below -12,000 m or above 9,000 m are taken as void");
+    return {};
+}
+
+}  // namespace
+
+Result<void> lay_own_posts(std::vector<Source>& sources, const OwnLaying& laying, JoinedSurface& surface,
+                           std::vector<float>& N_of_posts_m, std::vector<std::string>& notes,
+                           const Progress& progress) {
+    N_of_posts_m = N_of_all_m(laying.posts.grid, laying.undulation);
+    std::size_t done = 0;
+    for (const std::size_t i : by_precedence(sources)) {
+        if (progress)
+            progress(0.1 + 0.85 * static_cast<double>(done++) / static_cast<double>(sources.size()),
+                     "reading " + sources[i].report.path);
+        ORO_CHECK(lay_one(sources[i], laying.posts.parts[i], laying, surface, notes));
+    }
+    return {};
+}
+
+}  // namespace oro

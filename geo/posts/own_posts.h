@@ -1,0 +1,49 @@
+// A region whose posts are those of its files, in a CRS of their own: nothing is resampled.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/terrain/post_grid.h"
+#include "geo/datum/vertical_datum.h"
+#include "geo/posts/seams.h"
+#include "geo/sources/source.h"
+
+namespace oro {
+
+// Where a source's first post lies among those of the region.
+struct OwnPart {
+    int row{};
+    int column{};
+};
+
+// The posts that a region is made of, and where they lie.
+struct OwnPosts {
+    PostGrid grid;
+    bool upside_down{};          // rows of the sources run northwards, and the region's the other way
+    std::vector<OwnPart> parts;  // of each source; by the source's own rows, the region's are counted from
+                                 // below where they are upside down
+};
+
+// All posts of sources that share one lattice (CRS, spacing, turn, and places a whole number of posts apart),
+// or those around a box (whole rows and columns). Places are PROJ's to 0.02 mm (core/net/grid_net.h). Errors:
+// sources that do not (usage, naming two of them); a CRS that PROJ cannot turn into WGS84; places that do not
+// follow smoothly from row and column; more posts than memory holds; nothing in the box (no_data).
+Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<BoundingBox>& box);
+
+// Reads them and lays them into the surface, in order of precedence, as lay_sources() does. Puts N of each
+// post into `N_of_posts_m`, unless N is 0 everywhere.
+struct OwnLaying {
+    const OwnPosts& posts;
+    const UndulationField& undulation;
+    const GeoidOfRegion& geoid;
+    bool strict_datum{};
+};
+Result<void> lay_own_posts(std::vector<Source>& sources, const OwnLaying& laying, JoinedSurface& surface,
+                           std::vector<float>& N_of_posts_m, std::vector<std::string>& notes,
+                           const Progress& progress);
+
+}  // namespace oro
