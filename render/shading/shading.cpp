@@ -2,12 +2,15 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "spirv/air_tables_comp.h"
 #include "spirv/drape_wants_comp.h"
 #include "spirv/edges_comp.h"
 #include "spirv/openness_comp.h"
+#include "spirv/shade_air_comp.h"
 #include "spirv/shade_comp.h"
+#include "spirv/shade_map_comp.h"
 #include "spirv/shares_comp.h"
 #include "spirv/tops_comp.h"
 
@@ -16,6 +19,12 @@ namespace {
 
 VkBool32 flag(bool on) {
     return on ? VK_TRUE : VK_FALSE;
+}
+
+std::span<const std::uint32_t> shade_words(const ShadingKind& kind) {
+    if (kind.in_air) return shade_air_comp_spirv;
+    if (kind.as_map) return shade_map_comp_spirv;
+    return shade_comp_spirv;
 }
 
 }  // namespace
@@ -34,21 +43,19 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
     OwnedPipeline& shade = pipelines.shades[kind];
     if (shade) return shade.get();
     // By constant_id of shade.comp.
-    const std::array<VkBool32, 10> values{flag(path == RasterPath::compute),
-                                          flag(kind.as_map),
-                                          flag(kind.in_air),
-                                          flag(kind.casts),
-                                          flag(kind.opens),
-                                          flag(kind.draped),
-                                          flag(kind.by_means),
-                                          flag(kind.edges_follow),
-                                          flag(kind.parts_follow),
-                                          flag(kind.parts_alone)};
+    const std::array<VkBool32, 8> values{flag(path == RasterPath::compute),
+                                         flag(kind.casts),
+                                         flag(kind.opens),
+                                         flag(kind.draped),
+                                         flag(kind.by_means),
+                                         flag(kind.edges_follow),
+                                         flag(kind.parts_follow),
+                                         flag(kind.parts_alone)};
     std::array<VkSpecializationMapEntry, values.size()> entries{};
     for (std::uint32_t i = 0; i < entries.size(); ++i)
         entries[i] = {i, i * std::uint32_t{sizeof(VkBool32)}, sizeof(VkBool32)};
     const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
-    ORO_TRY(shade, create_compute_pipeline(gpu, pipelines, shade_comp_spirv, "shade", &constants));
+    ORO_TRY(shade, create_compute_pipeline(gpu, pipelines, shade_words(kind), "shade", &constants));
     return shade.get();
 }
 

@@ -44,7 +44,7 @@ mat2 drape_per_px(SurfacePoint point) {
     vec3 up = normalize(point.view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
     vec3 east = cross(FRAME.view_from_eye * vec3(0.0, 0.0, 1.0), up);
     east = dot(east, east) < 1.0e-12 ? FRAME.view_from_eye * vec3(0.0, 1.0, 0.0) : normalize(east);
-    vec3 north = cross(up, east), slope = point.drape_normal;
+    vec3 north = cross(up, east), slope = point.smooth_normal;
     vec3 normal = slope.x * east + slope.y * north + slope.z * up, ray = point.view / -point.view.z;
     // Slopes that turn away from the eye, and those at a rim, are taken for ones that it sees at 7 degrees: their triangles face it, and a
     // longer footprint would reach over the ridge.

@@ -111,6 +111,14 @@ vec3 imaged_tint(Images images, inout SurfacePoint point) {
     return mix(colour, images.colour, images.share);
 }
 
+#ifdef IN_AIR
+void add_place(inout GroundLight sum, Images images, SurfacePoint point, vec3 sun, float share) {
+    vec3 albedo = share * imaged_tint(images, point), normal = steeper(point.normal, FRAME.style.relief);
+    sum.colour += albedo;
+    sum.lit += albedo * facing(normal, sun);
+    sum.open += albedo * (0.5 + 0.5 * normal.z);
+}
+#else
 // In linear light, before any air.
 vec3 place_colour(Images images, SurfacePoint point) {
     vec3 colour = imaged_tint(images, point);
@@ -124,15 +132,9 @@ vec3 place_colour(Images images, SurfacePoint point) {
 }
 
 void add_place(inout GroundLight sum, Images images, SurfacePoint point, vec3 sun, float share) {
-    if (!in_air) {
-        sum.colour += share * place_colour(images, point);
-        return;
-    }
-    vec3 albedo = share * imaged_tint(images, point), normal = steeper(point.normal, FRAME.style.relief);
-    sum.colour += albedo;
-    sum.lit += albedo * facing(normal, sun);
-    sum.open += albedo * (0.5 + 0.5 * normal.z);
+    sum.colour += share * place_colour(images, point);
 }
+#endif
 
 // Each part of the footprint has ground of several slopes, coloured one by one: places that have the mean and the covariance of its
 // normals, as sigma points have. Source: S. Julier, J. Uhlmann, A new extension of the Kalman filter to nonlinear systems, 1997.

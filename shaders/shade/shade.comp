@@ -1,16 +1,25 @@
 #version 460
 // Colours each pixel once: turns its triangle id back into a place on the surface, and that into light.
 #extension GL_GOOGLE_include_directive : require
-// A map: any FrameStyle that is not tints by height, as light, in the sun and in air. Code of its own, so that other pictures pay nothing.
-layout(constant_id = 1) const bool as_map = false;
-layout(constant_id = 2) const bool in_air = false;  // FrameStyle.air
-layout(constant_id = 3) const bool casts = false;   // FrameStyle.shadows
-layout(constant_id = 4) const bool opens = false;   // FrameStyle.sky_openness
-layout(constant_id = 5) const bool draped = false;  // FrameConstants.drape
-layout(constant_id = 6) const bool by_means = false;  // FrameStyle.footprint
+// Three programs, by what is defined: the drivers that compile for processors join all that a program names before they leave out what its
+// constants never ask for, and that takes them longer than to draw.
+#ifdef AS_MAP
+const bool as_map = true;  // any FrameStyle that is not tints by height, as light, in the sun and in air
+#else
+const bool as_map = false;
+#endif
+#ifdef IN_AIR
+const bool in_air = true;  // FrameStyle.air
+#else
+const bool in_air = false;
+#endif
+layout(constant_id = 1) const bool casts = false;     // FrameStyle.shadows
+layout(constant_id = 2) const bool opens = false;     // FrameStyle.sky_openness
+layout(constant_id = 3) const bool draped = false;    // FrameConstants.drape
+layout(constant_id = 4) const bool by_means = false;  // FrameStyle.footprint
 // Two programs share the pixels of a style in air: near ground and what is no ground, in small code, then footprints of several parts.
-layout(constant_id = 8) const bool parts_follow = false;
-layout(constant_id = 9) const bool parts_alone = false;
+layout(constant_id = 6) const bool parts_follow = false;
+layout(constant_id = 7) const bool parts_alone = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
@@ -32,7 +41,7 @@ layout(constant_id = 9) const bool parts_alone = false;
 #include "shaders/cast/cast_on.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 7) const bool edges_follow = false;  // edges.comp makes the picture of `sum`
+layout(constant_id = 5) const bool edges_follow = false;  // edges.comp makes the picture of `sum`
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
 // Written by a function: glslang 12.0 does not end on such an assignment in main().
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Depths { float at[]; };
@@ -74,24 +83,31 @@ bool shade(ivec2 pixel) {
     if (id == 0u && parts_alone) return false;
     float depth = 0.0;
     vec3 colour;
+#ifdef IN_AIR
     LitPlace place;
     bool is_sky = false;
+#endif
     if (id == 0u) {
-        if (in_air) is_sky = sees_sky(normalize(ray), colour, place);
-        else colour = seen_background(normalize(ray));
+#ifdef IN_AIR
+        is_sky = sees_sky(normalize(ray), colour, place);
+#else
+        colour = seen_background(normalize(ray));
+#endif
     } else {
         SurfacePoint point = surface_at(id - 1u, ray);
         if (point.is_left) return false;
         depth = FRAME.near_m / -point.view.z;
         cast_on(id - 1u, point, pixel);
         look_for_snow(point);
-        if (in_air) place = ground_place(point);
-        else colour = seen_ground(point);
+#ifdef IN_AIR
+        place = ground_place(point);
     }
-    if (in_air) {
-        if (!is_sky) colour = through_air(sent_by(place), place.view);
-        colour = shown(colour);
+    if (!is_sky) colour = through_air(sent_by(place), place.view);
+    colour = shown(colour);
+#else
+        colour = seen_ground(point);
     }
+#endif
     // From the triangle and the pixel alone, so that both ways of drawing give the same.
     keep_depth(pixel, depth);
     keep_colour(pixel, colour, id == 0u ? 0.0 : 1.0);

@@ -1,5 +1,6 @@
 // Slopes of the smoothed surface, from a page's posts: at each post by Horn's formula, as gdaldem computes them, and bilinear between
 // posts. For styles that show the slope itself. Needs surface.glsl's readers of posts.
+#ifdef AS_MAP
 
 // A neighbour's height in steps: across from it where it is void, so that the slope goes on; the post's own where both are.
 float height_across(PageBlocks block, ivec2 post, ivec2 step, int here) {
@@ -41,8 +42,14 @@ vec2 geoid_rise(vec2 region, vec2 post_m) {
 vec3 horn_normal_at(PageBlocks block, FramePage page, vec2 post) {
     ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 in_cell = post - vec2(cell);
-    vec2 north = mix(rise_at_post(block, page, cell), rise_at_post(block, page, cell + ivec2(0, 1)), in_cell.y);
-    vec2 south = mix(rise_at_post(block, page, cell + ivec2(1, 0)), rise_at_post(block, page, cell + ivec2(1, 1)), in_cell.y);
+    // One place in the code: four of them are much for a driver to compile.
+    vec2 west, north, south;
+    for (int i = 0; i < 4; ++i) {
+        vec2 rise = rise_at_post(block, page, cell + ivec2(i / 2, i % 2));
+        if (i % 2 == 0) west = rise;
+        else if (i == 1) north = mix(west, rise, in_cell.y);
+        else south = mix(west, rise, in_cell.y);
+    }
     float cosine = RowTable(FRAME.row_terms).at[page.row_terms + uint(cell.x)].cosine;
     vec2 post_m = vec2(max(abs(cosine) * block.at[0].column_spacing_m, 1.0e-3), block.at[0].row_spacing_m);
     vec2 rise = mix(north, south, in_cell.x) - geoid_rise(region_post(page, post), post_m);
@@ -51,3 +58,6 @@ vec3 horn_normal_at(PageBlocks block, FramePage page, vec2 post) {
     find_row_turn(block, post);
     return turned_east(normalize(vec3(-rise, 1.0)));
 }
+#else
+vec3 horn_normal_at(PageBlocks block, FramePage page, vec2 post) { return vec3(0.0, 0.0, 1.0); }  // nobody asks for it
+#endif

@@ -20,7 +20,7 @@ struct SurfacePoint {
     ivec2 drape_post;  // for images over the ground: (row, column) in the region, whole posts ...
     vec2 drape_part;   // ... and the rest,
     vec2 drape_post_m; // ... metres from a post to the next
-    vec3 drape_normal; // ... and the smooth surface's normal, whatever `normal` is
+    vec3 smooth_normal; // ... and the smooth surface's normal, whatever `normal` is
 };
 
 int height_or(PageBlocks block, ivec2 post, int otherwise) {
@@ -131,10 +131,6 @@ float undulation_at(vec2 post) {
 bool shows_angles() {
     return FRAME.style.colour_by != colour_by_height || FRAME.style.light == light_hillshade || FRAME.style.light == light_relief;
 }
-vec3 shading_normal_at(PageBlocks block, FramePage page, vec2 post) {
-    if (as_map && shows_angles()) return horn_normal_at(block, page, post);
-    return normal_at(block, page, post);
-}
 
 #include "shaders/shade/water_share.glsl"
 #include "shaders/shade/footprint.glsl"
@@ -224,17 +220,22 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     if (point.is_left) return point;
     vec2 post = point.post;
     if (!by_means || in_air || draped) descend(page, post, length(point.view));
-    if (!by_means) point.normal = shading_normal_at(PageBlocks(page.block), page, post);
+    bool shows_angle = as_map && shows_angles();
+    if (draped || (!by_means && !shows_angle)) point.smooth_normal = normal_at(PageBlocks(page.block), page, post);
+    if (!by_means && shows_angle) point.normal = horn_normal_at(PageBlocks(page.block), page, post);
+    else if (!by_means) point.normal = point.smooth_normal;
     point.lat_deg = point.snow_line_m = 0.0;
     point.wide_level = 1.0;
     if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
         RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + uint(clamp(post.x, 0.0, float(page_quads)))];
         point.lat_deg = degrees(atan(row.S, row.C));
     }
-    point.water = in_air && FRAME.style.water.on == 1u ? water_share(page, post) : 0.0;
+    point.water = 0.0;
+#ifdef IN_AIR
+    if (FRAME.style.water.on == 1u) point.water = water_share(page, post);
+#endif
     if (draped) {
         PageBlocks block = PageBlocks(page.block);
-        point.drape_normal = normal_at(block, page, post);
         float cosine = abs(RowTable(FRAME.row_terms).at[page.row_terms + uint(post.x)].cosine);
         point.drape_post_m = vec2(block.at[0].row_spacing_m, max(cosine * block.at[0].column_spacing_m, 1.0e-3));
     }

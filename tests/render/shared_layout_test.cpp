@@ -19,7 +19,9 @@
 #include "spirv/live_pages_comp.h"
 #include "spirv/raster_comp.h"
 #include "spirv/raster_large_comp.h"
+#include "spirv/shade_air_comp.h"
 #include "spirv/shade_comp.h"
+#include "spirv/shade_map_comp.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_task.h"
 #include "spirv/tops_comp.h"
@@ -61,6 +63,8 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
           std::span<const std::uint32_t>(raster_comp_spirv),
           std::span<const std::uint32_t>(raster_large_comp_spirv),
           std::span<const std::uint32_t>(shade_comp_spirv),
+          std::span<const std::uint32_t>(shade_map_comp_spirv),
+          std::span<const std::uint32_t>(shade_air_comp_spirv),
           std::span<const std::uint32_t>(drape_wants_comp_spirv),
           std::span<const std::uint32_t>(triangles_comp_spirv),
           std::span<const std::uint32_t>(tops_comp_spirv)}) {
