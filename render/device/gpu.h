@@ -1,7 +1,9 @@
 // The device: which GPUs there are, what they can do, and the one that draws.
 #pragma once
 
+#include <compare>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -74,6 +76,15 @@ Result<RasterPath> raster_path_for(const std::string& request, const DeviceRepor
 // "mesh" or "compute".
 std::string name_of(RasterPath path);
 
+struct Pipelines;  // render/frame/pipelines.h
+
+// Which of a device's pipelines: those of one way of drawing, that record where posts are placed or not.
+struct PipelinesKey {
+    RasterPath path{};
+    bool record_positions{};
+    auto operator<=>(const PipelinesKey&) const = default;
+};
+
 // Instance, device, queue. Not copyable or movable: everything else points to it.
 class Gpu {
   public:
@@ -100,6 +111,11 @@ class Gpu {
     // Messages of the validation layer so far (warnings and errors).
     [[nodiscard]] const std::vector<std::string>& validation_messages() const { return messages_; }
 
+    // Null until somebody keeps some there (render/frame/pipelines.h, shared_pipelines); they end with the
+    // device.
+    [[nodiscard]] std::shared_ptr<Pipelines>& kept_pipelines(const PipelinesKey& key) const {
+        return kept_pipelines_[key];
+    }
     // Memory type with all of `properties` among the allowed bits; nothing when the device has none.
     [[nodiscard]] std::optional<std::uint32_t> memory_type(std::uint32_t allowed_bits,
                                                            VkMemoryPropertyFlags properties) const;
@@ -127,6 +143,7 @@ class Gpu {
     DeviceReport report_;
     VkPhysicalDeviceMemoryProperties memory_{};
     std::vector<std::string> messages_;
+    mutable std::map<PipelinesKey, std::shared_ptr<Pipelines>> kept_pipelines_;
     PFN_vkCmdDrawMeshTasksIndirectEXT draw_mesh_tasks_indirect_{nullptr};
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name_{nullptr};
 };

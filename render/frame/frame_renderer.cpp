@@ -51,7 +51,7 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     FrameRenderer renderer(gpu);
     renderer.options_ = options;
     ORO_TRY(renderer.pipelines_,
-            create_pipelines(gpu, options.path, {options.record_positions, options.keep_triangles}));
+            shared_pipelines(gpu, options.path, {options.record_positions, options.keep_triangles}));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -111,7 +111,7 @@ Result<void> FrameRenderer::create_set() {
     ORO_VK(vkCreateDescriptorPool(gpu_->device(), &pool, nullptr, &pool_handle));
     pool_ = OwnedDescriptorPool(gpu_->device(), pool_handle);
     gpu_->name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_handle, "frame");
-    const VkDescriptorSetLayout layout = pipelines_.set.get();
+    const VkDescriptorSetLayout layout = pipelines_->set.get();
     VkDescriptorSetAllocateInfo set{};
     set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     set.descriptorPool = pool_handle;
@@ -231,10 +231,11 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = style;
-    ORO_CHECK(drape_.prepare(*gpu_, options_.path, pipelines_, options_.shades ? drape : nullptr, constants));
+    ORO_CHECK(
+        drape_.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? drape : nullptr, constants));
     if (options_.shades) {
-        ORO_CHECK(air_.prepare(*gpu_, pipelines_, constants));
-        ORO_CHECK(casters_.prepare(*gpu_, options_.path, pipelines_, plan, constants));
+        ORO_CHECK(air_.prepare(*gpu_, *pipelines_, constants));
+        ORO_CHECK(casters_.prepare(*gpu_, options_.path, *pipelines_, plan, constants));
         ORO_CHECK(choose_shading(constants));
     }
     address_choice(constants);
@@ -263,17 +264,17 @@ void FrameRenderer::record_upload(VkCommandBuffer commands, const FramePlan& pla
 
 // Levels: which nodes of which pages, for whichever way of drawing follows.
 void FrameRenderer::record_choice(VkCommandBuffer commands, const FramePlan& plan) const {
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1, &set_, 0,
-                            nullptr);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->layout.get(), 0, 1, &set_,
+                            0, nullptr);
     const auto count = static_cast<std::uint32_t>(plan.pages.size());
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.accept.get());
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->accept.get());
     if (count > 0)
         vkCmdDispatch(commands, std::min(count, gpu::groups_per_row),
                       (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.live_pages.get());
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->live_pages.get());
     vkCmdDispatch(commands, 1, 1, 1);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
@@ -307,8 +308,8 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
         0.0F, 1.0F};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.terrain.get());
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout.get(), 0, 1, &set_,
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->terrain.get());
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout.get(), 0, 1, &set_,
                             0, nullptr);
     gpu_->draw_mesh_tasks_indirect()(commands, choice_.handle.get(), offsetof(gpu::LivePages, task_groups), 1,
                                      0);
@@ -330,7 +331,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
     record_choice(commands, plan);
     stamp(1);
     if (compute_) {
-        compute_->record(commands, pipelines_, plan, choice_.handle.get());
+        compute_->record(commands, *pipelines_, plan, choice_.handle.get());
     } else {
         record_raster(commands, plan);
     }
@@ -364,8 +365,8 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
     report.pages = plan.pages.size();
     if (!compute_)
-        report.task_groups =
-            std::uint64_t{report.counts.pages_live} * (gpu::meshlets_per_page / pipelines_.meshlets_per_task);
+        report.task_groups = std::uint64_t{report.counts.pages_live} *
+                             (gpu::meshlets_per_page / pipelines_->meshlets_per_task);
     if (report.counts.triangles_not_clipped > 0)
         return Error{ErrorKind::failed, "picture",
                      std::to_string(report.counts.triangles_not_clipped) +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -118,7 +119,7 @@ class FrameRenderer {
 
     const Gpu* gpu_;
     FrameRendererOptions options_;
-    Pipelines pipelines_;
+    std::shared_ptr<Pipelines> pipelines_;
     VkPipeline shade_{VK_NULL_HANDLE}, shade_parts_{VK_NULL_HANDLE}, edges_{VK_NULL_HANDLE};  // of the frame
     std::optional<ComputeRaster> compute_;
     AirTables air_;

@@ -29,14 +29,14 @@ Result<void> FrameRenderer::choose_shading(gpu::FrameConstants& constants) {
     kind.by_means = constants.has_means != 0 && asks_for_means(style);
     kind.edges_follow = options_.smooth_edges;
     kind.parts_follow = kind.by_means && kind.in_air && style.footprint == gpu::footprint_mean;
-    ORO_TRY(shade_, shading_for(*gpu_, options_.path, kind, pipelines_));
+    ORO_TRY(shade_, shading_for(*gpu_, options_.path, kind, *pipelines_));
     if (kind.edges_follow) {
-        ORO_TRY(edges_, edges_for(*gpu_, options_.path, kind, pipelines_));
+        ORO_TRY(edges_, edges_for(*gpu_, options_.path, kind, *pipelines_));
     }
     shade_parts_ = VK_NULL_HANDLE;
     if (!kind.parts_follow) return {};
     std::swap(kind.parts_follow, kind.parts_alone);
-    ORO_TRY(shade_parts_, shading_for(*gpu_, options_.path, kind, pipelines_));
+    ORO_TRY(shade_parts_, shading_for(*gpu_, options_.path, kind, *pipelines_));
     const VkDeviceSize bytes =
         sizeof(gpu::uint) * VkDeviceSize{tiles_of(options_.extent.width)} * tiles_of(options_.extent.height);
     if (tiles_in_parts_.size < bytes) {
@@ -50,13 +50,13 @@ Result<void> FrameRenderer::choose_shading(gpu::FrameConstants& constants) {
 }
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
-    air_.record(commands, pipelines_);
+    air_.record(commands, *pipelines_);
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
                   drape_.is_on() ? shader_read
                   : compute_     ? unused
                                  : as_colour,
                   shader_read);
-    casters_.record(commands, pipelines_);
+    casters_.record(commands, *pipelines_);
     const bool first = plan.constants.sample_index == 0;
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
@@ -82,7 +82,7 @@ void FrameRenderer::record_ids_alone(VkCommandBuffer commands) const {
 
 void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {
     record_ids_alone(commands);
-    drape_.record(commands, pipelines_, plan.constants);
+    drape_.record(commands, *pipelines_, plan.constants);
 }
 
 // The same question again. Another seed: two tiles of one hash have others now.
@@ -94,9 +94,9 @@ Result<void> FrameRenderer::ask_again(const FramePlan& plan, std::uint32_t seed)
         memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
                        VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_UNIFORM_READ_BIT);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1,
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->layout.get(), 0, 1,
                                 &set_, 0, nullptr);
-        drape_.record(commands, pipelines_, plan.constants);
+        drape_.record(commands, *pipelines_, plan.constants);
     });
 }
 
@@ -118,7 +118,7 @@ Result<bool> FrameRenderer::bring_images(const FramePlan& plan) {
 Result<bool> FrameRenderer::shade_with_images(const FramePlan& plan) {
     ORO_TRY(const bool settled, bring_images(plan));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.layout.get(), 0, 1,
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->layout.get(), 0, 1,
                                 &set_, 0, nullptr);
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 4);
         record_shade(commands, plan);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 #include <span>
+#include <utility>
 
 #include "shaders/shared.h"
 #include "spirv/accept_comp.h"
@@ -209,6 +211,15 @@ Result<void> create_compute_path(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions) {
+    Pipelines pipelines;
+    ORO_CHECK(create_layouts(gpu, path, pipelines));
+    ORO_CHECK(path == RasterPath::mesh ? create_mesh_path(gpu, record_positions, pipelines)
+                                       : create_compute_path(gpu, pipelines));
+    ORO_CHECK(create_choice(gpu, pipelines));
+    return pipelines;
+}
+
 }  // namespace
 
 Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
@@ -227,22 +238,21 @@ Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& p
     return OwnedPipeline(gpu.device(), handle);
 }
 
-Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants) {
-    const bool by_mesh = path == RasterPath::mesh;
-    Pipelines pipelines;
-    ORO_CHECK(create_layouts(gpu, path, pipelines));
-    ORO_CHECK(by_mesh ? create_mesh_path(gpu, wants.record_positions, pipelines)
-                      : create_compute_path(gpu, pipelines));
-    ORO_CHECK(create_choice(gpu, pipelines));
-    if (wants.triangles) {
-        const VkBool32 compute = by_mesh ? VK_FALSE : VK_TRUE;
+Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath path,
+                                                    const PipelineWants& wants) {
+    std::shared_ptr<Pipelines>& kept = gpu.kept_pipelines({path, wants.record_positions});
+    if (!kept) {
+        ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants.record_positions));
+        kept = std::make_shared<Pipelines>(std::move(pipelines));
+    }
+    if (wants.triangles && !kept->triangles) {
+        const VkBool32 compute = path == RasterPath::compute ? VK_TRUE : VK_FALSE;
         const VkSpecializationMapEntry entry{0, 0, sizeof(compute)};
         const VkSpecializationInfo constants{1, &entry, sizeof(compute), &compute};
-        ORO_TRY(pipelines.triangles,
-                create_compute_pipeline(gpu, pipelines, triangles_comp_spirv, "triangles", &constants,
-                                        VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
+        ORO_TRY(kept->triangles, create_compute_pipeline(gpu, *kept, triangles_comp_spirv, "triangles",
+                                                         &constants, VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
     }
-    return pipelines;
+    return kept;
 }
 
 }  // namespace oro

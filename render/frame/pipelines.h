@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 
 #include "render/device/gpu.h"
@@ -55,8 +56,10 @@ struct PipelineWants {
     bool triangles{false};         // `triangles` is there
 };
 
-// Sizes of workgroups follow the device's preferred limits.
-Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants);
+// Made once and kept until the device ends, with all that has been added since: drivers take longer to make
+// them than to draw a small picture. Sizes of workgroups follow the device's preferred limits.
+Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath path,
+                                                    const PipelineWants& wants);
 // One that needs the set alone. `flags`: VK_PIPELINE_CREATE_...
 Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
                                               std::span<const std::uint32_t> words, const char* name,
