@@ -322,10 +322,14 @@ std::optional<EffectSize> EffectPrediction::stated_by_source() const {
     // Of a normal distribution: half of all errors are within 0.41 of what holds 90 %.
     constexpr double half_of_all = 0.41;
     const double le90_m = *world_.source_le90_m;
-    EffectSize size = lifted([&](const Sample&) { return le90_m; });
-    size.typical_m = half_of_all * le90_m;
-    size.typical_px *= half_of_all;
-    size.worst_m = le90_m;
+    return heights_off(le90_m, half_of_all * le90_m);
+}
+
+EffectSize EffectPrediction::heights_off(double worst_m, double typical_m) const {
+    EffectSize size = lifted([&](const Sample&) { return worst_m; });
+    size.typical_px *= worst_m > 0.0 ? typical_m / worst_m : 0.0;
+    size.typical_m = typical_m;
+    size.worst_m = worst_m;
     return size;
 }
 

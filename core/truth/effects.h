@@ -60,6 +60,8 @@ class EffectPrediction {
     // What lies between posts that are `apart` of the region's apart: 1 for the data as they are. 2 predicts
     // what every second post would hide, which is known.
     [[nodiscard]] EffectSize interpolation(int apart) const;
+    // Heights that are off by up to worst_m, and typically by typical_m, wherever they are.
+    [[nodiscard]] EffectSize heights_off(double worst_m, double typical_m) const;
     // The same as a guess of what lies between them, with a margin: nobody has looked there.
     [[nodiscard]] EffectSize interpolation_estimate(int apart) const;
 
