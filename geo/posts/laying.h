@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
 #include "geo/datum/vertical_datum.h"
+#include "geo/measures/resampling_error.h"
 #include "geo/posts/seams.h"
 #include "geo/region/region.h"
 #include "geo/sources/source.h"
@@ -21,11 +22,20 @@ struct LayingFor {
     bool strict_datum{};
 };
 
+// A source whose posts are not the region's, and how far the surface is from them; to be finished when the
+// surface is.
+struct MeasuredSource {
+    std::size_t source;  // its number
+    ResamplingError error;
+};
+
 // Reads all sources in their order of precedence, turns their heights into H and lays them into the surface.
-// Each source's report gets what was found in it; `notes` what a user must know. Errors: damage in a source;
-// a datum that cannot be honoured.
-Result<void> lay_sources(std::vector<Source>& sources, const LayingFor& region, JoinedSurface& surface,
-                         std::vector<std::string>& notes, const Progress& progress);
+// Each source's report gets what was found in it; `notes` what a user must know. Gives the sources that were
+// resampled or interpolated; they, and what is given, belong to this surface's heights. Errors: damage in a
+// source; a datum that cannot be honoured.
+Result<std::vector<MeasuredSource>> lay_sources(std::vector<Source>& sources, const LayingFor& region,
+                                                JoinedSurface& surface, std::vector<std::string>& notes,
+                                                const Progress& progress);
 
 // Adds a line that is not there yet and not empty.
 void add_note(std::vector<std::string>& notes, const std::string& note);

@@ -21,10 +21,12 @@ Result<void> check_request(const RegionRequest& request, const std::string& path
     if (request.paths.size() > 1)
         return Error{ErrorKind::usage, path,
                      "is a baked region, which is opened alone: leave out the other paths, or bake all anew"};
-    const char* const option = !request.height_unit.empty() ? "--height-unit"
-                               : request.fill_voids         ? "--fill-voids"
-                               : request.strict_datum       ? "--strict-datum"
-                                                            : nullptr;
+    const char* const option = !request.height_unit.empty()       ? "--height-unit"
+                               : !request.source_crs.empty()      ? "--source-crs"
+                               : !request.source_vertical.empty() ? "--source-vertical"
+                               : request.fill_voids               ? "--fill-voids"
+                               : request.strict_datum             ? "--strict-datum"
+                                                                  : nullptr;
     if (option == nullptr) return {};
     return Error{ErrorKind::usage, option,
                  "is decided when a region is baked, and " + path + " is: bake its sources anew with it"};
@@ -168,7 +170,7 @@ Result<void> cut_out(Region& region, const RegionFile& file, const BoundingBox& 
     const std::uint64_t region_voids = region.voids;
     region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
     if (region.voids == region.field.H_m.size())
-        return Error{ErrorKind::no_data, file.path(), "all its posts in the box that was asked for are void"};
+        return Error{ErrorKind::no_data, file.path(), "no post in the box that was asked for has a height"};
     std::erase_if(region.missing_cells, [&](const std::string& cell) { return !touches(cell, cut); });
     // Which of the others are void in their source and which have none is told for the whole alone; where all
     // of it is one of them, so is the part.
@@ -176,6 +178,8 @@ Result<void> cut_out(Region& region, const RegionFile& file, const BoundingBox& 
     const Uncovered uncovered =
         count_uncovered(region.field, region.missing_cells, [](std::size_t) { return false; });
     region.in_missing = uncovered.in_missing;
+    const bool none_outside = region.tells_voids_apart && region.outside == 0;
+    region.tells_voids_apart = only_outside || none_outside || region.voids == uncovered.in_missing;
     region.outside = only_outside ? uncovered.outside : 0;
     region.notes.push_back("cut out of " + file.path() +
                            ": sources, seams and filled posts are told for all of it");

@@ -39,16 +39,6 @@ std::string list_of(const std::vector<std::string>& paths) {
     return text;
 }
 
-// The second step: which part of the world the region is. Leaves out the sources that lie elsewhere; nothing
-// when none is left, or when they cover no area.
-std::optional<RegionExtent> choose_extent(std::vector<Source>& sources,
-                                          const std::optional<BoundingBox>& box) {
-    if (box) reach_over_seams(sources);
-    const auto extent = region_extent(sources, box);
-    if (extent) std::erase_if(sources, [&](const Source& source) { return !meets(source, extent->box); });
-    return extent;
-}
-
 Error no_sources(const RegionRequest& request, const std::string& first_skipped) {
     const std::string where = list_of(request.paths);
     if (request.box) return {ErrorKind::no_data, where, "no elevation data in " + text_of(*request.box)};
@@ -63,6 +53,15 @@ void add_doubts(const RegionRequest& request, std::span<const Source> sources, c
         std::ranges::any_of(sources, [](const Source& source) { return source.kind == SourceKind::hgt; }))
         add_note(notes,
                  "the height unit " + request.height_unit + " is not for .hgt files: they hold metres");
+    if (!request.source_crs.empty() &&
+        std::ranges::none_of(sources, [](const Source& source) { return source.crs_told; }))
+        add_note(notes,
+                 "--source-crs " + request.source_crs + " says nothing here: each file states its own");
+    if (!request.source_vertical.empty() && std::ranges::none_of(sources, [](const Source& source) {
+            return source.report.vertical_datum.from == DatumFrom::told;
+        }))
+        add_note(notes, "--source-vertical " + request.source_vertical +
+                            " says nothing here: each file states its own");
     if (request.box && request.box->west_deg > request.box->east_deg &&
         grid.east_deg() - grid.west_deg() > 180.0)
         add_note(notes, "west is greater than east in " + text_of(*request.box) +
@@ -109,6 +108,16 @@ void describe_voids(std::span<const Source> sources, const JoinedSurface& surfac
     region.in_missing = uncovered.in_missing;
 }
 
+// Of a region whose posts all lack a height: why.
+std::string all_without_height(const Region& region) {
+    std::string why;
+    for (const auto& [posts, words] : {std::pair{region.void_posts(), "void in their file"},
+                                       {region.outside, "outside the raster"},
+                                       {region.in_missing, "in missing tiles"}})
+        if (posts > 0) why += (why.empty() ? "" : ", ") + std::to_string(posts) + " " + words;
+    return "all its posts are " + (why.find(',') == std::string::npos ? why.substr(why.find(' ') + 1) : why);
+}
+
 // Looks at the sources, chooses the grid, lays them into it, and describes what has become of them.
 Result<Region> read_region(const RegionRequest& request, const Progress& progress) {
     if (request.paths.empty()) return Error{ErrorKind::no_data, "", "no path to elevation data was given"};
@@ -137,12 +146,13 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     ORO_CHECK(check_last_rows(sources));
 
     JoinedSurface surface(grid);
+    std::vector<MeasuredSource> measured;
+    const LayingFor to{grid, region.field.undulation, geoid, request.strict_datum};
     if (own) {
-        ORO_CHECK(lay_own_posts(sources, {*own, region.field.undulation, geoid, request.strict_datum},
-                                surface, region.field.N_of_posts_m, region.notes, progress));
+        ORO_CHECK(lay_own_posts(sources, {*own, to.undulation, geoid, to.strict_datum}, surface,
+                                region.field.N_of_posts_m, region.notes, progress));
     } else {
-        ORO_CHECK(lay_sources(sources, {grid, region.field.undulation, geoid, request.strict_datum}, surface,
-                              region.notes, progress));
+        ORO_TRY(measured, lay_sources(sources, to, surface, region.notes, progress));
     }
     surface.finish();
     if (request.fill_voids) {
@@ -150,14 +160,15 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
         ORO_TRY(region.filled, fill_voids(surface, grid));
         region.void_method = VoidMethod::filled;
     }
+    for (MeasuredSource& one : measured) sources[one.source].report.resampling = one.error.finish();
     region.seams = surface.seams();
     region.field.H_m = std::move(surface.heights());
 
     region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
+    describe_voids(sources, surface, region);
     if (region.voids == region.field.H_m.size())
         return Error{ErrorKind::no_data, list_of(request.paths),
-                     "no height in " + text_of(posts) + ": all its posts are void"};
-    describe_voids(sources, surface, region);
+                     "no height in " + text_of(posts) + ": " + all_without_height(region)};
     region.posts_print = posts_print(region.field);
     region.geoid_print = undulation_print(region.field.undulation);
     for (Source& source : sources) region.sources.push_back(std::move(source.report));
@@ -166,23 +177,6 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
 }
 
 }  // namespace
-
-Result<std::vector<SourceReport>> sources_too_large(const RegionRequest& request) {
-    try {
-        start_gdal();
-        ORO_TRY(RegionSources found, look_at_sources(request, {}));
-        std::vector<SourceReport> reports;
-        const auto extent = choose_extent(found.sources, request.box);
-        if (!extent || region_grid(found.sources, *extent).ok()) return reports;
-        ORO_CHECK(find_horizontal_datums(found.sources, false, found.notes));
-        for (Source& source : found.sources) reports.push_back(std::move(source.report));
-        return reports;
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorKind::failed, "looking at sources", "not enough memory"};
-    } catch (const std::exception& fault) {
-        return Error{ErrorKind::failed, "looking at sources", fault.what()};
-    }
-}
 
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
     try {

@@ -32,6 +32,10 @@ struct RegionRequest {
     bool own_posts{
         false};  // draw the posts of a file in a CRS of its own where they are: nothing is resampled
     std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
+    // For files that do not say themselves: where they lie ("EPSG:2056", or whatever PROJ knows), and what
+    // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). "" for
+    // nothing told.
+    std::string source_crs, source_vertical;
 };
 
 // What becomes of void posts: they are left out of the terrain, or filled from their neighbours.
@@ -57,6 +61,9 @@ struct Region {
     std::optional<std::uint64_t> posts_print;
     std::uint64_t geoid_print{};
     VoidMethod void_method{VoidMethod::holes};
+    // False where it is not known which of the voids are beyond rims: in a part of a baked region, and of
+    // one that was baked before they were told apart. `outside` is then too small, void_posts() too large.
+    bool tells_voids_apart{true};
     // Void in the source that covers them: what --fill-voids is for.
     [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }
     std::vector<std::string> notes;  // what a user must know, one line each (a geoid that stands in, ...)
@@ -64,11 +71,6 @@ struct Region {
 
 // Told how far reading is, 0..1, from the calling thread.
 using Progress = std::function<void(double share, const std::string& what)>;
-
-// Of a request whose sources are well, but too many posts together: what each says of itself, by its name and
-// header alone (no post is read, and what is told of heights and seams is empty). Empty for any other
-// request. Errors: as open_region's for each file.
-Result<std::vector<SourceReport>> sources_too_large(const RegionRequest& request);
 
 // Reads a region, or opens a baked one: the way from files to posts.
 //     RegionRequest request;

@@ -45,6 +45,8 @@ ordered_json source_text(const SourceReport& s) {
         text["box_deg"].push_back(side_deg);
     text["lowest_m"] = s.lowest_m;
     text["highest_m"] = s.highest_m;
+    if (s.stored) text["stored"] = stored_fields<ordered_json>(*s.stored);
+    if (s.resampling) text["resampling"] = resampling_fields<ordered_json>(*s.resampling);
     put_source_findings(text, s);
     if (s.posts_print) text["posts_print"] = print_text(*s.posts_print);
     return text;
@@ -172,6 +174,37 @@ HorizontalDatum horizontal_of(const Field& source) {
     return datum;
 }
 
+// Regions baked earlier have neither this nor the next.
+std::optional<StoredRange> stored_of(const Field& source) {
+    if (!source.has("stored")) return std::nullopt;
+    const Field field = source["stored"];
+    return StoredRange{field["lowest_m"].number(), field["highest_m"].number(), field["whole_file"].flag()};
+}
+
+std::optional<PostShown> post_of(const Field& resampling, const char* name) {
+    if (!resampling.has(name)) return std::nullopt;
+    const Field field = resampling[name];
+    return PostShown{field["lat_deg"].number(), field["lon_deg"].number(), field["own_H_m"].number(),
+                     field.number_if_any("shown_H_m")};
+}
+
+std::optional<Resampling> resampling_of(const Field& source) {
+    if (!source.has("resampling")) return std::nullopt;
+    const Field field = source["resampling"];
+    Resampling found;
+    found.posts = field["posts"].count();
+    found.compared = field["compared"].count();
+    found.unshown = field["unshown"].count();
+    found.hidden = field["hidden"].count();
+    found.rms_m = field["rms_m"].number();
+    found.worst = post_of(field, "worst");
+    if (found.worst && !found.worst->shown_H_m)
+        throw Fault{field.name() + ".worst has no shown_H_m to be compared with"};
+    found.highest = post_of(field, "highest");
+    found.lowest = post_of(field, "lowest");
+    return found;
+}
+
 SourceReport source_of(const Field& field) {
     SourceReport s;
     s.path = field["path"].text();
@@ -190,6 +223,8 @@ SourceReport source_of(const Field& field) {
     s.box = box_of(field["box_deg"]);
     s.lowest_m = field["lowest_m"].number();
     s.highest_m = field["highest_m"].number();
+    s.stored = stored_of(field);
+    s.resampling = resampling_of(field);
     s.voids = field["voids"].count();
     s.implausible = field["implausible"].count();
     s.placement = placement_of_words(field["placement"].text());
@@ -215,6 +250,7 @@ Region region_of(const Field& field) {
     region.missing_cells = field["missing_cells"].texts();
     region.voids = field["voids"].count();
     // Regions baked earlier do not tell these apart from voids.
+    region.tells_voids_apart = region.voids == 0 || field.has("outside");
     if (field.has("outside")) region.outside = field["outside"].count();
     if (field.has("in_missing")) region.in_missing = field["in_missing"].count();
     if (region.outside > region.voids || region.in_missing > region.voids - region.outside)
@@ -237,7 +273,7 @@ std::string region_description(const Region& region) {
     all["geoid"] = region.geoid;
     all["missing_cells"] = region.missing_cells;
     all["voids"] = region.voids;
-    all["outside"] = region.outside;
+    if (region.tells_voids_apart) all["outside"] = region.outside;
     all["in_missing"] = region.in_missing;
     all["filled"] = region.filled;
     all["void_method"] = void_method_words(region.void_method);

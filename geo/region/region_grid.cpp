@@ -146,18 +146,8 @@ double middle_of(std::vector<double> values) {
 // where most lie.
 std::string large_by(std::span<const Source> sources) {
     if (sources.size() < 2) return "";
-    std::vector<double> lats_deg, lons_deg;
-    for (const Source& source : sources) {
-        lats_deg.push_back(source.south_deg);
-        lons_deg.push_back(source.lon.west_deg);
-    }
-    const double lat_deg = middle_of(lats_deg), lon_deg = middle_of(lons_deg);
-    const auto away_deg = [&](const Source& source) {
-        const double turned = std::abs(std::remainder(source.lon.west_deg - lon_deg, 360.0));
-        return std::max(std::abs(source.south_deg - lat_deg), turned);
-    };
-    const Source& finest = *std::ranges::min_element(sources, {}, &Source::lat_spacing_deg);
-    const Source& farthest = *std::ranges::max_element(sources, {}, away_deg);
+    const Source& finest = sources[finest_of(sources)];
+    const Source& farthest = sources[farthest_of(sources)];
     char spacing[40];
     std::snprintf(spacing, sizeof spacing, "%.3g m", finest.report.spacing_m);
     return ". Its closest posts, " + std::string(spacing) + " apart, are those of " + finest.report.path +
@@ -185,6 +175,25 @@ Result<void> check_size(double rows, double columns, const BoundingBox& box,
                   rows, columns, posts, posts * bytes_a_post / 1e9, memory / 1e9,
                   (box.east_deg - box.west_deg) * side * 0.99, (box.north_deg - box.south_deg) * side * 0.99);
     return Error{ErrorKind::failed, "region too large", what + large_by(sources)};
+}
+
+std::size_t finest_of(std::span<const Source> sources) {
+    return static_cast<std::size_t>(std::ranges::min_element(sources, {}, &Source::lat_spacing_deg) -
+                                    sources.begin());
+}
+
+std::size_t farthest_of(std::span<const Source> sources) {
+    std::vector<double> lats_deg, lons_deg;
+    for (const Source& source : sources) {
+        lats_deg.push_back(source.south_deg);
+        lons_deg.push_back(source.lon.west_deg);
+    }
+    const double lat_deg = middle_of(lats_deg), lon_deg = middle_of(lons_deg);
+    const auto away_deg = [&](const Source& source) {
+        const double turned = std::abs(std::remainder(source.lon.west_deg - lon_deg, 360.0));
+        return std::max(std::abs(source.south_deg - lat_deg), turned);
+    };
+    return static_cast<std::size_t>(std::ranges::max_element(sources, {}, away_deg) - sources.begin());
 }
 
 BoundingBox unwrapped(const BoundingBox& box) {
@@ -283,7 +292,26 @@ std::optional<RegionExtent> region_extent(std::span<const Source> sources,
     return extent;
 }
 
-Result<PostGrid> region_grid(std::span<const Source> sources, const RegionExtent& extent) {
+std::optional<RegionExtent> choose_extent(std::vector<Source>& sources,
+                                          const std::optional<BoundingBox>& box) {
+    if (box) reach_over_seams(sources);
+    const auto extent = region_extent(sources, box);
+    if (extent) std::erase_if(sources, [&](const Source& source) { return !meets(source, extent->box); });
+    return extent;
+}
+
+namespace {
+
+// World indices of a region's outermost posts.
+struct WorldPosts {
+    Spacing lat, lon;
+    std::int64_t north, south, west, east;
+
+    [[nodiscard]] double rows() const { return static_cast<double>(north - south + 1); }
+    [[nodiscard]] double columns() const { return static_cast<double>(east - west + 1); }
+};
+
+WorldPosts world_posts(std::span<const Source> sources, const RegionExtent& extent) {
     const BoundingBox& box = extent.box;
     const Spacing lat = spacing_of(sources, true, box);
     const Spacing lon = spacing_of(sources, false, box);
@@ -307,11 +335,22 @@ Result<PostGrid> region_grid(std::span<const Source> sources, const RegionExtent
         west += closes ? turn : 1;
         east += closes ? turn : 0;
     }
-    ORO_CHECK(check_size(static_cast<double>(north - south + 1), static_cast<double>(east - west + 1), box,
-                         sources));
+    return {lat, lon, north, south, west, east};
+}
+
+}  // namespace
+
+double posts_of_region(std::span<const Source> sources, const RegionExtent& extent) {
+    const WorldPosts posts = world_posts(sources, extent);
+    return posts.rows() * posts.columns();
+}
+
+Result<PostGrid> region_grid(std::span<const Source> sources, const RegionExtent& extent) {
+    const WorldPosts posts = world_posts(sources, extent);
+    ORO_CHECK(check_size(posts.rows(), posts.columns(), extent.box, sources));
     PostGrid grid;
-    grid.lat = {lat.per_deg, lat.phase_deg, north, -1, static_cast<int>(north - south + 1)};
-    grid.lon = {lon.per_deg, lon.phase_deg, west, +1, static_cast<int>(east - west + 1)};
+    grid.lat = {posts.lat.per_deg, posts.lat.phase_deg, posts.north, -1, static_cast<int>(posts.rows())};
+    grid.lon = {posts.lon.per_deg, posts.lon.phase_deg, posts.west, +1, static_cast<int>(posts.columns())};
     return grid;
 }
 

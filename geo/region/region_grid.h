@@ -41,6 +41,19 @@ std::optional<RegionExtent> region_extent(std::span<const Source> sources,
 // large.
 Result<void> check_size(double rows, double columns, const BoundingBox& box, std::span<const Source> sources);
 
+// Which part of the world a region is. Leaves out the sources that lie elsewhere; nothing when none is left,
+// or when they cover no area.
+std::optional<RegionExtent> choose_extent(std::vector<Source>& sources,
+                                          const std::optional<BoundingBox>& box);
+
+// Which of some sources, at least one, makes a region large: the one with the closest posts, and the one that
+// lies farthest from where most lie. Numbers.
+std::size_t finest_of(std::span<const Source> sources);
+std::size_t farthest_of(std::span<const Source> sources);
+
+// Posts that region_grid's answer has, or would have if memory held them.
+double posts_of_region(std::span<const Source> sources, const RegionExtent& extent);
+
 // The grid over an extent. Spacing: per axis that of the finest source. Alignment: the finest source on a
 // grid of WGS84 degrees, so that its posts are the grid's (a finer spacing is then a whole part of that
 // source's); otherwise posts at whole parts of a degree. The poles are never passed. Error: more posts than

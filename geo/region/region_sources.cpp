@@ -14,18 +14,28 @@ namespace {
 
 constexpr std::size_t no_limit_notes = 8;
 
-Result<Finding> look_at_file(const SourcePath& path, const std::string& height_unit) {
-    if (!path.hgt) return inspect_raster(path, height_unit);
+}  // namespace
+
+Result<Finding> look_at_file(const SourcePath& path, const ToldOfFiles& told) {
+    if (!path.hgt) return inspect_raster(path, told);
     ORO_TRY(Source tile, inspect_hgt(path));
+    told.heights_of(tile);
     return Finding{std::move(tile), {}, {}};
 }
 
-}  // namespace
+Source source_of_cell(const TileName& cell) {
+    Source tile;
+    tile.lon = {static_cast<double>(cell.lon_deg), cell.lon_deg + 1.0};
+    tile.south_deg = cell.lat_deg;
+    tile.north_deg = cell.lat_deg + 1.0;
+    return tile;
+}
 
 Result<RegionSources> look_at_sources(const RegionRequest& request, const Progress& progress) {
     ORO_TRY(const std::vector<SourcePath> paths, find_sources(request.paths));
     std::optional<BoundingBox> box;
     if (request.box) box = unwrapped(*request.box);
+    ORO_TRY(const ToldOfFiles told, told_of_files(request));
     RegionSources found;
     std::size_t skipped = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -35,24 +45,20 @@ Result<RegionSources> look_at_sources(const RegionRequest& request, const Progre
                      "looking at " + path.shown);
         if (path.hgt && box) {
             ORO_TRY(const HgtName name, name_of_hgt(path));
-            Source tile;
-            tile.lon = {static_cast<double>(name.tile.lon_deg), name.tile.lon_deg + 1.0};
-            tile.south_deg = name.tile.lat_deg;
-            tile.north_deg = name.tile.lat_deg + 1.0;
-            if (!meets(tile, *box)) continue;
+            if (!meets(source_of_cell(name.tile), *box)) continue;
         }
-        ORO_TRY(Finding finding, look_at_file(path, request.height_unit));
+        ORO_TRY(Finding finding, look_at_file(path, told));
         for (const std::string& doubt : finding.doubts) found.notes.push_back(doubt);
         if (finding.source) {
             found.sources.push_back(std::move(*finding.source));
             continue;
         }
         if (path.named) return finding.unfit;
-        if (++skipped <= no_limit_notes) found.notes.push_back("passed over " + finding.unfit.line());
+        if (++skipped <= no_limit_notes) found.notes.push_back(passed_over + finding.unfit.line());
         if (found.first_skipped.empty()) found.first_skipped = finding.unfit.line();
     }
     if (skipped > no_limit_notes)
-        found.notes.push_back("passed over " + std::to_string(skipped - no_limit_notes) +
+        found.notes.push_back(passed_over + std::to_string(skipped - no_limit_notes) +
                               " more files that hold no elevation");
     return found;
 }

@@ -8,6 +8,8 @@
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
 #include "geo/region/region.h"
+#include "geo/sources/hgt_source.h"
+#include "geo/sources/raster_source.h"
 #include "geo/sources/source.h"
 
 namespace oro {
@@ -17,6 +19,14 @@ struct RegionSources {
     std::vector<std::string> notes;  // what was passed over, and what is doubtful, one line each
     std::string first_skipped;       // the first file that holds no elevation, and why; "" where each does
 };
+
+// How a note begins that tells of a file without elevation.
+inline constexpr const char* passed_over = "passed over ";
+
+// Looks at one file's name, size and header. Errors: a file that is damaged.
+Result<Finding> look_at_file(const SourcePath& path, const ToldOfFiles& told);
+// A whole-degree cell as a source, with its bounds alone.
+Source source_of_cell(const TileName& cell);
 
 // Looks at names, sizes and headers. What the user named must open; in folders and archives, rasters that are
 // no elevation are passed over and noted, but a damaged file is an error wherever it lies (a hole in the

@@ -37,6 +37,40 @@ Json horizontal_fields(const HorizontalDatum& datum) {
     return fields;
 }
 
+template <class Json>
+Json stored_fields(const StoredRange& stored) {
+    Json fields = Json::object();
+    fields["lowest_m"] = stored.lowest_m;
+    fields["highest_m"] = stored.highest_m;
+    fields["whole_file"] = stored.whole;
+    return fields;
+}
+
+// Without shown_H_m where the region has no ground.
+template <class Json>
+Json post_fields(const PostShown& post) {
+    Json fields = Json::object();
+    fields["lat_deg"] = post.lat_deg;
+    fields["lon_deg"] = post.lon_deg;
+    fields["own_H_m"] = post.own_H_m;
+    if (post.shown_H_m) fields["shown_H_m"] = *post.shown_H_m;
+    return fields;
+}
+
+template <class Json>
+Json resampling_fields(const Resampling& found) {
+    Json fields = Json::object();
+    fields["posts"] = found.posts;
+    fields["compared"] = found.compared;
+    fields["unshown"] = found.unshown;
+    fields["hidden"] = found.hidden;
+    fields["rms_m"] = found.rms_m;
+    if (found.worst) fields["worst"] = post_fields<Json>(*found.worst);
+    if (found.highest) fields["highest"] = post_fields<Json>(*found.highest);
+    if (found.lowest) fields["lowest"] = post_fields<Json>(*found.lowest);
+    return fields;
+}
+
 // What a source says of itself in words.
 template <class Json>
 void put_source_words(Json& object, const SourceReport& source) {

@@ -29,12 +29,13 @@ enum class DatumFrom {
     dted_egm2008,
     assumed_for_hgt,    // .hgt files state none
     assumed_unstated,   // the file states none
-    assumed_unreadable  // PROJ cannot read what the CRS states
+    assumed_unreadable,  // PROJ cannot read what the CRS states
+    told                 // by the request, because the file does not say
 };
 
 struct HeightDatum {
     DatumFrom from{DatumFrom::assumed_unstated};
-    std::string name;        // from the CRS alone, as PROJ calls it: "EPSG:5703 NAVD88 height"
+    std::string name;        // from a CRS or told, as PROJ calls it: "EPSG:5703 NAVD88 height"
     bool egm96_stands_in{};  // a grid for it is missing
 };
 
@@ -81,6 +82,35 @@ struct SeamReport {
     double largest_difference_m{};
 };
 
+// Lowest and highest of the values that a file stores, in metres: its scale, offset and unit applied, before
+// its datum is changed and before it is resampled. Heights that no terrain has count; values that stand for
+// none do not.
+struct StoredRange {
+    double lowest_m{};
+    double highest_m{};
+    bool whole{};  // every post of the file was read; else only those around the region
+};
+
+// One of a source's own posts, and what the region shows at its place: H in metres.
+struct PostShown {
+    double lat_deg{};
+    double lon_deg{};
+    double own_H_m{};
+    std::optional<double> shown_H_m;  // nothing where the region has no ground
+};
+
+// How far the region's surface is from a source's own posts, where heights were resampled or interpolated.
+struct Resampling {
+    std::uint64_t posts{};     // of the source with a height, as far as it was read
+    std::uint64_t compared{};  // those among them that were held against the surface
+    std::uint64_t unshown{};   // of those looked at: in the region's box, and no ground there
+    std::uint64_t hidden{};    // of those looked at: another source that wins has the ground there
+    double rms_m{};
+    std::optional<PostShown> worst;  // nothing where none was compared
+    // Of all posts that were read and lie in the region's box.
+    std::optional<PostShown> highest, lowest;
+};
+
 struct SourceReport {
     std::string path;  // as found, e.g. tiles.zip/N46E008.hgt
     SourceFormat format{SourceFormat::raster};
@@ -97,8 +127,12 @@ struct SourceReport {
     double lon_spacing_deg{};
     double spacing_m{};  // north-south, metres
     BoundingBox box;     // of the posts
-    double lowest_m{};   // of posts with a height inside the region, H in metres
+    double lowest_m{};   // of posts of the region that have its heights, H in metres
     double highest_m{};
+    std::optional<StoredRange> stored;  // nothing where it is not known: nothing was read, no value is
+                                        // stored, or the region was baked before this was kept
+    // Nothing where posts are copied, and where it is not known: regions baked before this was measured.
+    std::optional<Resampling> resampling;
     std::uint64_t voids{};
     std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
     std::optional<Placement> placement;  // nothing for a source that was not laid

@@ -31,6 +31,7 @@ constexpr std::array void_methods{
     Words<VoidMethod>{VoidMethod::holes, "holes"},
     Words<VoidMethod>{VoidMethod::filled, "filled by inverse-distance interpolation (GDALFillNodata)"}};
 
+constexpr std::string_view as_told = " (as told)";
 constexpr std::string_view stands_in = "; EGM96 stands in";
 constexpr std::string_view copied = "posts copied";
 constexpr const char* interpolated =
@@ -69,7 +70,9 @@ std::string posts_words(PostsAre which) {
 }
 
 std::string datum_words(const HeightDatum& datum) {
-    return (datum.from == DatumFrom::crs ? datum.name : words_in(datums, datum.from)) +
+    const bool is_named = datum.from == DatumFrom::crs || datum.from == DatumFrom::told;
+    return (is_named ? datum.name : words_in(datums, datum.from)) +
+           std::string(datum.from == DatumFrom::told ? as_told : "") +
            std::string(datum.egm96_stands_in ? stands_in : "");
 }
 
@@ -146,7 +149,8 @@ HeightDatum datum_of_words(const std::string& words) {
     datum.egm96_stands_in = rest.ends_with(stands_in);
     if (datum.egm96_stands_in) rest.remove_suffix(stands_in.size());
     const auto known = fact_in(datums, rest);
-    datum.from = known.value_or(DatumFrom::crs);
+    datum.from = known.value_or(rest.ends_with(as_told) ? DatumFrom::told : DatumFrom::crs);
+    if (datum.from == DatumFrom::told) rest.remove_suffix(as_told.size());
     if (!known) datum.name = rest;
     return datum;
 }

@@ -230,6 +230,10 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
             const auto value = static_cast<std::int16_t>(row[byte] << 8 | row[byte + 1]);
             const bool empty = value == hgt_void;
             const bool implausible = !empty && (value < lowest_plausible_m || value > highest_plausible_m);
+            if (!empty) {
+                block.lowest_stored_m = std::min(block.lowest_stored_m, static_cast<double>(value));
+                block.highest_stored_m = std::max(block.highest_stored_m, static_cast<double>(value));
+            }
             block.voids += empty || implausible;
             block.implausible += implausible;
             block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(value));

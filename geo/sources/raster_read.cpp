@@ -99,6 +99,10 @@ Result<PostBlock> read_raster(const Source& source, const PostWindow& window) {
             const double height_m = values[i] * source.scale_m + source.offset_m;
             const bool implausible =
                 !empty && !(height_m >= lowest_plausible_m && height_m <= highest_plausible_m);
+            if (!empty) {
+                block.lowest_stored_m = std::min(block.lowest_stored_m, height_m);
+                block.highest_stored_m = std::max(block.highest_stored_m, height_m);
+            }
             block.voids += empty || implausible;
             block.implausible += implausible;
             block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(height_m));

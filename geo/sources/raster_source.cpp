@@ -13,6 +13,7 @@
 #include "geo/files/foreign_text.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
+#include "geo/rasters/map_crs.h"
 #include "geo/sources/raster_crs.h"
 #include "geo/sources/raster_library.h"
 #include "geo/sources/raster_parts.h"
@@ -40,8 +41,9 @@ std::string not_elevation(GDALDatasetH dataset) {
     return "";
 }
 
-// What heights refer to: by the CRS, by DTED metadata, or assumed.
-StatedDatum read_vertical(Source& source, GDALDatasetH dataset, OGRSpatialReferenceH crs) {
+// What heights refer to: by the CRS, by DTED metadata, as told, or assumed.
+StatedDatum read_vertical(Source& source, GDALDatasetH dataset, OGRSpatialReferenceH crs,
+                          const ToldOfFiles& told) {
     if (OSRIsCompound(crs) || OSRGetAxesCount(crs) == 3) {
         source.vertical_crs = wkt_of(crs);
         if (auto datum = stated_datum(source.vertical_crs)) {
@@ -56,8 +58,9 @@ StatedDatum read_vertical(Source& source, GDALDatasetH dataset, OGRSpatialRefere
     if (dted == "E96" || dted == "E08") {
         source.vertical_crs = dted == "E96" ? "EPSG:4326+5773" : "EPSG:4326+3855";
         source.report.vertical_datum.from = dted == "E96" ? DatumFrom::dted_egm96 : DatumFrom::dted_egm2008;
+        return {};
     }
-    return {};
+    return told.heights_of(source);
 }
 
 Result<void> read_unit(Source& source, GDALRasterBandH band, const StatedDatum& datum,
@@ -147,13 +150,20 @@ Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages)
 }
 
 // What an opened raster says of itself; an error without its name where it is no source.
-Result<Source> described(const SourcePath& path, const Dataset& dataset, const std::string& height_unit) {
+Result<Source> described(const SourcePath& path, const Dataset& dataset, const ToldOfFiles& told) {
     const auto fault = [&](const std::string& what) { return Error{ErrorKind::failed, "", what}; };
     if (const std::string why = not_elevation(dataset.get()); !why.empty()) return fault(why);
     std::array<double, 6> cell{};
-    ORO_TRY(const SpatialReference crs, crs_of(dataset.get()));
-    if (GDALGetGeoTransform(dataset.get(), cell.data()) != CE_None)
-        return fault("states no georeference: where its posts lie is unknown");
+    const bool says_where = GDALGetGeoTransform(dataset.get(), cell.data()) == CE_None;
+    const OGRSpatialReferenceH stated = GDALGetSpatialRef(dataset.get());
+    const bool lacks_crs = stated ? OSRIsLocal(stated) != 0 : GDALGetGCPCount(dataset.get()) == 0;
+    if (lacks_crs && told.crs.empty())
+        return fault(without_crs(stated ? text_of(OSRGetName(stated)) : "",
+                                 says_where ? std::optional(cell) : std::nullopt,
+                                 GDALGetRasterXSize(dataset.get()), GDALGetRasterYSize(dataset.get())));
+    ORO_TRY(const SpatialReference crs,
+            lacks_crs ? Result<SpatialReference>(crs_from_text(told.crs)) : crs_of(dataset.get()));
+    if (!says_where) return fault("states no georeference: where its posts lie is unknown");
     Source source;
     source.kind = SourceKind::raster;
     source.file = path.file;
@@ -163,8 +173,8 @@ Result<Source> described(const SourcePath& path, const Dataset& dataset, const s
     source.report.rows = GDALGetRasterYSize(dataset.get());
     source.report.columns = GDALGetRasterXSize(dataset.get());
     if (source.report.rows < 2 || source.report.columns < 2) return fault("has fewer than 2 x 2 posts");
-    const StatedDatum datum = read_vertical(source, dataset.get(), crs.get());
-    ORO_CHECK(read_unit(source, GDALGetRasterBand(dataset.get(), 1), datum, height_unit));
+    const StatedDatum datum = read_vertical(source, dataset.get(), crs.get(), told);
+    ORO_CHECK(read_unit(source, GDALGetRasterBand(dataset.get(), 1), datum, told.height_unit));
     // GDAL's map is for the corners of cells, whatever AREA_OR_POINT says (it has moved "point" files by half
     // a cell); a post is a cell's centre.
     source.crs_from_post = {cell[0] + 0.5 * (cell[1] + cell[2]), cell[1], cell[2],
@@ -174,7 +184,8 @@ Result<Source> described(const SourcePath& path, const Dataset& dataset, const s
     source.report.posts_are = points ? PostsAre::points : PostsAre::cell_centres;
     source.report.attribution = attribution_of(dataset.get());
     const SpatialReference horizontal = horizontal_part(crs.get());
-    source.report.crs = crs_name(horizontal.get());
+    source.crs_told = lacks_crs;
+    source.report.crs = crs_name(horizontal.get()) + (lacks_crs ? " (as told)" : "");
     if (const double epoch = OSRGetCoordinateEpoch(crs.get()); epoch > 0.0)
         source.report.horizontal_datum.coordinate_epoch = epoch;
     source.crs_wkt = wkt_of(horizontal.get());
@@ -202,7 +213,7 @@ std::optional<double> metres_in(const std::string& unit) {
     return std::nullopt;
 }
 
-Result<Finding> inspect_raster(const SourcePath& path, const std::string& height_unit) {
+Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told) {
     start_gdal();
     const GdalMessages messages;
     const FileWatch watch(opening_limit_s);
@@ -218,7 +229,7 @@ Result<Finding> inspect_raster(const SourcePath& path, const std::string& height
         finding.unfit = named(opened->unfit);
         return finding;
     }
-    auto source = described(path, opened->dataset, height_unit);
+    auto source = described(path, opened->dataset, told);
     if (!watch.fault().empty()) return named({ErrorKind::failed, "", watch.fault()});
     if (!source) {
         finding.unfit = named(source.error());

@@ -8,6 +8,7 @@
 #include "core/base/result.h"
 #include "geo/files/source_paths.h"
 #include "geo/sources/source.h"
+#include "geo/sources/told_of_files.h"
 
 namespace oro {
 
@@ -24,11 +25,11 @@ struct Finding {
 };
 
 // Looks at a raster's header and at the files that it is made of: where its posts lie and what its values
-// mean. `height_unit` overrides what the file says when it is not empty. Errors: damage, in it or in what
+// mean. Errors: damage, in it or in what
 // belongs to it; a file that names a network or a pipe, or takes more than the budget for opening
 // (guarded_files.h, raster_parts.h); whatever it is, one that cannot be opened although its name or its first
 // bytes are those of a trusted format.
-Result<Finding> inspect_raster(const SourcePath& path, const std::string& height_unit);
+Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told);
 
 // Reads a window of its posts: no-data, masks, NaN and implausible heights become void.
 Result<PostBlock> read_raster(const Source& source, const PostWindow& window);

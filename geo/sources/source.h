@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct Source {
     SourceKind kind{SourceKind::raster};
     std::string file;  // as GDAL's virtual file system opens it
     bool named{};      // by the user, not found in a folder
+    bool crs_told{};   // by the user: the file states none
     SourceReport report;
     LonSpan lon;  // of the posts
     double south_deg{};
@@ -87,6 +89,9 @@ struct PostBlock {
     std::vector<float> height_m;
     std::uint64_t voids{};        // those among them without a height
     std::uint64_t implausible{};  // those of the voids whose stored height no terrain has
+    // Of what is stored, in metres as above, implausible heights too; lowest above highest where nothing is.
+    double lowest_stored_m{std::numeric_limits<double>::infinity()};
+    double highest_stored_m{-std::numeric_limits<double>::infinity()};
 
     [[nodiscard]] float at(int row, int column) const {
         return height_m[static_cast<std::size_t>(row - window.row) *
