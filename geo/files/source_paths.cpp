@@ -58,6 +58,9 @@ SourcePath described(std::string file, std::string shown, std::string_view name,
 
 class Search {
   public:
+    // Where errors of files in folders go; null: they end the search.
+    explicit Search(std::vector<Error>* unreadable) : unreadable_(unreadable) {}
+
     Result<void> add(const std::string& path) {
         std::error_code fault;
         const fs::file_status status = fs::status(path, fault);
@@ -70,7 +73,7 @@ class Search {
         const std::size_t before = found_.size();
         if (status.type() == fs::file_type::directory) {
             ORO_CHECK(add_folder(path));
-            if (found_.size() == before)
+            if (found_.size() == before && (unreadable_ == nullptr || unreadable_->empty()))
                 return Error{ErrorKind::no_data, path,
                              "no elevation data under this folder (no .hgt, GeoTIFF or other raster, also "
                              "not in .zip or .gz)"};
@@ -103,7 +106,10 @@ class Search {
             std::error_code no_file;
             if (place->is_directory(no_file)) continue;
             // What is no file, or cannot be asked about, is told by add_file where its name says elevation.
-            ORO_CHECK(add_file(place->path().string(), false));
+            const Result<void> added = add_file(place->path().string(), false);
+            if (added.ok()) continue;
+            if (unreadable_ == nullptr) return added;
+            unreadable_->push_back(added.error());
         }
         if (fault) return Error{ErrorKind::failed, path, "cannot be listed: " + fault.message()};
         return {};
@@ -155,20 +161,31 @@ class Search {
         return {};
     }
 
+    std::vector<Error>* unreadable_;
     std::vector<SourcePath> found_;
 };
 
-}  // namespace
-
-Result<std::vector<SourcePath>> find_sources(const std::vector<std::string>& paths) {
+Result<std::vector<SourcePath>> searched(const std::vector<std::string>& paths,
+                                         std::vector<Error>* unreadable) {
     start_gdal();
-    Search search;
+    Search search(unreadable);
     try {
         for (const std::string& path : paths) ORO_CHECK(search.add(path));
     } catch (const fs::filesystem_error& fault) {
         return Error{ErrorKind::failed, fault.path1().string(), fault.code().message()};
     }
     return search.take();
+}
+
+}  // namespace
+
+Result<std::vector<SourcePath>> find_sources(const std::vector<std::string>& paths) {
+    return searched(paths, nullptr);
+}
+
+Result<std::vector<SourcePath>> find_sources(const std::vector<std::string>& paths,
+                                             std::vector<Error>& unreadable) {
+    return searched(paths, &unreadable);
 }
 
 }  // namespace oro
