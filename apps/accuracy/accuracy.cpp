@@ -8,6 +8,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/view/model_names.h"
 #include "core/base/parallel.h"
+#include "geo/measures/region_resampling.h"
 
 namespace oro {
 namespace {
@@ -132,6 +133,8 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueSurfa
         largest_px = size->worst_px;
         budget.dominant = effect.kind;
     }
+    if (const auto resampled = region_resampling(region); resampled && !budget.empty)
+        budget.resampling = prediction.heights_off(resampled->worst_m, resampled->rms_m);
     ORO_TRY(budget.total, prediction.total(drawing));
     return budget;
 }

@@ -58,6 +58,8 @@ struct Budget {
     double tolerance_px{};
     std::vector<BudgetLine> lines;
     EffectSize total;
+    // Of the data, measured when the region was opened; nothing where none were resampled.
+    std::optional<EffectSize> resampling;
     std::optional<EffectKind> dominant;  // the largest in the picture, in pixels
     bool empty{};                        // nothing is in view
     Air air;                             // of the true world

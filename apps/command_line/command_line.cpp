@@ -129,7 +129,8 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
     add_region_options(command, options.region);
     command.get_option("PATH")->description("The picture's elevation data, where they have moved.");
-    hide(command, {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids", "--own-posts"});
+    hide(command, {"--bbox", "--tile", "--height-unit", "--source-crs", "--source-vertical", "--strict-datum",
+                   "--fill-voids", "--own-posts"});
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the table and errors");

@@ -15,6 +15,8 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
+#include "apps/report/resampling_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/style.h"
 #include "apps/view/view_changes.h"
@@ -128,10 +130,13 @@ Result<void> run_compare(const CompareOptions& options) {
     if (pixels && !options.quiet && is_drawn_one(*pixels)) std::fputs(pixels_text(*pixels).c_str(), stderr);
     // What was asked for: as a table, or with -q as JSON alone.
     if (!options.quiet || !options.json)
-        std::fputs((verification_text(verification, view.tau_px, unseen) + light_line(view, region)).c_str(),
+        std::fputs((verification_text(verification, view.tau_px, unseen) + resampling_line(region) +
+                    light_line(view, region))
+                       .c_str(),
                    stderr);
     if (options.json) {
         nlohmann::ordered_json json = compare_json(options, view, path, *gpu, pixels, verification, unseen);
+        json["error"]["resampling"] = resampling_json(region_resampling(region));
         json["light"] = light_json(view.model.air, true_camera(view, region).eye.h_m);
         std::printf("%s\n", json_text(json, true).c_str());
     }

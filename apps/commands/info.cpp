@@ -3,27 +3,68 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/info_text.h"
+#include "apps/drawing/pipeline_choice.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view.h"
+#include "geo/listing/file_listing.h"
+#include "geo/region/baked_region.h"
+#include "geo/region/region_sources.h"
 
 namespace oro {
 namespace {
 
-// What there is to say of files that make no region together: each by itself. The error stays one.
-Error without_region(const InfoOptions& options, const RegionRequest& request, Error fault) {
-    const auto sources = sources_too_large(request);
-    if (!sources.ok() || sources->empty()) return fault;
-    if (options.json) {
-        const nlohmann::ordered_json json =
-            json_object("sources", sources_json(*sources), "region", nullptr, "error", fault.line());
-        std::printf("%s\n", json_text(json, true).c_str());
+std::string listed_names(const std::vector<ListedFile>& files) {
+    constexpr std::size_t most = 5;
+    std::string names;
+    std::size_t count = 0;
+    for (const ListedFile& file : files) {
+        if (file.leave_out.empty()) continue;
+        if (++count <= most) names += (names.empty() ? "" : ", ") + file.path;
+    }
+    return count > most ? names + " and " + std::to_string(count - most) + " more" : names;
+}
+
+nlohmann::ordered_json files_json(const std::vector<ListedFile>& files, bool damaged) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const ListedFile& file : files)
+        if (!file.report && file.damaged == damaged)
+            json.push_back(json_object("path", file.path, "reason", file.reason));
+    return json;
+}
+
+// What there is to say of files that make no region together: each by itself. The error stays one, and names
+// those without which there would be one.
+Error without_region(const InfoOptions& options, const FileListing& listing, Error fault) {
+    if (listing.files.size() == 1 && !listing.files.front().report) return fault;
+    if (const std::string names = listed_names(listing.files); !names.empty())
+        fault.what += "; without " + names + " the others make a region";
+    if (!options.json) {
+        std::printf("%s", listing_text(listing).c_str());
         return fault;
     }
-    std::printf("%s", unread_text(*sources).c_str());
+    nlohmann::ordered_json sources = nlohmann::ordered_json::array(),
+                           leave_out = nlohmann::ordered_json::array();
+    std::vector<SourceReport> reports;
+    for (const ListedFile& file : listing.files) {
+        if (file.report) reports.push_back(*file.report);
+        if (!file.leave_out.empty())
+            leave_out.push_back(json_object("path", file.path, "reason", file.leave_out));
+    }
+    const nlohmann::ordered_json json =
+        json_object("sources", sources_json(reports), "not_opened", files_json(listing.files, true),
+                    "passed_over", files_json(listing.files, false), "leave_out", std::move(leave_out),
+                    "region", nullptr, "error", fault.line());
+    std::printf("%s\n", json_text(json, true).c_str());
     return fault;
+}
+
+Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
+    if (baked_path(request.paths)) return FileListing{};
+    return list_files(request, {cache_folder().string(), program_print()},
+                      [&](double share, const std::string& what) { bar.show(share, "reading " + what); });
 }
 
 }  // namespace
@@ -31,21 +72,28 @@ Error without_region(const InfoOptions& options, const RegionRequest& request, E
 Result<void> run_info(const InfoOptions& options) {
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ProgressBar bar(options.quiet);
-    auto opened = open_region(
-        request, [&](double share, const std::string& what) { bar.show(share, "reading " + what); });
+    const auto listed = listing_of(request, bar);
+    if (!listed) return listed.error();
+    const FileListing& listing = *listed;
+    auto opened = listing.error ? Result<Region>(*listing.error)
+                                : open_region(request, [&](double share, const std::string& what) {
+                                      bar.show(share, "reading " + what);
+                                  });
     bar.clear();
-    if (!opened) return without_region(options, request, opened.error());
-    const Region region = std::move(*opened);
+    if (!opened) return without_region(options, listing, opened.error());
+    Region region = std::move(*opened);
+    // All of them are listed below.
+    std::erase_if(region.notes, [](const std::string& note) { return note.starts_with(passed_over); });
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
     if (options.check && region.file) ORO_CHECK(region.file->verify());
     if (options.json) {
-        const nlohmann::ordered_json json =
-            json_object("sources", sources_json(region.sources), "region", region_json(region), "file",
-                        file_json(region), "checked", options.check || !region.file);
+        const nlohmann::ordered_json json = json_object(
+            "sources", sources_json(region.sources), "region", region_json(region), "file", file_json(region),
+            "checked", options.check || !region.file, "passed_over", files_json(listing.files, false));
         std::printf("%s\n", json_text(json, true).c_str());
         return {};
     }
-    std::printf("%s", info_text(region).c_str());
+    std::printf("%s%s", info_text(region).c_str(), unread_files_text(listing).c_str());
     if (options.check)
         std::printf("check: %s\n", region.file ? "every page was read, and is as it was written"
                                                : "every post was read, as always without a whole .oro");

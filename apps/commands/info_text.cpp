@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/report/figures.h"
+#include "apps/report/resampling_words.h"
 #include "core/baked/region_format.h"
 #include "core/earth/ellipsoid.h"
 #include "geo/region/source_words.h"
@@ -36,6 +37,16 @@ std::string box_text(double west_deg, double south_deg, double east_deg, double 
 std::string heights_text(double lowest_m, double highest_m) {
     const bool whole = lowest_m == std::round(lowest_m) && highest_m == std::round(highest_m);
     return text_of(whole ? "%.0f to %.0f m" : "%.1f to %.1f m", lowest_m, highest_m);
+}
+
+bool is_as_stored(const SourceReport& source) {
+    return source.stored && source.stored->lowest_m == source.lowest_m &&
+           source.stored->highest_m == source.highest_m;
+}
+
+std::string stored_text(const StoredRange& stored) {
+    return heights_text(stored.lowest_m, stored.highest_m) +
+           (stored.whole ? "" : " in the part that was read");
 }
 
 std::string voids_text(const SourceReport& source) {
@@ -107,6 +118,28 @@ std::string all_of(const std::vector<std::string>& facts) {
     return text;
 }
 
+std::string heights_lines(const SourceReport& source) {
+    const std::string of_region = heights_text(source.lowest_m, source.highest_m);
+    if (!source.stored) return line("H", of_region + " at the region's posts");
+    if (is_as_stored(source)) return line("H", of_region + ", as the file stores them");
+    return line("stored", stored_text(*source.stored) + ": the file's own values") +
+           line("H", of_region + " at the region's posts");
+}
+
+bool is_resampled(const SourceReport& source) {
+    return source.placement && source.placement->fit != Fit::same_posts;
+}
+
+std::string resampling_lines(const SourceReport& source) {
+    if (!is_resampled(source)) return "";
+    if (!source.resampling) return line("resampling", "not measured: the region was baked before it was");
+    const Resampling& found = *source.resampling;
+    std::string text = line("resampling", (found.worst ? "up to " : "") + resampling_words(found));
+    if (found.highest) text += line("highest", "its post of " + post_words(*found.highest));
+    if (found.lowest) text += line("lowest", "its post of " + post_words(*found.lowest));
+    return text;
+}
+
 std::string one_file(const SourceReport& source, Posts posts) {
     std::string text = one_line(source.path) + "\n";
     text += line("format", format_words(source) + ", posts are " + posts_words(source.posts_are));
@@ -119,9 +152,10 @@ std::string one_file(const SourceReport& source, Posts posts) {
                               spacing_text(source) + ")");
     text += line("box", box_text(source.box.west_deg, source.box.south_deg, source.box.east_deg,
                                  source.box.north_deg));
-    text += line("H", posts == Posts::read ? heights_text(source.lowest_m, source.highest_m) : "not read");
+    text += posts == Posts::read ? heights_lines(source) : line("H", "not read");
     if (posts == Posts::read) text += line("void posts", voids_text(source));
     if (source.placement) text += line("placement", placement_text(*source.placement));
+    text += resampling_lines(source);
     return text + line("attribution", source.attribution.empty() ? "not stated" : source.attribution);
 }
 
@@ -130,8 +164,14 @@ std::string line_of_file(const SourceReport& source, Posts posts, const std::vec
     text +=
         text_of("  box %.6g,%.6g,%.6g,%.6g; %d x %d posts, every ", source.box.west_deg, source.box.south_deg,
                 source.box.east_deg, source.box.north_deg, source.columns, source.rows);
-    text += spacing_text(source) + "; H ";
-    text += posts == Posts::read ? heights_text(source.lowest_m, source.highest_m) : "not read";
+    text += spacing_text(source);
+    const bool differs = posts == Posts::read && source.stored && !is_as_stored(source);
+    if (differs) text += "; stores " + stored_text(*source.stored);
+    text +=
+        "; H " +
+        (posts == Posts::read ? heights_text(source.lowest_m, source.highest_m) : std::string("not read")) +
+        (differs ? " at the region's posts" : "");
+    if (source.resampling) text += "; resampled: up to " + resampling_words(*source.resampling);
     if (source.voids > 0) text += "; void posts: " + voids_text(source);
     if (source.seams.disagreeing_posts > 0)
         text += "; " + counted(source.seams.disagreeing_posts, "post differs", "posts differ") +
@@ -161,23 +201,30 @@ std::string files_text(const std::vector<SourceReport>& sources, Posts posts) {
 std::string region_voids(const Region& region) {
     std::string text = region.void_posts() == 0 ? "none" : grouped(region.void_posts());
     if (region.filled > 0) text += " left, " + grouped(region.filled) + " filled from their neighbours";
+    if (!region.tells_voids_apart)
+        return text +
+               " without a height, void in their file or outside the rasters: which, a baked region's part "
+               "and old ones do not tell";
     if (region.void_posts() > 0 && region.void_method == VoidMethod::holes)
         text += std::string(", left as holes (") + (region.file ? "baking with " : "") +
                 "--fill-voids fills those near others)";
     return text;
 }
 
-std::string posts_without_file(const Region& region) {
-    std::string text;
-    if (region.in_missing > 0 || !region.missing_cells.empty()) {
-        text = counted(region.in_missing, "post", "posts") + " in " +
-               counted(region.missing_cells.size(), "cell", "cells") + " of a degree that no file covers:";
-        for (const std::string& cell : region.missing_cells) text += " " + cell;
-    }
-    if (region.outside > 0)
-        text += (text.empty() ? "" : "; ") + counted(region.outside, "post", "posts") +
-                " beyond the edges of the files";
-    return text.empty() ? "none" : text;
+std::string outside_text(const Region& region) {
+    if (!region.tells_voids_apart) return "not told apart from void posts in this baked region";
+    if (region.outside == 0) return "none";
+    return counted(region.outside, "post", "posts") + " of the region's box, beyond the edges of the " +
+           (region.sources.size() == 1 ? "raster" : "rasters");
+}
+
+std::string missing_text(const Region& region) {
+    if (region.missing_cells.empty()) return "none";
+    std::string text = counted(region.missing_cells.size(), "tile", "tiles") +
+                       " (cells of a degree without a file), " + counted(region.in_missing, "post", "posts") +
+                       ":";
+    for (const std::string& cell : region.missing_cells) text += " " + cell;
+    return text;
 }
 
 std::string overlaps(const SeamReport& seams) {
@@ -222,11 +269,46 @@ std::string info_text(const Region& region) {
     text +=
         line("H", heights_text(static_cast<double>(range.lowest_m), static_cast<double>(range.highest_m)) +
                       " above the geoid " + region.geoid);
+    if (const std::string resampled = resampling_sentence(region); !resampled.empty())
+        text += line("resampling", resampled);
     text += line("void posts", region_voids(region));
-    text += line("no data", posts_without_file(region));
+    text += line("outside", outside_text(region));
+    text += line("missing", missing_text(region));
     text += line("overlaps", overlaps(region.seams));
     for (const std::string& note : region.notes) text += line("note", note);
     return text + files_text(region.sources, Posts::read);
+}
+
+std::string unread_files_text(const FileListing& listing) {
+    std::string text;
+    for (const bool damaged : {true, false}) {
+        std::string lines;
+        std::uint64_t count = 0;
+        for (const ListedFile& file : listing.files) {
+            if (file.report || file.damaged != damaged) continue;
+            lines += one_line(file.path) + "  " + one_line(file.reason) + "\n";
+            ++count;
+        }
+        if (count > 0)
+            text += (damaged ? "cannot be opened: " : "passed over, without elevation: ") +
+                    counted(count, "file", "files") + "\n" + lines;
+    }
+    return text;
+}
+
+std::string listing_text(const FileListing& listing) {
+    std::vector<SourceReport> sources;
+    std::string leave_out;
+    std::uint64_t count = 0;
+    for (const ListedFile& file : listing.files) {
+        if (file.report) sources.push_back(*file.report);
+        if (file.leave_out.empty()) continue;
+        ++count;
+        leave_out += one_line(file.path) + "  " + one_line(file.leave_out) + "\n";
+    }
+    std::string text = (sources.empty() ? "" : unread_text(sources)) + unread_files_text(listing);
+    if (count > 0) text += "to be left out: " + counted(count, "file", "files") + "\n" + leave_out;
+    return text;
 }
 
 std::string unread_text(const std::vector<SourceReport>& sources) {

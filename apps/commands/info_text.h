@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/listing/file_listing.h"
 #include "geo/region/region.h"
 
 namespace oro {
@@ -14,5 +15,9 @@ std::string info_text(const Region& region);
 
 // The same of files that make no region together, whose posts were not read.
 std::string unread_text(const std::vector<SourceReport>& sources);
+// ... of all that were found, with those that cannot be opened and those to be left out.
+std::string listing_text(const FileListing& listing);
+// Files without elevation and damaged ones, a line each with the reason; "" where there are none.
+std::string unread_files_text(const FileListing& listing);
 
 }  // namespace oro

@@ -196,17 +196,26 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
     data.choice("--height-unit", options.height_unit, {"m", "ft", "us-ft", "cm"},
                 "Take heights in this unit, whatever a file says. Default: the file's, or metres where it "
                 "says nothing. ft is the international foot, us-ft the US survey foot.");
+    data.option("--source-crs", options.source_crs, "CRS",
+                "Where files lie that state no coordinate reference system: EPSG:2056, or another that PROJ "
+                "knows. Files that state one keep it.");
+    data.option(
+        "--source-vertical", options.source_vertical, "CRS",
+        "What heights refer to, of files that do not say it: EPSG:5728 (Switzerland, LN02), EPSG:4979 "
+        "(above the ellipsoid), or another. Default: sea level (EGM96).");
     data.flag("--strict-datum", options.strict_datum,
               "Stop where heights cannot be converted from a file's vertical datum (what they are heights "
               "above), or where PROJ lacks a grid or a way for its horizontal datum. Without this they count "
               "as heights above sea level (EGM96), places are as good as they can be, and a note says so.");
     data.flag(
         "--own-posts", options.own_posts,
-        "Draw the points of a file where its own CRS has them (a projected one, say). Without this such a "
-        "file is resampled onto latitudes and longitudes, which rounds off summits. For one file; not with "
-        "images, other models of the Earth or baking yet.");
-    data.flag("--fill-voids", options.fill_voids,
-              "Give points without a height (voids) one from their neighbours. Without this they are holes.");
+        "Draw the points of files where their own CRS has them (a projected one, say). Without this such "
+        "files are resampled onto latitudes and longitudes, which rounds off summits. Of several files the "
+        "points must lie on one lattice. Not with images or other models of the Earth.");
+    data.flag(
+        "--fill-voids", options.fill_voids,
+        "Give void posts (points that a file leaves empty) a height from their neighbours. Without this "
+        "they are holes. Not for what lies outside a raster, nor for missing tiles.");
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {

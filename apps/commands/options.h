@@ -17,6 +17,8 @@ struct RegionOptions {
     std::string bbox;
     std::string tile;
     std::string height_unit;
+    std::string source_crs;       // of files that state none
+    std::string source_vertical;  // likewise, what heights refer to
     bool strict_datum{false};
     bool fill_voids{false};
     bool own_posts{false};
@@ -38,9 +40,9 @@ struct ViewOptions {
     std::optional<std::string> shadows;  // on, off
     std::optional<std::string> sky_openness;
     std::optional<std::string> labels;
-    std::optional<std::string> edges;   // smooth, steps
-    bool legend{false};      // a strip below the picture
-    bool takes_maps{false};  // not an option: whether a view that is a map may be opened
+    std::optional<std::string> edges;  // smooth, steps
+    bool legend{false};                // a strip below the picture
+    bool takes_maps{false};            // not an option: whether a view that is a map may be opened
     std::optional<double> exaggeration;
     std::optional<int> samples;
     std::optional<std::string> style;

@@ -9,6 +9,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/resampling_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view_changes.h"
 #include "core/base/parallel.h"
@@ -102,6 +103,9 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     for (const BudgetLine& line : budget.lines) json["effects"].push_back(effect_json(line));
     json["total"] = size_json(budget.total);
     json["unseen"] = unseen_json(unseen);
+    // Null where the region's posts are its sources' own.
+    json["resampling"] = nullptr;
+    if (budget.resampling) json["resampling"] = size_json(*budget.resampling);
     json["dominates"] = nullptr;
     json["dominates_kind"] = nullptr;
     if (budget.dominant) {
@@ -150,6 +154,8 @@ Result<void> run_plan(const PlanOptions& options) {
     bar.clear();
     say_changes(view, options.quiet);
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
+    if (const std::string sentence = resampling_sentence(region); !sentence.empty())
+        say(options.quiet, "note: " + sentence);
     ORO_TRY(const Budget budget, plan_view(view, region, truth->surface(), *pages, tolerance_px));
     ORO_TRY(const AccuracyChoice choice,
             choose_accuracy(view, region, truth->surface(), *pages, tolerance_px));

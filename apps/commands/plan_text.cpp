@@ -103,6 +103,13 @@ std::string unseen_row(const UnseenGround& unseen, double tolerance_px) {
            counted(static_cast<std::uint64_t>(unseen.columns), "column", "columns") + "\n";
 }
 
+// What the heights that are drawn lost before: no effect of drawing, and measured, not predicted.
+std::string resampling_row(const Budget& budget) {
+    if (!budget.resampling) return {};
+    return row("resampled heights", "yes", yes_or_no(budget.resampling->worst_px <= budget.tolerance_px),
+               budget.resampling, "");
+}
+
 // What this view is good to, and what would make it better.
 std::string advice(const Budget& budget, const View& view, const AccuracyChoice& choice,
                    const UnseenGround& unseen) {
@@ -136,6 +143,7 @@ std::string advice(const Budget& budget, const View& view, const AccuracyChoice&
 std::string limit_of_data(const Budget& budget) {
     double worst_px = 0.0;
     bool stated = true;
+    if (budget.resampling) worst_px = budget.resampling->worst_px;
     for (const BudgetLine& line : budget.lines) {
         if (facts_of(line.kind).group != EffectGroup::data) continue;
         if (line.size) worst_px = std::max(worst_px, line.size->worst_px);
@@ -205,7 +213,7 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
     out += rows(budget, EffectGroup::drawing, view);
     out += "\nWhat the data do not tell, and no setting can help:\n" + headings("error", "within", limit, "");
     out += rows(budget, EffectGroup::data, view);
-    out += unseen_row(unseen, budget.tolerance_px);
+    out += resampling_row(budget) + unseen_row(unseen, budget.tolerance_px);
     out += "\n" + row("this picture, but for its data", "",
                       yes_or_no(budget.total.worst_px <= budget.tolerance_px), budget.total, "");
     return out + "\n" + advice(budget, view, choice, unseen) + "\n" + limit_of_data(budget) + "\n";

@@ -114,6 +114,8 @@ Result<void> leave_terrain_out(const SunOptions& options) {
                                            {"--bbox", !region.bbox.empty()},
                                            {"--tile", !region.tile.empty()},
                                            {"--height-unit", !region.height_unit.empty()},
+                                           {"--source-crs", !region.source_crs.empty()},
+                                           {"--source-vertical", !region.source_vertical.empty()},
                                            {"--strict-datum", region.strict_datum},
                                            {"--own-posts", region.own_posts},
                                            {"--fill-voids", region.fill_voids}}) {

@@ -30,12 +30,22 @@ ordered_json source_json(const SourceReport& s) {
         json_object("lat_deg", s.lat_spacing_deg, "lon_deg", s.lon_spacing_deg, "metres", s.spacing_m);
     json["bbox"] = box_json(s.box);
     json["H_m"] = json_object("lowest", s.lowest_m, "highest", s.highest_m);
+    json["stored"] = nullptr;
+    if (s.stored) json["stored"] = stored_fields<ordered_json>(*s.stored);
     put_source_findings(json, s);
+    json["resampling"] = nullptr;
+    if (s.resampling) json["resampling"] = resampling_fields<ordered_json>(*s.resampling);
     json["attribution"] = s.attribution;
     return json;
 }
 
 }  // namespace
+
+ordered_json resampling_json(const std::optional<RegionResampling>& found) {
+    if (!found) return nullptr;
+    return json_object("files", found->files, "unknown", found->unknown, "posts", found->posts, "compared",
+                       found->compared, "worst_m", found->worst_m, "rms_m", found->rms_m);
+}
 
 ordered_json sources_json(const std::vector<SourceReport>& sources) {
     ordered_json all = ordered_json::array();
@@ -55,9 +65,16 @@ ordered_json region_json(const Region& region) {
     else
         json["spacing_deg"] = json_object("lat", grid.lat.spacing_deg(), "lon", grid.lon.spacing_deg());
     json["H_m"] = json_object("lowest", range.lowest_m, "highest", range.highest_m);
+    json["resampling"] = resampling_json(region_resampling(region));
     json["geoid"] = region.geoid;
-    json["voids"] = region.void_posts();
-    json["outside_sources"] = region.outside;
+    // Null where it is not known which of the posts are void, and which outside all rasters.
+    json["without_height"] = region.voids;
+    json["voids"] = nullptr;
+    json["outside_sources"] = nullptr;
+    if (region.tells_voids_apart) {
+        json["voids"] = region.void_posts();
+        json["outside_sources"] = region.outside;
+    }
     json["in_missing_cells"] = region.in_missing;
     json["filled"] = region.filled;
     json["void_method"] = void_method_words(region.void_method);
@@ -89,11 +106,16 @@ std::string note_of_voids(const Region& region) {
     const auto add = [&](std::uint64_t posts, const char* one, const char* many, const std::string& what) {
         if (posts > 0) note += (note.empty() ? "" : "; ") + counted(posts, one, many) + what;
     };
-    add(region.void_posts(), "void post is a hole", "void posts are holes",
-        std::string(" (") + (region.file ? "baking with " : "") + "--fill-voids fills what is near others)");
-    add(region.outside, "post outside all files is a hole", "posts outside all files are holes", "");
+    if (!region.tells_voids_apart)
+        add(region.void_posts(), "post without a height is a hole", "posts without a height are holes",
+            ": void in their file, or outside all rasters, which this baked region does not tell apart");
+    else
+        add(region.void_posts(), "void post is a hole", "void posts are holes",
+            std::string(" (") + (region.file ? "baking with " : "") +
+                "--fill-voids fills what is near others)");
+    add(region.outside, "post outside all rasters is a hole", "posts outside all rasters are holes", "");
     add(region.in_missing, "post is a hole", "posts are holes",
-        ": " + counted(region.missing_cells.size(), "cell has no file", "cells have no file"));
+        " in " + counted(region.missing_cells.size(), "missing tile", "missing tiles"));
     return note;
 }
 

@@ -3,11 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geo/measures/region_resampling.h"
 #include "geo/region/region.h"
 
 namespace oro {
 
 nlohmann::ordered_json sources_json(const std::vector<SourceReport>& sources);
+// Null for nothing.
+nlohmann::ordered_json resampling_json(const std::optional<RegionResampling>& found);
 nlohmann::ordered_json region_json(const Region& region);
 // The file of a baked region that is one whole; null for all others.
 nlohmann::ordered_json file_json(const Region& region);

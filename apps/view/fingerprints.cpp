@@ -22,6 +22,7 @@ Fingerprints prints_of(const Region& region) {
     prints.program = program_print();
     prints.grid = grid_print(region.field.grid);
     prints.posts = region.posts_print;
+    prints.resampling = region_resampling(region);
     prints.geoid = region.geoid;
     prints.undulation = region.geoid_print;
     if (region.sources.size() > most_sources_with_prints) return prints;

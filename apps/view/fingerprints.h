@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/styles/style.h"
+#include "geo/measures/region_resampling.h"
 #include "geo/region/region.h"
 #include "shaders/shared.h"
 
@@ -23,7 +24,8 @@ struct Fingerprints {
     std::uint64_t grid{};                // where the region's posts lie
     std::optional<std::uint64_t> posts;  // what they are: decides whether data are the same. Unknown as above
     std::vector<OfSource> sources;       // to name the ones that changed; none where there are too many
-    std::string geoid;                   // its name
+    std::optional<RegionResampling> resampling;  // what the region lost by it; nothing where nothing was
+    std::string geoid;                           // its name
     std::uint64_t undulation{};          // N over the region
     std::vector<OfSource> images;        // over the ground, as the view names them
     std::vector<OfSource> vectors;       // names and lines, likewise

@@ -6,6 +6,7 @@
 
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
+#include "apps/report/region_json.h"
 #include "apps/view/path_json.h"
 
 namespace oro {
@@ -64,6 +65,23 @@ std::vector<Fingerprints::OfSource> sources_from(const nlohmann::json& json, con
     return all;
 }
 
+// Views of before it was measured have none, nor have those of regions whose posts are their sources' own.
+std::optional<RegionResampling> resampling_from(const nlohmann::json& json) {
+    if (!json.contains("resampling")) return std::nullopt;
+    const nlohmann::json& told = json_field(json, "resampling");
+    const auto count = [&](const char* name) {
+        constexpr std::int64_t most = std::int64_t{1} << 53U;
+        return static_cast<std::uint64_t>(json_whole(told, name, 0, most));
+    };
+    constexpr double most_m = 1e6;
+    return RegionResampling{count("files"),
+                            count("unknown"),
+                            count("posts"),
+                            count("compared"),
+                            json_number(told, "worst_m", 0.0, most_m),
+                            json_number(told, "rms_m", 0.0, most_m)};
+}
+
 }  // namespace
 
 std::string pixels_field(std::uint64_t pixels) {
@@ -76,6 +94,7 @@ ordered_json prints_json(const Fingerprints& prints) {
     json["grid"] = digits_of(prints.grid);
     put(json, "posts", prints.posts);
     json["sources"] = sources_json(prints.sources);
+    if (prints.resampling) json["resampling"] = resampling_json(prints.resampling);
     json["geoid"] = json_object("name", prints.geoid, "undulation", digits_of(prints.undulation));
     if (!prints.images.empty()) json["images"] = sources_json(prints.images);
     if (!prints.vectors.empty()) json["vectors"] = sources_json(prints.vectors);
@@ -96,6 +115,7 @@ Fingerprints prints_from(const nlohmann::json& json) {
     const nlohmann::json& geoid = json_field(json, "geoid");
     prints.geoid = json_string(geoid, "name");
     prints.undulation = print_from(geoid, "undulation");
+    prints.resampling = resampling_from(json);
     prints.style = print_if_any(json, "style");
     prints.pixels = print_if_any(json, "pixels");
     if (json.contains("data_changed")) prints.data_changed = json_flag(json, "data_changed");

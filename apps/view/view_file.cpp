@@ -187,17 +187,28 @@ ordered_json sun_json(const SunDirection& sun) {
     return json;
 }
 
+// How the sources are to be read, and which part of them.
+void read_region(const nlohmann::json& json, RegionRequest& region) {
+    if (!json_field(json, "bbox").is_null()) region.box = read_box(json);
+    region.height_unit = json_string(json, "height_unit");
+    if (!region.height_unit.empty() && !metres_in(region.height_unit))
+        throw JsonFault{"'height_unit' is '" + region.height_unit + "', none of m, ft, us-ft, cm"};
+    // Where nothing was told there is none.
+    if (json.contains("source_crs")) region.source_crs = json_string(json, "source_crs");
+    if (const auto fault = fault_of_source_crs(region.source_crs)) throw JsonFault{"'source_crs' " + *fault};
+    if (json.contains("source_vertical")) region.source_vertical = json_string(json, "source_vertical");
+    if (const auto fault = fault_of_source_vertical(region.source_vertical))
+        throw JsonFault{"'source_vertical' " + *fault};
+    region.fill_voids = json_flag(json, "fill_voids");
+    region.own_posts = json.contains("own_posts") && json_flag(json, "own_posts");
+    region.strict_datum = json_flag(json, "strict_datum");
+}
+
 // What the parser of options would have refused must not come in by a file.
 View read_fields(const nlohmann::json& json) {
     View view;
     read_sources(json, view);
-    if (!json_field(json, "bbox").is_null()) view.region.box = read_box(json);
-    view.region.height_unit = json_string(json, "height_unit");
-    if (!view.region.height_unit.empty() && !metres_in(view.region.height_unit))
-        throw JsonFault{"'height_unit' is '" + view.region.height_unit + "', none of m, ft, us-ft, cm"};
-    view.region.fill_voids = json_flag(json, "fill_voids");
-    view.region.own_posts = json.contains("own_posts") && json_flag(json, "own_posts");
-    view.region.strict_datum = json_flag(json, "strict_datum");
+    read_region(json, view.region);
     read_camera(json, view.camera);
     read_map(json, view);
     if (json.contains("legend_px")) {
@@ -267,6 +278,8 @@ std::string view_to_json(const View& view, bool pretty) {
     if (const auto& box = view.region.box)
         json["bbox"] = json_list(box->west_deg, box->south_deg, box->east_deg, box->north_deg);
     json["height_unit"] = view.region.height_unit;
+    if (!view.region.source_crs.empty()) json["source_crs"] = view.region.source_crs;
+    if (!view.region.source_vertical.empty()) json["source_vertical"] = view.region.source_vertical;
     json["fill_voids"] = view.region.fill_voids;
     if (view.region.own_posts) json["own_posts"] = true;
     json["strict_datum"] = view.region.strict_datum;

@@ -11,6 +11,7 @@
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
+#include "geo/sources/told_of_files.h"
 
 namespace oro {
 namespace {
@@ -181,6 +182,12 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
     request.fill_voids = options.fill_voids;
     request.own_posts = options.own_posts;
     request.height_unit = options.height_unit;
+    request.source_crs = options.source_crs;
+    request.source_vertical = options.source_vertical;
+    if (const auto fault = fault_of_source_crs(options.source_crs))
+        return refused("--source-crs", options.source_crs, *fault);
+    if (const auto fault = fault_of_source_vertical(options.source_vertical))
+        return refused("--source-vertical", options.source_vertical, *fault);
     if (!options.bbox.empty()) {
         const Result<BoundingBox> box = parse_bounding_box(options.bbox);
         if (!box.ok()) return refused("--bbox", options.bbox, box.error().what);
@@ -247,6 +254,8 @@ Result<void> change_region(View& view, const RegionOptions& options) {
     for (const auto& [option, is_given] : {std::pair{"--bbox", !options.bbox.empty()},
                                            {"--tile", !options.tile.empty()},
                                            {"--height-unit", !options.height_unit.empty()},
+                                           {"--source-crs", !options.source_crs.empty()},
+                                           {"--source-vertical", !options.source_vertical.empty()},
                                            {"--strict-datum", options.strict_datum},
                                            {"--own-posts", options.own_posts},
                                            {"--fill-voids", options.fill_voids}}) {

@@ -19,6 +19,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
+#include "apps/report/resampling_words.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_changes.h"
@@ -110,7 +111,7 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
         // What was asked for: as a table, or with -q as JSON alone.
         if (!options.quiet || !options.json)
             std::fputs((verification_text(*shot.verification, shot.view.tau_px, shot.unseen) +
-                        light_line(shot.view, shot.region))
+                        resampling_line(shot.region) + light_line(shot.view, shot.region))
                            .c_str(),
                        stderr);
     }

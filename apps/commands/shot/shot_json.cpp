@@ -189,6 +189,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
         json["times_s"]["verify"] = shot.times.verify_s;
         json["error_picture"] = files.error;
         json["error"] = verification_json(*shot.verification);
+        json["error"]["resampling"] = resampling_json(region_resampling(shot.region));
     }
     return json;
 }
