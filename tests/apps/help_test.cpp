@@ -129,7 +129,9 @@ TEST(Help, HidesWhatDoesNothing) {
           "--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width", "--overlay-fill",
           "--pipeline", "--time", "--own-posts"}},
         {"view", {"--tolerance", "--time"}},
-        {"compare", {"--bbox", "--tile", "--height-unit", "--strict-datum", "--fill-voids", "--own-posts"}}};
+        {"compare",
+         {"--bbox", "--tile", "--height-unit", "--source-crs", "--source-vertical", "--strict-datum",
+          "--fill-voids", "--own-posts"}}};
     const std::string shot = help_of({"shot"});
     for (const auto& [command, options] : hidden) {
         const std::string help = help_of({command});

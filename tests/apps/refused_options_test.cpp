@@ -40,7 +40,15 @@ TEST(RefusedOptions, Choices) {
          {{"plan", file, "--heights", "f64"}, "--heights f64: choose f32 or i16"},
          {{"plan", file, "--accuracy", "best"}, "--accuracy best: choose draft, balanced or survey"},
          {{"shot", file, "--pipeline", "cpu"}, "--pipeline cpu: choose auto, mesh or compute"},
-         {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft or cm"}});
+         {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft or cm"},
+         {{"info", file, "--source-crs", "EPSG:999999"},
+          "--source-crs EPSG:999999: is no coordinate reference system that PROJ knows; e.g. EPSG:2056"},
+         {{"info", file, "--source-crs", "EPSG:5728"},
+          "--source-crs EPSG:5728: says what heights refer to, not places: --source-vertical takes it"},
+         {{"info", file, "--source-vertical", "EPSG:2056"},
+          "--source-vertical EPSG:2056: says nothing of heights that PROJ knows; e.g. EPSG:5728 "
+          "(Switzerland, "
+          "LN02), EPSG:5703 (NAVD88), EPSG:4979 (above the ellipsoid)"}});
 }
 
 TEST(RefusedOptions, Numbers) {

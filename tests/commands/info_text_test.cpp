@@ -47,9 +47,9 @@ void expect_none(const std::string& text, const std::vector<std::string>& words)
 
 TEST(InfoText, OneFileTellsAllOfItself) {
     const std::string text = info_text(region_of({tile("a/N46E008.hgt")}));
-    expect_words(text, {"region: 1 file\n", "void posts  none\n", "no data     none\n", "overlaps    none\n",
-                        "\na/N46E008.hgt\n", "SRTM3 .hgt, posts are points", "in m\n", "190 to 4142 m\n",
-                        "degrees (92.63 m north-south and 63.97 m east-west)\n",
+    expect_words(text, {"region: 1 file\n", "void posts  none\n", "outside     none\n", "missing     none\n",
+                        "overlaps    none\n", "\na/N46E008.hgt\n", "SRTM3 .hgt, posts are points", "in m\n",
+                        "190 to 4142 m\n", "degrees (92.63 m north-south and 63.97 m east-west)\n",
                         "its posts are the region's posts\n", "attribution somebody\n"});
     expect_none(text, {"1 files", "sources", " 0 of", "no cell", "note"});
     EXPECT_LT(text.find("region: "), text.find("N46E008.hgt"));
@@ -107,7 +107,8 @@ TEST(InfoText, ManyFilesAreALineEachAfterWhatTheyShare) {
     expect_words(
         text,
         {"region: 2 files\n", "1,500, left as holes (--fill-voids",
-         "1 post in 1 cell of a degree that no file covers: N46E009; 7 posts beyond the edges of the files\n",
+         "outside     7 posts of the region's box, beyond the edges of the rasters\n",
+         "missing     1 tile (cells of a degree without a file), 1 post: N46E009\n",
          "1,201 posts are in more than one file, 12 of them with other heights, by up to 3.5 m",
          "files: 2, all of them: posts are points; EPSG:4326 WGS 84;",
          "a/N46E008.hgt  box 8,46,9,47; 1201 x 1201 posts, every 92.63 m north-south and 63.97 m east-west; "
@@ -148,6 +149,78 @@ TEST(InfoText, FilledPostsAndPlacementsAreTold) {
          "up to 0.0012 of their spacing\n"});
     region.sources[0].placement = Placement{};
     expect_words(info_text(region), {"its posts lie elsewhere than the region's: heights are resampled"});
+}
+
+// Found: the range of what was resampled was told as the file's.
+TEST(InfoText, TheFilesOwnRangeAndTheRegionsAreToldApart) {
+    SourceReport source = tile("a/swiss.tif");
+    source.stored = StoredRange{190.0, 4142.0, true};
+    expect_words(info_text(region_of({source})), {"  H           190 to 4142 m, as the file stores them\n"});
+    source.lowest_m = 182.5;
+    source.highest_m = 4101.25;
+    expect_words(info_text(region_of({source})), {"  stored      190 to 4142 m: the file's own values\n",
+                                                  "  H           182.5 to 4101.2 m at the region's posts\n"});
+    expect_words(info_text(region_of({source, source})),
+                 {"; stores 190 to 4142 m; H 182.5 to 4101.2 m at the region's posts"});
+    source.stored->whole = false;
+    expect_words(info_text(region_of({source})), {"190 to 4142 m in the part that was read"});
+}
+
+TEST(InfoText, ResamplingIsToldInMetresWithItsPlace) {
+    SourceReport source = tile("a/swiss.tif");
+    source.placement = Placement{};
+    expect_words(
+        info_text(region_of({source})),
+        {"  resampling  heights of 1 file are resampled: by how much they are off is not known, because "
+         "the region was baked before it was measured\n",
+         "  resampling  not measured: the region was baked before it was\n"});
+    Resampling found;
+    found.posts = 31000000;
+    found.compared = 250000;
+    found.rms_m = 1.8;
+    found.worst = PostShown{46.5, 8.125, 1899.9, 2279.93};
+    found.highest = PostShown{46.536527, 8.125552, 4107.896, 4087.12};
+    found.lowest = PostShown{46.9, 8.6, 431.0, {}};
+    source.resampling = found;
+    expect_words(
+        info_text(region_of({source})),
+        {"  resampling  up to 380 m off at 46.500000 8.125000 (own 1899.9 m, shown 2279.9 m), 1.8 m RMS, of "
+         "250,000 of 31,000,000 posts\n",
+         "  highest     its post of 4107.9 m at 46.536527 8.125552, shown as 4087.1 m\n",
+         "  lowest      its post of 431.0 m at 46.900000 8.600000, where the region has no ground\n"});
+    // Of many, the worst one is named.
+    SourceReport better = source;
+    better.path = "b/better.tif";
+    better.resampling->worst->shown_H_m = 1900.0;
+    expect_words(info_text(region_of({better, source, tile("c.hgt")})),
+                 {"heights of 2 files are resampled: its own posts are up to 380 m off",
+                  "of swiss.tif; 1.8 m RMS of all 2 files", "; resampled: up to 0.1 m off"});
+    expect_none(info_text(region_of({tile("c.hgt")})), {"resampl"});
+}
+
+// A part of a baked region, and an old one, do not tell; nothing is offered then.
+TEST(InfoText, VoidsThatAreNotToldApartAreNotOfferedToBeFilled) {
+    Region region = region_of({tile("a.hgt")});
+    region.voids = 12;
+    region.tells_voids_apart = false;
+    const std::string text = info_text(region);
+    expect_words(text, {"void posts  12 without a height, void in their file or outside the rasters",
+                        "outside     not told apart from void posts in this baked region\n"});
+    expect_none(text, {"--fill-voids"});
+}
+
+TEST(InfoText, FilesThatCannotBeOpenedAreListedWithTheReason) {
+    FileListing listing;
+    listing.files.push_back({"a.hgt", tile("a.hgt"), "", false, ""});
+    listing.files.push_back({"b.tif", {}, "is no raster", true, ""});
+    listing.files.push_back({"c.tif", {}, "has 3 bands", false, ""});
+    listing.files.push_back({"d.tif", tile("d.tif"), "", false, "its posts are 1 m apart"});
+    expect_words(listing_text(listing),
+                 {"files: 2, all of them: ", "cannot be opened: 1 file\nb.tif  is no raster\n",
+                  "passed over, without elevation: 1 file\nc.tif  has 3 bands\n",
+                  "to be left out: 1 file\nd.tif  its posts are 1 m apart\n"});
+    listing.files.clear();
+    EXPECT_EQ(unread_files_text(listing), "");
 }
 
 TEST(InfoText, FilesThatWereNotReadHaveNoHeights) {

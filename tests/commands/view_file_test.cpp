@@ -10,6 +10,8 @@ oro::View unusual_view() {
     view.region.paths = {"a.hgt", "b c.zip"};
     view.region.box = oro::BoundingBox{179.5, -17.25, -179.0, -16.0};
     view.region.height_unit = "us-ft";
+    view.region.source_crs = "EPSG:2056";
+    view.region.source_vertical = "EPSG:4979";
     view.region.fill_voids = true;
     view.region.strict_datum = true;
     view.camera.eye = {-16.123456789012345, 179.87654321098765, 1234.5678901234567};
@@ -42,6 +44,8 @@ TEST(ViewFile, EveryFieldComesBack) {
         ASSERT_TRUE(read.ok()) << read.error().line();
         EXPECT_EQ(oro::view_to_json(*read, pretty), text);
         EXPECT_EQ(read->pipeline, "compute");
+        EXPECT_EQ(read->region.source_crs, "EPSG:2056");
+        EXPECT_EQ(read->region.source_vertical, "EPSG:4979");
         EXPECT_EQ(read->visibility_km, 12.5);
         EXPECT_EQ(read->sea, oro::Sea::low);
         EXPECT_EQ(read->rim, oro::Rim::none);

@@ -279,7 +279,8 @@ TEST_F(Bake, BakedRegionsAreOpenedAloneAndAsTheyAre) {
         expect_refusal(run_orograph(joined({"shot", "--out", out}, paths)), usage, {region, "opened alone"});
     }
     for (const Words& option :
-         {Words{"--fill-voids"}, Words{"--strict-datum"}, Words{"--height-unit", "ft"}}) {
+         {Words{"--fill-voids"}, Words{"--strict-datum"}, Words{"--height-unit", "ft"},
+          Words{"--source-crs", "EPSG:2056"}, Words{"--source-vertical", "EPSG:4979"}}) {
         expect_refusal(run_orograph(joined({"info", region}, option)), usage, {option[0], "baked"});
         expect_refusal(run_orograph(joined({"shot", region, "--out", out}, option)), usage,
                        {option[0], "baked"});

@@ -160,6 +160,8 @@ TEST_F(HostileInput, ViewsWithNumbersThatWouldBeBent) {
         {"bbox", {-84.3, 36.7, -84.2, 36.5}},
         {"bbox", {-84.3, 36.5, -84.2, 36.6, 5}},
         {"height_unit", "parsec"},
+        {"source_crs", "EPSG:999999"},
+        {"source_vertical", "EPSG:2056"},
         {"sources", {bundled() + std::string("\0junk", 5)}},
         {"sources", bundled()},
         {"eye", {{"lat_deg", 36.6}, {"lon_deg", -84.2}}},

@@ -218,10 +218,12 @@ TEST_F(BakedRegionErrors, OtherPathsBesideIt) {
 }
 
 TEST_F(BakedRegionErrors, OptionsThatWereDecidedWhenItWasBaked) {
-    std::vector<RegionRequest> requests(3, request_for({file_}));
+    std::vector<RegionRequest> requests(5, request_for({file_}));
     requests[0].height_unit = "ft";
     requests[1].fill_voids = true;
     requests[2].strict_datum = true;
+    requests[3].source_crs = "EPSG:2056";
+    requests[4].source_vertical = "EPSG:4979";
     for (const RegionRequest& request : requests) {
         const Error error = error_of(request);
         EXPECT_EQ(error.kind, ErrorKind::usage);
@@ -236,7 +238,7 @@ TEST_F(BakedRegionErrors, BoxesWithoutPosts) {
     request.box = BoundingBox{20.65, 10.57, 20.70, 10.58};  // in the hole
     const Error in_hole = error_of(request);
     EXPECT_EQ(in_hole.kind, ErrorKind::no_data);
-    EXPECT_NE(in_hole.line().find("void"), std::string::npos) << in_hole.line();
+    EXPECT_NE(in_hole.line().find("has a height"), std::string::npos) << in_hole.line();
 }
 
 // A description that tells of another region than the file's is no region's.

@@ -47,6 +47,16 @@ SourceReport unusual_source(const std::string& path) {
     s.implausible = 3;
     s.placement = Placement{Fit::every_kth_post, 0.0012, 2, 3};
     s.seams = {1201, 12, 0.30000000000000004};
+    s.stored = StoredRange{-32678.0, 8848.859999999999, true};
+    const PostShown own{46.1, 181.23456789012345, 8848.86, 8840.1};
+    s.resampling = Resampling{407537,
+                              406249,
+                              3,
+                              18446744073709551615U,
+                              1.8000000000000003,
+                              own,
+                              own,
+                              PostShown{46.2, 8.1, 190.0, {}}};
     return s;
 }
 
@@ -144,6 +154,25 @@ TEST(RegionDescription, EveryFieldComesBack) {
     EXPECT_EQ(read->notes, region.notes);
 }
 
+TEST(RegionDescription, WhatWasMeasuredComesBack) {
+    const auto read = region_from_description(region_description(unusual_region()), "region.oro");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    const SourceReport& s = read->sources[0];
+    const SourceReport expected = unusual_source("");
+    ASSERT_TRUE(s.stored && s.resampling && s.resampling->worst && s.resampling->lowest);
+    EXPECT_EQ(s.stored->lowest_m, expected.stored->lowest_m);
+    EXPECT_EQ(s.stored->highest_m, expected.stored->highest_m);
+    EXPECT_EQ(s.stored->whole, expected.stored->whole);
+    EXPECT_EQ(s.resampling->posts, expected.resampling->posts);
+    EXPECT_EQ(s.resampling->compared, expected.resampling->compared);
+    EXPECT_EQ(s.resampling->unshown, expected.resampling->unshown);
+    EXPECT_EQ(s.resampling->hidden, expected.resampling->hidden);
+    EXPECT_EQ(s.resampling->rms_m, expected.resampling->rms_m);
+    EXPECT_EQ(s.resampling->worst->lon_deg, expected.resampling->worst->lon_deg);
+    EXPECT_EQ(s.resampling->worst->shown_H_m, expected.resampling->worst->shown_H_m);
+    EXPECT_EQ(s.resampling->lowest->shown_H_m, expected.resampling->lowest->shown_H_m);
+}
+
 TEST(RegionDescription, NamesThatAreNoUtf8AreStillText) {
     Region region = unusual_region();
     region.sources[0].path = "H\xf6hen.tif";
@@ -159,7 +188,8 @@ TEST(RegionDescription, EveryFieldIsNeededAndOfItsKind) {
     const std::set<std::string> since_then{"in_missing", "outside", "horizontal_datum",
                                            // Nor is all of a datum always known.
                                            "accuracy_m", "accuracy_with_grids_m", "frame_epoch",
-                                           "coordinate_epoch"};
+                                           "coordinate_epoch", "stored", "resampling", "worst", "highest",
+                                           "lowest", "shown_H_m"};
     int fields = 0;
     const auto check_all = [&](const json::json_pointer& object) {
         for (const auto& [name, value] : whole.at(object).items()) {
@@ -178,9 +208,10 @@ TEST(RegionDescription, EveryFieldIsNeededAndOfItsKind) {
             EXPECT_NE(refusal(other.dump()).find(name), std::string::npos);
         }
     };
-    for (const char* object : {"", "/seams", "/sources/1", "/sources/1/seams", "/sources/1/horizontal_datum"})
+    for (const char* object : {"", "/seams", "/sources/1", "/sources/1/seams", "/sources/1/horizontal_datum",
+                               "/sources/1/stored", "/sources/1/resampling", "/sources/1/resampling/highest"})
         check_all(json::json_pointer(object));
-    EXPECT_EQ(fields, 11 + 3 + 20 + 3 + 10);
+    EXPECT_EQ(fields, 11 + 3 + 22 + 3 + 10 + 3 + 8 + 4);
 }
 
 TEST(RegionDescription, NumbersOutOfRangeAreRefused) {
