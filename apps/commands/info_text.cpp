@@ -120,7 +120,7 @@ std::string all_of(const std::vector<std::string>& facts) {
 
 std::string heights_lines(const SourceReport& source) {
     const std::string of_region = heights_text(source.lowest_m, source.highest_m);
-    if (!source.stored) return line("H", of_region + " at the region's posts");
+    if (!source.stored) return line("H", of_region);
     if (is_as_stored(source)) return line("H", of_region + ", as the file stores them");
     return line("stored", stored_text(*source.stored) + ": the file's own values") +
            line("H", of_region + " at the region's posts");

@@ -103,8 +103,7 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     for (const BudgetLine& line : budget.lines) json["effects"].push_back(effect_json(line));
     json["total"] = size_json(budget.total);
     json["unseen"] = unseen_json(unseen);
-    // Null where the region's posts are its sources' own.
-    json["resampling"] = nullptr;
+    // None where the region's posts are its sources' own.
     if (budget.resampling) json["resampling"] = size_json(*budget.resampling);
     json["dominates"] = nullptr;
     json["dominates_kind"] = nullptr;
