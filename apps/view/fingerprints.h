@@ -26,11 +26,11 @@ struct Fingerprints {
     std::vector<OfSource> sources;       // to name the ones that changed; none where there are too many
     std::optional<RegionResampling> resampling;  // what the region lost by it; nothing where nothing was
     std::string geoid;                           // its name
-    std::uint64_t undulation{};          // N over the region
-    std::vector<OfSource> images;        // over the ground, as the view names them
-    std::vector<OfSource> vectors;       // names and lines, likewise
-    std::optional<std::uint64_t> style;  // colours and light; of drawn pictures alone, as
-    std::optional<std::uint64_t> pixels;  // what was drawn, before a JPEG's loss
+    std::uint64_t undulation{};                  // N over the region
+    std::vector<OfSource> images;                // over the ground, as the view names them
+    std::vector<OfSource> vectors;               // names and lines, likewise
+    std::optional<std::uint64_t> style;          // colours and light; of drawn pictures alone, as
+    std::optional<std::uint64_t> pixels;         // what was drawn, before a JPEG's loss
     bool
         data_changed{};  // the view was made for other data, and is drawn with these because somebody said so
 };

@@ -33,8 +33,8 @@ struct RegionRequest {
         false};  // draw the posts of a file in a CRS of its own where they are: nothing is resampled
     std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
     // For files that do not say themselves: where they lie ("EPSG:2056", or whatever PROJ knows), and what
-    // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). "" for
-    // nothing told.
+    // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). ""
+    // for nothing told.
     std::string source_crs, source_vertical;
 };
 

@@ -27,8 +27,8 @@ enum class DatumFrom {
     crs,
     dted_egm96,  // DTED metadata say so
     dted_egm2008,
-    assumed_for_hgt,    // .hgt files state none
-    assumed_unstated,   // the file states none
+    assumed_for_hgt,     // .hgt files state none
+    assumed_unstated,    // the file states none
     assumed_unreadable,  // PROJ cannot read what the CRS states
     told                 // by the request, because the file does not say
 };
