@@ -131,7 +131,12 @@ std::vector<int> turns_of(const Source& source, const PostGrid& grid) {
     return {0, -1, 1};
 }
 
-// What a user must know of a source that was laid. Errors, with strict: posts beyond the grids of its datum.
+}  // namespace
+
+void add_note(std::vector<std::string>& notes, const std::string& note) {
+    if (!note.empty() && std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+}
+
 Result<void> note_findings(SourceReport& report, std::uint64_t lent, std::uint64_t beyond_grid, bool strict,
                            std::vector<std::string>& notes) {
     if (lent > 0)
@@ -148,12 +153,6 @@ Result<void> note_findings(SourceReport& report, std::uint64_t lent, std::uint64
         add_note(notes, report.path + ": " + std::to_string(report.implausible) +
                             " heights below -12,000 m or above 9,000 m are taken as void");
     return {};
-}
-
-}  // namespace
-
-void add_note(std::vector<std::string>& notes, const std::string& note) {
-    if (!note.empty() && std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
 }
 
 Result<std::vector<MeasuredSource>> lay_sources(std::vector<Source>& sources, const LayingFor& region,

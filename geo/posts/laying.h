@@ -37,6 +37,12 @@ Result<std::vector<MeasuredSource>> lay_sources(std::vector<Source>& sources, co
                                                 JoinedSurface& surface, std::vector<std::string>& notes,
                                                 const Progress& progress);
 
+// What a user must know of a source that was laid. lent: void posts of finer sources that it filled;
+// beyond_grid: its posts outside the grids of its vertical datum. Errors, with strict: there are any of the
+// latter.
+Result<void> note_findings(SourceReport& report, std::uint64_t lent, std::uint64_t beyond_grid, bool strict,
+                           std::vector<std::string>& notes);
+
 // Adds a line that is not there yet and not empty.
 void add_note(std::vector<std::string>& notes, const std::string& note);
 

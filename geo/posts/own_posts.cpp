@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/parallel.h"
+#include "geo/measures/stored_values.h"
 #include "geo/posts/laying.h"
 #include "geo/region/region_grid.h"
 #include "geo/region/region_prints.h"
@@ -250,10 +251,12 @@ Result<void> lay_rows(Source& source, const OwnPart& part, const OwnLaying& layi
     std::vector<float> heights(columns);
     const std::vector<unsigned char> inside(columns, 1);
     SourcePrint print;
+    StoredValues stored;
     print.begin(grid, part.row + window.row, first_column, window.rows, window.columns);
     for (int first = window.row; first < window.row + window.rows; first += strip) {
         const int rows = std::min(strip, window.row + window.rows - first);
         ORO_TRY(const PostBlock block, read_posts(source, {first, window.column, rows, window.columns}));
+        stored.add(block);
         report.voids += block.voids;
         report.implausible += block.implausible;
         for (int from = first; from < first + rows; ++from) {
@@ -271,6 +274,7 @@ Result<void> lay_rows(Source& source, const OwnPart& part, const OwnLaying& layi
         }
     }
     report.posts_print = print.print();
+    report.stored = stored.range(report.rows, report.columns);
     return {};
 }
 
@@ -291,17 +295,7 @@ Result<void> lay_one(Source& source, const OwnPart& part, const OwnLaying& layin
     report.highest_m = std::numeric_limits<double>::lowest();
     report.placement = Placement{Fit::same_posts, 0.0, 1, 1};
     ORO_CHECK(lay_rows(source, part, laying, shift, surface));
-    if (report.lowest_m > report.highest_m) report.lowest_m = report.highest_m = 0.0;
-    if (shift.beyond_grid() > 0) {
-        const std::string what = std::to_string(shift.beyond_grid()) + " posts of " + report.path +
-                                 " lie outside the grid of its vertical datum";
-        if (laying.strict_datum) return Error{ErrorKind::failed, report.path, what};
-        add_note(notes, what + ": EGM96 stands in there");
-    }
-    if (report.implausible > 0)
-        add_note(notes, report.path + ": " + std::to_string(report.implausible) +
-                            " heights below -12,000 m or above 9,000 m are taken as void");
-    return {};
+    return note_findings(report, 0, shift.beyond_grid(), laying.strict_datum, notes);
 }
 
 }  // namespace
