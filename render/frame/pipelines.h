@@ -30,6 +30,7 @@ struct ShadingKind {
     bool edges_follow{};  // the picture is left to `edges`
     bool parts_follow{};  // pixels whose footprint has several parts are left to a program of their own,
     bool parts_alone{};   // which this is
+    bool on_net{};        // the region's posts lie on a net
     auto operator<=>(const ShadingKind&) const = default;
 };
 

@@ -43,14 +43,15 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
     OwnedPipeline& shade = pipelines.shades[kind];
     if (shade) return shade.get();
     // By constant_id of shade.comp.
-    const std::array<VkBool32, 8> values{flag(path == RasterPath::compute),
+    const std::array<VkBool32, 9> values{flag(path == RasterPath::compute),
                                          flag(kind.casts),
                                          flag(kind.opens),
                                          flag(kind.draped),
                                          flag(kind.by_means),
                                          flag(kind.edges_follow),
                                          flag(kind.parts_follow),
-                                         flag(kind.parts_alone)};
+                                         flag(kind.parts_alone),
+                                         flag(kind.on_net)};
     std::array<VkSpecializationMapEntry, values.size()> entries{};
     for (std::uint32_t i = 0; i < entries.size(); ++i)
         entries[i] = {i, i * std::uint32_t{sizeof(VkBool32)}, sizeof(VkBool32)};

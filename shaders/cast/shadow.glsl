@@ -38,7 +38,7 @@ CastFrame cast_frame(CastPoint point, float h_m) {
     vec3 east = FRAME.view_from_eye * vec3(0.0, 1.0, 0.0), up = FRAME.up_view;
     vec3 sun_view = FRAME.style.sun_enu.x * east + FRAME.style.sun_enu.y * cross(up, east) + FRAME.style.sun_enu.z * up;
     vec3 sun = sun_view * FRAME.view_from_eye;  // in the eye's meridian frame
-    bool on_net = FRAME.has_net != 0u;
+    bool on_net = HAS_NET;
     CastFrame frame;
     frame.latitude = normalize(point.latitude);
     vec2 turn = normalize(point.longitude);
@@ -73,7 +73,7 @@ vec3 towards_sun_m(CastFrame at, float t_m) {
     float rise = (up * (2.0 * radius + up) + north * north) / (length(vec2(radius + up, north)) + radius);
     rise -= at.meridian_change * turn * turn * turn / 6.0;
     turn -= at.meridian_change * turn * turn / (2.0 * radius);
-    if (FRAME.has_net != 0u) {
+    if (HAS_NET) {
         vec2 uv = at.uv + net_uv_change(at.latitude, at.longitude, turn, turned);
         return vec3(post_on_net(uv) - at.net_post, rise);
     }

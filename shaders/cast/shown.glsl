@@ -16,7 +16,7 @@ CastPoint cast_point(uint id, SurfacePoint surface) {
     point.beyond = beyond - vec2(point.post - from);
     point.distance_m = length(surface.view);
     point.level = page.level;
-    if (FRAME.has_net != 0u) {
+    if (HAS_NET) {
         vec2 from_eye_rad = angles_from_eye(surface.view);
         point.latitude = turned_by(FRAME.eye_post.latitude, from_eye_rad.x);
         point.longitude = turned_by(vec2(1.0, 0.0), from_eye_rad.y);

@@ -22,6 +22,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Vi
 // The frame's constants, read where they are used: a copy would drag the tint table into every invocation.
 layout(binding = 3, scalar) uniform Frame { FrameConstants frame; };
 #define FRAME frame
+// Whether posts lie on a net. A program that is made for one kind of region says so itself: the other kind's code costs registers.
+#ifndef HAS_NET
+#define HAS_NET (FRAME.has_net != 0u)
+#endif
 FramePages frame_pages() { return FramePages(FRAME.pages); }
 
 // Triangle ids: page of this frame, meshlet of the page, triangle of the meshlet; 0 is the background.

@@ -35,7 +35,7 @@ vec3 place_on_net(FramePage page, uvec2 post) {
 
 // Position in the eye's meridian frame; within 1 mm up to 4 km away, and 1 mm and 3.2e-7 of the distance beyond (0.0005 px).
 vec3 place_from_eye(FramePage page, uvec2 post, int height) {
-    if (FRAME.has_net != 0u) {
+    if (HAS_NET) {
         vec2 meridian = FRAME.eye_meridian;
         precise vec3 ecef = place_on_net(page, post);
         precise vec3 turned = vec3(meridian.x * ecef.x + meridian.y * ecef.y, meridian.x * ecef.y - meridian.y * ecef.x, ecef.z);
@@ -75,7 +75,7 @@ vec3 view_by_ecef(vec3 from_eye) {
 // Position in view coordinates, as it is seen. post: (row, column) within the page.
 vec3 place_in_view(FramePage page, uvec2 post, int height) {
     precise vec3 position;
-    if (FRAME.has_net != 0u) {
+    if (HAS_NET) {
         position = FRAME.view_from_ecef * place_on_net(page, post);
     } else {
         vec3 from_eye = place_from_eye(page, post, height);

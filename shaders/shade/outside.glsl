@@ -14,7 +14,7 @@ float bare_sea_m(vec3 direction, out float horizon) {
 // differences, so that none is taken of two large numbers: error below 1e-6 of the distance, and 15 m where the place is 4 km high.
 vec2 region_post_at(vec3 view) {
     EyePost eye = FRAME.eye_post;
-    if (FRAME.has_net != 0u) return post_on_net(net_uv(angles_from_eye(view)));
+    if (HAS_NET) return post_on_net(net_uv(angles_from_eye(view)));
     vec3 straight = view;
     if (FRAME.refraction_per_m != 0.0) straight -= 0.5 * FRAME.refraction_per_m * squared_across(view) * FRAME.up_view;
     // From the foot of the eye's vertical, in its meridian frame: outward, east, along the axis.
@@ -148,7 +148,7 @@ int wall_on_way(vec3 direction, float end_m, out float distance_m, out vec3 norm
     if (h_m > surface_m + distance_m / FRAME.pixels_per_tangent) return 0;
     float outward = step[axis] > 0.0 ? -1.0 : 1.0;
     normal = axis == 0 ? vec3(0.0, -outward, 0.0) : vec3(outward, 0.0, 0.0);
-    if (FRAME.has_net != 0u) normal.xy = mat2(FRAME.net.turn.x, FRAME.net.turn.y, -FRAME.net.turn.y, FRAME.net.turn.x) * normal.xy;
+    if (HAS_NET) normal.xy = mat2(FRAME.net.turn.x, FRAME.net.turn.y, -FRAME.net.turn.y, FRAME.net.turn.x) * normal.xy;
     return 1;
 }
 

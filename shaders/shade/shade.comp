@@ -20,6 +20,8 @@ layout(constant_id = 4) const bool by_means = false;  // FrameStyle.footprint
 // Two programs share the pixels of a style in air: near ground and what is no ground, in small code, then footprints of several parts.
 layout(constant_id = 6) const bool parts_follow = false;
 layout(constant_id = 7) const bool parts_alone = false;
+layout(constant_id = 8) const bool on_net = false;  // FrameConstants.has_net
+#define HAS_NET on_net
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

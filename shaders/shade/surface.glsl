@@ -82,18 +82,18 @@ vec2 slope_at_post(PageBlocks block, FramePage page, ivec2 post) {
 // How the rows of the pixel's page are turned from east, towards north: cosine, sine (PageBlock.turn).
 vec2 row_turn = vec2(1.0, 0.0);
 void find_row_turn(PageBlocks block, vec2 post) {
-    if (FRAME.has_net == 0u) return;
+    if (!HAS_NET) return;
     float angle = dot(block.at[0].turn, vec3(1.0, post));
     row_turn = vec2(cos(angle), sin(angle));
 }
 // From along the row and back along the column to east and north.
 vec3 turned_east(vec3 normal) {
-    if (FRAME.has_net == 0u) return normal;
+    if (!HAS_NET) return normal;
     return vec3(row_turn.x * normal.x - row_turn.y * normal.y, row_turn.y * normal.x + row_turn.x * normal.y, normal.z);
 }
 // How many rows and columns so many metres eastwards and northwards are.
 vec2 posts_along(vec2 east_north, vec2 post_m) {
-    if (FRAME.has_net == 0u) return vec2(-east_north.y, east_north.x) / post_m;
+    if (!HAS_NET) return vec2(-east_north.y, east_north.x) / post_m;
     return vec2(row_turn.y * east_north.x - row_turn.x * east_north.y, row_turn.x * east_north.x + row_turn.y * east_north.y) / post_m;
 }
 
