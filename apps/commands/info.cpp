@@ -38,7 +38,7 @@ nlohmann::ordered_json files_json(const std::vector<ListedFile>& files, bool dam
 // What there is to say of files that make no region together: each by itself. The error stays one, and names
 // those without which there would be one.
 Error without_region(const InfoOptions& options, const FileListing& listing, Error fault) {
-    if (listing.files.size() == 1 && !listing.files.front().report) return fault;
+    if (listing.files.size() < 2) return fault;
     if (const std::string names = listed_names(listing.files); !names.empty())
         fault.what += "; without " + names + " the others make a region";
     if (!options.json) {
