@@ -159,7 +159,7 @@ ORO_CONST uint footprint_mean = 1u;    // the mean of all that it covers
 ORO_CONST uint footprint_finest = 2u;  // the ground in its middle, from the finest posts: to measure with
 ORO_CONST uint no_page = 0xffffffffu;
 ORO_CONST uint no_column = 0xffffffffu;
-ORO_CONST uint pages_max = 131071u;  // of a frame: what triangle ids can number
+ORO_CONST uint pages_max = 131071u;  // of a frame, all its grids together: what triangle ids can number
 ORO_CONST uint accepted_words = 8u;  // a page: a bit for each node
 ORO_CONST uint edges_words = 32u;    // a page: four bits for each node
 ORO_CONST uint cull_by_frustum = 1u;
@@ -345,6 +345,7 @@ struct FrameConstants {
     uint last_column;
     uint cut_column;  // the last post before the meridian where the flat Earth is cut; no_column: none
     uint page_count;
+    uint first_page;    // of a frame's several grids: triangle ids go on from one to the next
     uint sample_index;  // samples of a pixel are drawn one after the other
     uint sample_count;
     uint has_means;      // 1: pages have PageMeans

@@ -2,6 +2,7 @@
 // places them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -33,6 +34,14 @@ struct FramePlan {
     CasterPlan casters;  // none until plan_casters()
     // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.
     std::uint64_t heights{};
+    // Other grids in the same frame: plans of their own, for the same eye and tile.
+    std::vector<FramePlan> beside;
+    // Whether nothing is missing, of any grid.
+    [[nodiscard]] bool is_settled() const {
+        return missing.empty() && std::ranges::all_of(beside, [](const FramePlan& other) {
+                   return other.missing.empty();
+               });
+    }
 };
 
 // Device address of a page's block, 0 where it is not on the GPU.

@@ -60,9 +60,16 @@ void ComputeRaster::address(gpu::FrameConstants& constants) const {
     constants.task_list = address_words(tasks_.address);
 }
 
-void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan) const {
+void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan, bool first) const {
     const VkDeviceSize used = VkDeviceSize{8} * plan.constants.width_px * plan.constants.height_px;
-    vkCmdFillBuffer(commands, visibility_.handle.get(), 0, used, 0);
+    if (first) {
+        vkCmdFillBuffer(commands, visibility_.handle.get(), 0, used, 0);
+    } else {
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
+                       VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    }
     // One group along y and z even where there are none along x: an indirect dispatch of nothing.
     gpu::RasterLists empty{};
     empty.meshlet_groups[1] = empty.meshlet_groups[2] = 1;
@@ -75,8 +82,8 @@ void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan
 }
 
 void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan,
-                           VkBuffer choice) const {
-    record_clear(commands, plan);
+                           VkBuffer choice, bool first) const {
+    record_clear(commands, plan, first);
     const auto bind = [&](const OwnedPipeline& pipeline) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
     };

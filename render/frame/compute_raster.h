@@ -19,17 +19,18 @@ class ComputeRaster {
 
     // Puts its addresses into the frame's constants.
     void address(gpu::FrameConstants& constants) const;
-    // Records all steps, with the frame's constants already bound; `choice` holds LivePages. Leaves the
-    // visibility buffer ready for compute reads.
+    // Records all steps for a grid of the frame, with its constants already bound; `choice` holds its
+    // LivePages. The first grid clears the visibility buffer, the others draw into what is there. Leaves the
+    // buffer ready for compute reads.
     void record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan,
-                VkBuffer choice) const;
+                VkBuffer choice, bool first) const;
 
     // Depth << 32 | id for each pixel of the last frame, row by row, `width` to a row.
     [[nodiscard]] const Buffer& visibility() const { return visibility_; }
 
   private:
     explicit ComputeRaster(const Gpu& gpu) : gpu_(&gpu) {}
-    void record_clear(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_clear(VkCommandBuffer commands, const FramePlan& plan, bool first) const;
 
     const Gpu* gpu_;
     Buffer visibility_, lists_, meshlets_, clips_, large_, tasks_;

@@ -71,7 +71,7 @@ Result<FrameReport> DepthPainter::draw_sample(Scene& scene, const Camera& camera
                                               const DepthPictureOptions& options, const Tile& tile,
                                               DepthPicture& picture, std::vector<float>& depths) {
     ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px, options.model));
-    picture.settled = picture.settled && plan.missing.empty();
+    picture.settled = picture.settled && plan.is_settled();
     ORO_TRY(const FrameReport report, renderer_->draw(std::move(plan), style));
     ORO_TRY(const std::vector<float> drawn,
             renderer_->read_depths(static_cast<std::uint32_t>(tile.width_px),

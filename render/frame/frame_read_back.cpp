@@ -119,8 +119,7 @@ Result<std::vector<gpu::DrawnTriangle>> FrameRenderer::read_triangles(std::uint3
         memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->layout.get(), 0, 1,
-                                &set_, 0, nullptr);
+        grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->triangles.get());
         vkCmdDispatchBase(commands, 0, first_row / 8, 0, (last_width_px_ + 7) / 8, (rows + 7) / 8, 1);
     }));
@@ -133,11 +132,12 @@ Result<std::vector<gpu::DrawnTriangle>> FrameRenderer::read_triangles(std::uint3
 }
 
 Result<std::vector<std::uint32_t>> FrameRenderer::read_accepted(std::size_t pages) {
-    return read_words(choice_, live_pages_words + live_words * page_capacity_, pages * gpu::accepted_words);
+    return read_words(grids_[0].choice(), live_pages_words + live_words * grids_[0].page_capacity(), pages * gpu::accepted_words);
 }
 
 Result<std::vector<std::uint32_t>> FrameRenderer::read_edges(std::size_t pages) {
-    return read_words(choice_, live_pages_words + (live_words + gpu::accepted_words) * page_capacity_,
+    return read_words(grids_[0].choice(),
+                      live_pages_words + (live_words + gpu::accepted_words) * grids_[0].page_capacity(),
                       pages * gpu::edges_words);
 }
 

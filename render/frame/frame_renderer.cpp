@@ -12,24 +12,6 @@
 namespace oro {
 namespace {
 
-constexpr VkDeviceSize pages_offset = 8192;  // FrameConstants come first
-static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
-
-// Where the parts of a frame's data lie, in bytes.
-struct FrameLayout {
-    VkDeviceSize rows;
-    VkDeviceSize columns;
-    VkDeviceSize size;
-};
-FrameLayout layout_of(const FramePlan& plan) {
-    const auto aligned = [](VkDeviceSize size) { return (size + 15) / 16 * 16; };
-    FrameLayout layout{};
-    layout.rows = aligned(pages_offset + plan.pages.size() * sizeof(gpu::FramePage));
-    layout.columns = aligned(layout.rows + plan.row_terms.size() * sizeof(gpu::RowTerms));
-    layout.size = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
-    return layout;
-}
-
 constexpr std::uint32_t timestamp_count = 6;  // the last two with images over the ground alone
 
 Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
@@ -41,6 +23,20 @@ Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
     ORO_VK(vkCreateQueryPool(gpu.device(), &info, nullptr, &handle));
     gpu.name(VK_OBJECT_TYPE_QUERY_POOL, handle, "frame times");
     return OwnedQueryPool(gpu.device(), handle);
+}
+
+// Ids of triangles go on from one grid to the next.
+Result<void> number_pages(FramePlan& plan) {
+    std::size_t first = plan.pages.size();
+    for (FramePlan& other : plan.beside) {
+        other.constants.first_page = static_cast<gpu::uint>(first);
+        first += other.pages.size();
+    }
+    if (first > gpu::pages_max)
+        return Error{ErrorKind::failed, "picture",
+                     "needs " + std::to_string(first) + " pages of all its grids; a frame numbers " +
+                         std::to_string(gpu::pages_max) + " at most: a larger --tau takes fewer"};
+    return {};
 }
 
 }  // namespace
@@ -66,8 +62,9 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
         ORO_TRY(ComputeRaster compute, ComputeRaster::create(gpu, options.extent));
         renderer.compute_.emplace(std::move(compute));
     }
+    renderer.grids_.emplace_back();
     ORO_CHECK(renderer.create_images());
-    ORO_CHECK(renderer.create_set());
+    ORO_CHECK(renderer.create_sets());
     return renderer;
 }
 
@@ -75,7 +72,7 @@ Result<void> FrameRenderer::resize(VkExtent2D extent) {
     options_.extent = extent;
     if (compute_) ORO_CHECK(compute_->resize(extent));
     ORO_CHECK(create_images());
-    return create_set();
+    return create_sets();
 }
 
 Result<void> FrameRenderer::create_images() {
@@ -99,81 +96,20 @@ Result<void> FrameRenderer::create_images() {
     return {};
 }
 
-Result<void> FrameRenderer::create_set() {
-    const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3},
-                           VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}};
-    VkDescriptorPoolCreateInfo pool{};
-    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    pool.maxSets = 1;
-    pool.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-    pool.pPoolSizes = sizes.data();
-    VkDescriptorPool pool_handle{};
-    ORO_VK(vkCreateDescriptorPool(gpu_->device(), &pool, nullptr, &pool_handle));
-    pool_ = OwnedDescriptorPool(gpu_->device(), pool_handle);
-    gpu_->name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_handle, "frame");
-    const VkDescriptorSetLayout layout = pipelines_->set.get();
-    VkDescriptorSetAllocateInfo set{};
-    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    set.descriptorPool = pool_handle;
-    set.descriptorSetCount = 1;
-    set.pSetLayouts = &layout;
-    ORO_VK(vkAllocateDescriptorSets(gpu_->device(), &set, &set_));
-    gpu_->name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "frame");
-    const std::array<VkImageView, 3> views{ids_.view.get(), sum_.view.get(), picture_.view.get()};
-    std::array<VkDescriptorImageInfo, 3> images{};
-    std::array<VkWriteDescriptorSet, 3> writes{};
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        images[i] = {VK_NULL_HANDLE, views[i], VK_IMAGE_LAYOUT_GENERAL};
-        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        writes[i].dstSet = set_;
-        writes[i].dstBinding = i;
-        writes[i].descriptorCount = 1;
-        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-        writes[i].pImageInfo = &images[i];
-    }
-    vkUpdateDescriptorSets(gpu_->device(), 3, writes.data(), 0, nullptr);
-    if (frame_data_.handle) bind_constants();
+Result<void> FrameRenderer::create_sets() {
+    for (GridFrame& grid : grids_)
+        ORO_CHECK(grid.create_set(*gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get()}));
     return {};
 }
 
-// The constants are at the beginning of the frame's data.
-void FrameRenderer::bind_constants() const {
-    const VkDescriptorBufferInfo buffer{frame_data_.handle.get(), 0, sizeof(gpu::FrameConstants)};
-    VkWriteDescriptorSet write{};
-    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-    write.dstSet = set_;
-    write.dstBinding = 3;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    write.pBufferInfo = &buffer;
-    vkUpdateDescriptorSets(gpu_->device(), 1, &write, 0, nullptr);
-}
-
-// Room for the pages of a plan, on both sides, and for what is chosen of them.
+// Room for all that a frame's grids share.
 Result<void> FrameRenderer::reserve(const FramePlan& plan) {
-    const FrameLayout layout = layout_of(plan);
-    if (staging_.size < layout.size) {
-        const VkDeviceSize size = std::max(layout.size, 2 * staging_.size);
-        ORO_TRY(Buffer staging, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                              MemoryKind::upload, "frame staging"));
-        constexpr VkBufferUsageFlags usage =
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-        ORO_TRY(frame_data_, create_buffer(*gpu_, size, usage, MemoryKind::device, "frame data"));
-        staging_ = std::move(staging);  // both are that large, or neither is
-        bind_constants();
-    }
-    const std::size_t count = std::max<std::size_t>(plan.pages.size(), 64);
-    if (compute_) ORO_CHECK(compute_->reserve_pages(count));
-    if (count > page_capacity_) {
-        // A multiple of 4, so that each part starts at a multiple of 16 bytes.
-        const std::size_t capacity = (std::max(count, 2 * page_capacity_) + 3) / 4 * 4;
-        constexpr VkBufferUsageFlags usage =
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-        ORO_TRY(choice_, create_buffer(*gpu_, 4 * (live_pages_words + capacity * choice_words), usage,
-                                       MemoryKind::device, "choice of levels"));
-        page_capacity_ = capacity;
+    std::size_t most_pages = std::max<std::size_t>(plan.pages.size(), 64);
+    for (const FramePlan& other : plan.beside) most_pages = std::max(most_pages, other.pages.size());
+    if (compute_) ORO_CHECK(compute_->reserve_pages(most_pages));
+    while (grids_.size() < 1 + plan.beside.size()) {
+        GridFrame& grid = grids_.emplace_back();
+        ORO_CHECK(grid.create_set(*gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get()}));
     }
     const VkDeviceSize pixels = VkDeviceSize{4} * options_.extent.width * options_.extent.height;
     if (needs_depths() && depths_.size < pixels) {
@@ -191,7 +127,8 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
                                   VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                               MemoryKind::device, "triangles"));
     }
-    const VkDeviceSize positions = count * gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
+    const VkDeviceSize positions =
+        std::max<std::size_t>(plan.pages.size(), 64) * gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
     if (options_.record_positions && recorded_.size < positions) {
         ORO_TRY(recorded_,
                 create_buffer(*gpu_, positions,
@@ -201,27 +138,12 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     return {};
 }
 
-void FrameRenderer::address_choice(gpu::FrameConstants& constants) const {
-    VkDeviceAddress at = choice_.address;
-    constants.live_pages = address_words(at);
-    at += 4 * live_pages_words;
-    constants.live = address_words(at);
-    at += 4 * live_words * page_capacity_;
-    constants.accepted = address_words(at);
-    at += VkDeviceSize{4} * gpu::accepted_words * page_capacity_;
-    constants.edges = address_words(at);
-}
-
-Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style, std::uint32_t sample_index,
-                                   std::uint32_t sample_count, DrapeStore* drape) {
-    ORO_CHECK(reserve(plan));
-    const FrameLayout layout = layout_of(plan);
+// All that a grid's programs read of a frame. `first`: of the frame's grids; only it has images over the ground.
+Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first, const FrameAsked& asked) {
+    ORO_CHECK(grid.reserve(*gpu_, plan));
     gpu::FrameConstants& constants = plan.constants;
-    constants.sample_index = sample_index;
-    constants.sample_count = sample_count;
-    constants.pages = address_words(frame_data_.address + pages_offset);
-    constants.row_terms = address_words(frame_data_.address + layout.rows);
-    constants.column_terms = address_words(frame_data_.address + layout.columns);
+    constants.sample_index = asked.sample_index;
+    constants.sample_count = asked.sample_count;
     constants.counts = address_words(counts_.address);
     if (needs_depths()) constants.depths = address_words(depths_.address);
     if (options_.keep_triangles) {
@@ -230,31 +152,23 @@ Result<void> FrameRenderer::upload(FramePlan& plan, const gpu::FrameStyle& style
     }
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
-    constants.style = style;
-    ORO_CHECK(
-        drape_.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? drape : nullptr, constants));
+    constants.style = asked.style;
+    if (first)
+        ORO_CHECK(drape_.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? asked.drape : nullptr,
+                                 constants));
     if (options_.shades) {
         ORO_CHECK(air_.prepare(*gpu_, *pipelines_, constants));
-        ORO_CHECK(casters_.prepare(*gpu_, options_.path, *pipelines_, plan, constants));
-        ORO_CHECK(choose_shading(constants));
+        ORO_CHECK(grid.casters.prepare(*gpu_, options_.path, *pipelines_, plan, constants));
+        ORO_CHECK(choose_shading(grid, first, constants));
     }
-    address_choice(constants);
+    grid.address(plan);
     if (compute_) compute_->address(constants);
-    const auto copy = [&](VkDeviceSize at, const auto& values) {
-        if (!values.empty())
-            std::memcpy(staging_.mapped + at, values.data(), values.size() * sizeof(values[0]));
-    };
-    std::memcpy(staging_.mapped, &constants, sizeof(constants));
-    copy(pages_offset, plan.pages);
-    copy(layout.rows, plan.row_terms);
-    copy(layout.columns, plan.column_terms);
-    last_width_px_ = constants.width_px;
+    grid.fill(plan);
     return {};
 }
 
-void FrameRenderer::record_upload(VkCommandBuffer commands, const FramePlan& plan) const {
-    const VkBufferCopy copy{0, 0, layout_of(plan).size};
-    vkCmdCopyBuffer(commands, staging_.handle.get(), frame_data_.handle.get(), 1, &copy);
+void FrameRenderer::record_upload(VkCommandBuffer commands, std::size_t grids) const {
+    for (std::size_t i = 0; i < grids; ++i) grids_[i].record_upload(commands);
     vkCmdFillBuffer(commands, counts_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
@@ -263,9 +177,8 @@ void FrameRenderer::record_upload(VkCommandBuffer commands, const FramePlan& pla
 }
 
 // Levels: which nodes of which pages, for whichever way of drawing follows.
-void FrameRenderer::record_choice(VkCommandBuffer commands, const FramePlan& plan) const {
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->layout.get(), 0, 1, &set_,
-                            0, nullptr);
+void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& grid, const FramePlan& plan) const {
+    grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     const auto count = static_cast<std::uint32_t>(plan.pages.size());
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->accept.get());
     if (count > 0)
@@ -309,10 +222,11 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->terrain.get());
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout.get(), 0, 1, &set_,
-                            0, nullptr);
-    gpu_->draw_mesh_tasks_indirect()(commands, choice_.handle.get(), offsetof(gpu::LivePages, task_groups), 1,
-                                     0);
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_GRAPHICS);
+        gpu_->draw_mesh_tasks_indirect()(commands, grids_[i].choice().handle.get(),
+                                         offsetof(gpu::LivePages, task_groups), 1, 0);
+    }
     vkCmdEndRendering(commands);
     // The task shader has written the edges that the shading pass reads.
     memory_barrier(commands,
@@ -326,12 +240,16 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), number);
     };
     vkCmdResetQueryPool(commands, timestamps_.get(), 0, timestamp_count);
-    record_upload(commands, plan);
+    record_upload(commands, 1 + plan.beside.size());
     stamp(0);
-    record_choice(commands, plan);
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i)
+        record_choice(commands, grids_[i], i == 0 ? plan : plan.beside[i - 1]);
     stamp(1);
     if (compute_) {
-        compute_->record(commands, *pipelines_, plan, choice_.handle.get());
+        for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+            grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+            compute_->record(commands, *pipelines_, plan, grids_[i].choice().handle.get(), i == 0);
+        }
     } else {
         record_raster(commands, plan);
     }
@@ -359,11 +277,18 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     assert(plan.constants.width_px <= options_.extent.width &&
            plan.constants.height_px <= options_.extent.height);
     assert(sample_count == 1 || (options_.several_samples && !options_.smooth_edges));
-    ORO_CHECK(upload(plan, style, sample_index, sample_count, drape));
+    ORO_CHECK(number_pages(plan));
+    ORO_CHECK(reserve(plan));
+    const FrameAsked asked{style, sample_index, sample_count, drape};
+    ORO_CHECK(upload(grids_[0], plan, true, asked));
+    for (std::size_t i = 0; i < plan.beside.size(); ++i)
+        ORO_CHECK(upload(grids_[i + 1], plan.beside[i], false, asked));
+    last_width_px_ = plan.constants.width_px;
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
     report.pages = plan.pages.size();
+    for (const FramePlan& other : plan.beside) report.pages += other.pages.size();
     if (!compute_)
         report.task_groups = std::uint64_t{report.counts.pages_live} *
                              (gpu::meshlets_per_page / pipelines_->meshlets_per_task);

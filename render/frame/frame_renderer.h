@@ -10,9 +10,9 @@
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
 #include "render/frame/compute_raster.h"
+#include "render/frame/grid_frame.h"
 #include "render/frame/pipelines.h"
 #include "render/shading/air_tables.h"
-#include "render/shading/caster_buffers.h"
 #include "render/shading/drape_wants.h"
 
 namespace oro {
@@ -95,19 +95,22 @@ class FrameRenderer {
   private:
     explicit FrameRenderer(const Gpu& gpu) : gpu_(&gpu) {}
     Result<void> create_images();
-    Result<void> create_set();
+    Result<void> create_sets();
     Result<void> reserve(const FramePlan& plan);
-    Result<void> upload(FramePlan& plan, const gpu::FrameStyle& style, std::uint32_t sample_index,
-                        std::uint32_t sample_count, DrapeStore* drape);
-    void bind_constants() const;
-    void address_choice(gpu::FrameConstants& constants) const;
+    // What a frame is asked for besides its plan.
+    struct FrameAsked {
+        const gpu::FrameStyle& style;
+        std::uint32_t sample_index, sample_count;
+        DrapeStore* drape;
+    };
+    Result<void> upload(GridFrame& grid, FramePlan& plan, bool first, const FrameAsked& asked);
     Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
                                                   std::size_t count);
     void record(VkCommandBuffer commands, const FramePlan& plan);
-    void record_upload(VkCommandBuffer commands, const FramePlan& plan) const;
-    void record_choice(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_upload(VkCommandBuffer commands, std::size_t grids) const;
+    void record_choice(VkCommandBuffer commands, const GridFrame& grid, const FramePlan& plan) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
-    Result<void> choose_shading(gpu::FrameConstants& constants);
+    Result<void> choose_shading(GridFrame& grid, bool first, gpu::FrameConstants& constants);
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
@@ -120,26 +123,20 @@ class FrameRenderer {
     const Gpu* gpu_;
     FrameRendererOptions options_;
     std::shared_ptr<Pipelines> pipelines_;
-    VkPipeline shade_{VK_NULL_HANDLE}, shade_parts_{VK_NULL_HANDLE}, edges_{VK_NULL_HANDLE};  // of the frame
+    VkPipeline edges_{VK_NULL_HANDLE};  // of the frame
+    std::vector<GridFrame> grids_;      // the plan's, then those beside it
     std::optional<ComputeRaster> compute_;
     AirTables air_;
     DrapeWants drape_;
-    CasterBuffers casters_;
     Commands commands_;
     Image ids_, depth_, sum_, picture_;
-    OwnedDescriptorPool pool_;
-    VkDescriptorSet set_{VK_NULL_HANDLE};
     OwnedQueryPool timestamps_;
-    Buffer staging_;     // constants, then pages, then rows and columns
-    Buffer frame_data_;  // the same on the device
-    Buffer choice_;      // what the choice of levels hands on, see address_choice()
     Buffer depths_;
     Buffer tiles_in_parts_;
     Buffer triangles_;
     Buffer counts_;       // on the device
     Buffer counts_read_;  // for the host
     Buffer recorded_;
-    std::size_t page_capacity_{};
     std::uint32_t last_width_px_{};
 };
 

@@ -20,24 +20,24 @@ std::uint32_t tiles_of(std::uint32_t pixels) {
 
 // The programs of a frame, and what they hand to each other. In air, near ground has a program without the
 // code for footprints of several parts: those are few, and the code takes registers from all pixels.
-Result<void> FrameRenderer::choose_shading(gpu::FrameConstants& constants) {
+Result<void> FrameRenderer::choose_shading(GridFrame& grid, bool first, gpu::FrameConstants& constants) {
     const gpu::FrameStyle& style = constants.style;
     ShadingKind kind = shading_of(style);
-    kind.casts = casters_.casts();
-    kind.opens = casters_.opens();
-    kind.draped = drape_.is_on();
+    kind.casts = grid.casters.casts();
+    kind.opens = grid.casters.opens();
+    kind.draped = first && drape_.is_on();
     kind.by_means = constants.has_means != 0 && asks_for_means(style);
     kind.edges_follow = options_.smooth_edges;
     kind.on_net = constants.has_net != 0;
     kind.parts_follow = kind.by_means && kind.in_air && style.footprint == gpu::footprint_mean;
-    ORO_TRY(shade_, shading_for(*gpu_, options_.path, kind, *pipelines_));
+    ORO_TRY(grid.shade, shading_for(*gpu_, options_.path, kind, *pipelines_));
     if (kind.edges_follow) {
         ORO_TRY(edges_, edges_for(*gpu_, options_.path, kind, *pipelines_));
     }
-    shade_parts_ = VK_NULL_HANDLE;
+    grid.shade_parts = VK_NULL_HANDLE;
     if (!kind.parts_follow) return {};
     std::swap(kind.parts_follow, kind.parts_alone);
-    ORO_TRY(shade_parts_, shading_for(*gpu_, options_.path, kind, *pipelines_));
+    ORO_TRY(grid.shade_parts, shading_for(*gpu_, options_.path, kind, *pipelines_));
     const VkDeviceSize bytes =
         sizeof(gpu::uint) * VkDeviceSize{tiles_of(options_.extent.width)} * tiles_of(options_.extent.height);
     if (tiles_in_parts_.size < bytes) {
@@ -51,28 +51,39 @@ Result<void> FrameRenderer::choose_shading(gpu::FrameConstants& constants) {
 }
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
+    grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     air_.record(commands, *pipelines_);
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
                   drape_.is_on() ? shader_read
                   : compute_     ? unused
                                  : as_colour,
                   shader_read);
-    casters_.record(commands, *pipelines_);
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        if (!grids_[i].casters.any()) continue;
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        grids_[i].casters.record(commands, *pipelines_);
+    }
     const bool first = plan.constants.sample_index == 0;
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
     bool before = false;
-    for (VkPipeline const pass : {shade_, shade_parts_, options_.smooth_edges ? edges_ : VK_NULL_HANDLE}) {
-        if (pass == VK_NULL_HANDLE) continue;
+    const auto pass = [&](const GridFrame& grid, VkPipeline pipeline) {
+        if (pipeline == VK_NULL_HANDLE) return;
         if (before)
             memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass);
+        grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
         vkCmdDispatch(commands, tiles_of(plan.constants.width_px), tiles_of(plan.constants.height_px), 1);
         before = true;
+    };
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        pass(grids_[i], grids_[i].shade);
+        pass(grids_[i], grids_[i].shade_parts);
     }
+    for (std::size_t i = 0; options_.smooth_edges && i <= plan.beside.size(); ++i) pass(grids_[i], edges_);
 }
 
 // For those who read them instead of the shading pass.
@@ -83,6 +94,7 @@ void FrameRenderer::record_ids_alone(VkCommandBuffer commands) const {
 
 void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {
     record_ids_alone(commands);
+    grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     drape_.record(commands, *pipelines_, plan.constants);
 }
 
@@ -91,12 +103,11 @@ Result<void> FrameRenderer::ask_again(const FramePlan& plan, std::uint32_t seed)
     return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         constexpr VkDeviceSize at =
             offsetof(gpu::FrameConstants, drape) + offsetof(gpu::DrapeTable, wanted_seed);
-        vkCmdUpdateBuffer(commands, frame_data_.handle.get(), at, sizeof(seed), &seed);
+        vkCmdUpdateBuffer(commands, grids_[0].data().handle.get(), at, sizeof(seed), &seed);
         memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
                        VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_UNIFORM_READ_BIT);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->layout.get(), 0, 1,
-                                &set_, 0, nullptr);
+        grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         drape_.record(commands, *pipelines_, plan.constants);
     });
 }
@@ -119,8 +130,7 @@ Result<bool> FrameRenderer::bring_images(const FramePlan& plan) {
 Result<bool> FrameRenderer::shade_with_images(const FramePlan& plan) {
     ORO_TRY(const bool settled, bring_images(plan));
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->layout.get(), 0, 1,
-                                &set_, 0, nullptr);
+        grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 4);
         record_shade(commands, plan);
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 5);

@@ -29,7 +29,7 @@ Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle
     for (int i = 0; i < options.samples; ++i) {
         tile.sample_px = sample_place(i, options.samples);
         ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px, options.model));
-        report.settled = report.settled && plan.missing.empty();
+        report.settled = report.settled && plan.is_settled();
         if (i == 0) {
             report.pages_beyond_frustum += plan.pages_beyond_frustum;
             report.pages_beyond_horizon += plan.pages_beyond_horizon;

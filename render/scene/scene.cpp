@@ -32,13 +32,14 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, 
                             HeightStorage heights, bool means) {
     const PageParts parts{means && pages->knows_means(), pages->facts().grid.net != nullptr};
     constexpr std::uint64_t most = std::uint64_t{2} << 30U;
-    const std::uint64_t bytes = memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most);
+    const std::uint64_t bytes =
+        (memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most)) / memory.shares;
     ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
     ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding, parts), coding, parts));
     Scene scene(std::move(pages), std::move(store));
     static std::atomic<std::uint64_t> scenes{0};
     scene.number_ = ++scenes;
-    const std::uint64_t under_way = memory.main > 0 ? memory.main : default_main_bytes;
+    const std::uint64_t under_way = (memory.main > 0 ? memory.main : default_main_bytes) / memory.shares;
     const std::size_t page_size = page_bytes({}, parts);
     scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, parts);
     const UndulationField& undulation = scene.pages_->facts().undulation;
@@ -48,8 +49,24 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, 
     return scene;
 }
 
+void Scene::cast(const CastRequest& request) {
+    cast_ = request;
+    for (Scene& other : beside_) other.cast(request);
+}
+
 Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau_px,
                               const WorldModel& model) {
+    ORO_TRY(FramePlan plan, own_plan(camera, tile, tau_px, model));
+    for (Scene& other : beside_) {
+        ORO_TRY(FramePlan more, other.own_plan(camera, tile, tau_px, model));
+        other.missed_ = more.missing;
+        plan.beside.push_back(std::move(more));
+    }
+    return plan;
+}
+
+Result<FramePlan> Scene::own_plan(const Camera& camera, const Tile& tile, double tau_px,
+                                  const WorldModel& model) {
     store_.begin_frame();
     full_ = false;
     const Residency residency = [&](const PageIndex& page) { return store_.address(page); };
@@ -83,19 +100,34 @@ Result<std::size_t> Scene::send_ready(bool wait, bool& all) {
 }
 
 Result<bool> Scene::advance(std::span<const PageIndex> missing) {
-    if (full_) return false;
+    bool better = false;
+    for (Scene& other : beside_) {
+        ORO_TRY(const bool more, other.advance(other.missed_));
+        better = better || more;
+    }
+    if (full_) return better;
     stream_->want(missing);
     bool all = true;
     ORO_TRY(const std::size_t sent, send_ready(false, all));
     full_ = !all;
     if (full_) stream_->want({});
-    return sent > 0;
+    return better || sent > 0;
 }
 
 Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                       const WorldModel& model) {
+    ORO_TRY(FramePlan plan, own_settled_plan(camera, tile, tau_px, model));
+    for (Scene& other : beside_) {
+        ORO_TRY(FramePlan more, other.own_settled_plan(camera, tile, tau_px, model));
+        plan.beside.push_back(std::move(more));
+    }
+    return plan;
+}
+
+Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
+                                          const WorldModel& model) {
     for (;;) {
-        ORO_TRY(FramePlan frame, plan(camera, tile, tau_px, model));
+        ORO_TRY(FramePlan frame, own_plan(camera, tile, tau_px, model));
         if (frame.missing.empty()) return frame;
         stream_->want(frame.missing);
         for (std::size_t sent = 0; sent < frame.missing.size();) {
@@ -105,7 +137,7 @@ Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, do
             if (all && some > 0) continue;
             if (all) break;
             stream_->want({});
-            return plan(camera, tile, tau_px, model);
+            return own_plan(camera, tile, tau_px, model);
         }
     }
 }

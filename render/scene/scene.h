@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 #include <utility>
 
 #include "core/frame/frame_plan.h"
@@ -23,6 +24,7 @@ using RenderProgress = std::function<void(double share)>;
 struct SceneMemory {
     std::uint64_t gpu{};   // pages on the GPU; 0: half of what the device has, at most 2 GiB
     std::uint64_t main{};  // pages on their way there; 0: 64 MB
+    unsigned shares{1};    // scenes that share these
 };
 
 // Keeps on the GPU what a camera needs of a region, as fine as tau asks for, within a budget of memory.
@@ -36,13 +38,18 @@ class Scene {
                                 const SceneMemory& memory = {}, HeightStorage heights = HeightStorage::f32,
                                 bool means = false);
 
-    // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h).
-    void cast(const CastRequest& request) { cast_ = request; }
+    // Another grid that its frames draw, too: a region of its own, with its own pages, memory and streaming.
+    // What the rest of this class tells is of the first grid alone, and images lie over that alone.
+    void draw_beside(Scene other) { beside_.push_back(std::move(other)); }
+
+    // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h);
+    // terrain of one grid is none for another.
+    void cast(const CastRequest& request);
     // What a frame draws with the pages that are on the GPU now.
     Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px,
                            const WorldModel& model = {});
-    // Lets the background read what a plan misses, and sends what is ready: true when the next plan may be
-    // better. Does not wait for pages that are not ready; asks for none once the frame's own fill the GPU.
+    // Lets the background read what a plan misses (those beside it know what theirs missed), and sends what is
+    // ready: true when the next plan may be better. Does not wait for pages that are not ready; asks for none once the frame's own fill the GPU.
     // Errors: a page that cannot be read, the device.
     Result<bool> advance(std::span<const PageIndex> missing);
     // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
@@ -65,6 +72,10 @@ class Scene {
         : pages_(std::move(pages)), store_(std::move(store)) {}
     // Number of pages that there was room for; `all`: for every one that was ready.
     Result<std::size_t> send_ready(bool wait, bool& all);
+    Result<FramePlan> own_plan(const Camera& camera, const Tile& tile, double tau_px,
+                               const WorldModel& model);
+    Result<FramePlan> own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
+                                       const WorldModel& model);
 
     std::unique_ptr<RegionPages> pages_;
     std::unique_ptr<PageStream> stream_;
@@ -76,6 +87,8 @@ class Scene {
     bool full_{false};  // of the last frame's pages
     CastRequest cast_;
     std::optional<double> top_m_;  // of the region, once it was asked for
+    std::vector<Scene> beside_;
+    std::vector<PageIndex> missed_;  // by its last plan, where it is one of those beside another
 };
 
 }  // namespace oro

@@ -29,18 +29,18 @@ layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 float share_at(ivec2 pixel) {
     uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
                            : imageLoad(ids, pixel).x;
-    if (id == 0u) return no_sun_share;
+    if (!is_of_grid(id)) return no_sun_share;
     vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
     uvec2 posts[3];
     vec3 at[3];
     float heights_m[3], scale;
-    corners_of(id - 1u, posts, heights_m, at);
+    corners_of(triangle_of_id(id), posts, heights_m, at);
     vec2 shares = met_shares(ray, at, scale);
     SurfacePoint point;
     point.view = (1.0 - shares.x - shares.y) * at[0] + shares.x * at[1] + shares.y * at[2];
     point.post = (1.0 - shares.x - shares.y) * vec2(posts[0]) + shares.x * vec2(posts[1]) + shares.y * vec2(posts[2]);
-    return sun_over_terrain(cast_point(id - 1u, point));
+    return sun_over_terrain(cast_point(triangle_of_id(id), point));
 }
 
 // Written by a function: glslang 12.0 does not end on such an assignment in main().

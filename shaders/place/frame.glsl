@@ -28,10 +28,17 @@ layout(binding = 3, scalar) uniform Frame { FrameConstants frame; };
 #endif
 FramePages frame_pages() { return FramePages(FRAME.pages); }
 
-// Triangle ids: page of this frame, meshlet of the page, triangle of the meshlet; 0 is the background.
+// Triangle ids: page of this frame, meshlet of the page, triangle of the meshlet; 0 is the background. Where a frame draws several
+// grids, pages are counted on from one to the next.
 uint triangle_id(uint frame_page, uint meshlet, uint triangle) {
-    return ((frame_page * meshlets_per_page + meshlet) * meshlet_triangles + triangle) + 1u;
+    return (((FRAME.first_page + frame_page) * meshlets_per_page + meshlet) * meshlet_triangles + triangle) + 1u;
 }
+// The inverse, of this grid: its triangle, whose page is number / 32768 and so on.
+uint triangle_of_id(uint id) { return id - 1u - FRAME.first_page * (meshlets_per_page * meshlet_triangles); }
+// Whether an id is a triangle of this grid.
+bool is_of_grid(uint id) { return id != 0u && triangle_of_id(id) < FRAME.page_count * (meshlets_per_page * meshlet_triangles); }
+// Whether a pixel is this grid's to colour: what shows no ground at all is the first's.
+bool colours(uint id) { return id == 0u ? FRAME.first_page == 0u : is_of_grid(id); }
 
 // The edges (levels.glsl) of a drawn node, by its number in the frame: page * 256 + meshlet.
 uint edges_of(uint node) { return Words(FRAME.edges).at[node / 8u] >> (node % 8u * 4u) & 15u; }

@@ -38,10 +38,10 @@ void main() {
     uint number = folded(gl_WorkGroupID) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     if (number >= min(lists().at.clips, clips_max)) return;
     uint id = Words(FRAME.clip_list).at[number];
-    uint triangle = (id - 1u) % meshlet_triangles, meshlet = (id - 1u) / meshlet_triangles % meshlets_per_page;
-    FramePage page = frame_pages().at[(id - 1u) / (meshlet_triangles * meshlets_per_page)];
+    uint own = triangle_of_id(id), triangle = own % meshlet_triangles, meshlet = own / meshlet_triangles % meshlets_per_page;
+    FramePage page = frame_pages().at[own / (meshlet_triangles * meshlets_per_page)];
     PageBlocks block = PageBlocks(page.block);
-    uint edges = edges_of((id - 1u) / meshlet_triangles);
+    uint edges = edges_of(own / meshlet_triangles);
     uvec2 posts[3];
     triangle_posts(triangle, posts[0], posts[1], posts[2]);
     vec4 corners[corners_max];

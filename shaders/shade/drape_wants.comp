@@ -63,5 +63,5 @@ void main() {
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
     uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
                            : imageLoad(ids, pixel).x;
-    if (id != 0u) want_pixel(surface_at(id - 1u, ray));
+    if (is_of_grid(id)) want_pixel(surface_at(triangle_of_id(id), ray));
 }

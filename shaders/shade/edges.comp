@@ -63,8 +63,9 @@ vec2 shares_of(Pair pair) {
     bool first_is_near = depth_at(pair.first) > depth_at(second);
     ivec2 near = first_is_near ? pair.first : second;
     vec2 towards = first_is_near ? vec2(pair.to_second) : -vec2(pair.to_second);
+    uint id = id_at(near);
     Rim rim;
-    if (!finds_rim(id_at(near) - 1u, vec2(near) + 0.5, towards, rim)) return vec2(0.0);
+    if (!is_of_grid(id) || !finds_rim(triangle_of_id(id), vec2(near) + 0.5, towards, rim)) return vec2(0.0);
     vec2 shares = vec2(1.0 - inside_rim(rim, vec2(0.0)), inside_rim(rim, towards));
     return first_is_near ? shares : shares.yx;
 }
@@ -80,7 +81,7 @@ void main() {
     for (uint i = gl_LocalInvocationIndex; i < listed_count; i += uint(lanes)) shares_of_pairs[listed[i]] = shares_of(pair_of(int(listed[i])));
     barrier();
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), within_square = ivec2(gl_LocalInvocationID.xy);
-    if (!within(pixel)) return;
+    if (!within(pixel) || !colours(id_at(pixel))) return;
     vec4 own = imageLoad(shaded, pixel), colour = own;
     const ivec2 steps[4] = {ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1)};
     int before = within_square.y * (side_px + 1) + within_square.x;

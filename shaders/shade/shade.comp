@@ -82,6 +82,7 @@ bool shade(ivec2 pixel) {
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
     uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
                            : imageLoad(ids, pixel).x;
+    if (!colours(id)) return true;
     if (id == 0u && parts_alone) return false;
     float depth = 0.0;
     vec3 colour;
@@ -96,10 +97,10 @@ bool shade(ivec2 pixel) {
         colour = seen_background(normalize(ray));
 #endif
     } else {
-        SurfacePoint point = surface_at(id - 1u, ray);
+        SurfacePoint point = surface_at(triangle_of_id(id), ray);
         if (point.is_left) return false;
         depth = FRAME.near_m / -point.view.z;
-        cast_on(id - 1u, point, pixel);
+        cast_on(triangle_of_id(id), point, pixel);
         look_for_snow(point);
 #ifdef IN_AIR
         place = ground_place(point);

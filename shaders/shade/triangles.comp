@@ -19,7 +19,7 @@ layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 
 DrawnTriangle triangle_of(uint id) {
     DrawnTriangle triangle;
-    if (id == 0u) {
+    if (!is_of_grid(id)) {
         for (int i = 0; i < 3; ++i) {
             triangle.at[i] = vec3(0.0);
             triangle.rows[i] = triangle.columns[i] = no_triangle;
@@ -30,7 +30,7 @@ DrawnTriangle triangle_of(uint id) {
     uvec2 posts[3];
     float heights_m[3];
     vec3 at[3];
-    FramePage page = corners_of(id - 1u, posts, heights_m, at);
+    FramePage page = corners_of(triangle_of_id(id), posts, heights_m, at);
     for (int i = 0; i < 3; ++i) {
         uvec2 number = min(uvec2(page.first_row, page.first_column) + (posts[i] << page.level), uvec2(FRAME.last_row, FRAME.last_column));
         triangle.at[i] = at[i];

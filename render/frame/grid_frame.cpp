@@ -1,0 +1,146 @@
+#include "render/frame/grid_frame.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "render/frame/frame_layout.h"
+
+namespace oro {
+namespace {
+
+constexpr VkDeviceSize pages_offset = 8192;  // FrameConstants come first
+static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
+
+// Where the parts of a grid's data lie, in bytes.
+struct DataLayout {
+    VkDeviceSize rows;
+    VkDeviceSize columns;
+    VkDeviceSize size;
+};
+DataLayout layout_of(const FramePlan& plan) {
+    const auto aligned = [](VkDeviceSize size) { return (size + 15) / 16 * 16; };
+    DataLayout layout{};
+    layout.rows = aligned(pages_offset + plan.pages.size() * sizeof(gpu::FramePage));
+    layout.columns = aligned(layout.rows + plan.row_terms.size() * sizeof(gpu::RowTerms));
+    layout.size = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
+    return layout;
+}
+
+}  // namespace
+
+Result<void> GridFrame::create_set(const Gpu& gpu, const Pipelines& pipelines,
+                                   const std::array<VkImageView, 3>& images) {
+    const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3},
+                           VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}};
+    VkDescriptorPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool.maxSets = 1;
+    pool.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool.pPoolSizes = sizes.data();
+    VkDescriptorPool pool_handle{};
+    ORO_VK(vkCreateDescriptorPool(gpu.device(), &pool, nullptr, &pool_handle));
+    pool_ = OwnedDescriptorPool(gpu.device(), pool_handle);
+    gpu.name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_handle, "frame");
+    const VkDescriptorSetLayout layout = pipelines.set.get();
+    VkDescriptorSetAllocateInfo set{};
+    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    set.descriptorPool = pool_handle;
+    set.descriptorSetCount = 1;
+    set.pSetLayouts = &layout;
+    ORO_VK(vkAllocateDescriptorSets(gpu.device(), &set, &set_));
+    gpu.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "frame");
+    std::array<VkDescriptorImageInfo, 3> infos{};
+    std::array<VkWriteDescriptorSet, 3> writes{};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        infos[i] = {VK_NULL_HANDLE, images[i], VK_IMAGE_LAYOUT_GENERAL};
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstSet = set_;
+        writes[i].dstBinding = i;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        writes[i].pImageInfo = &infos[i];
+    }
+    vkUpdateDescriptorSets(gpu.device(), 3, writes.data(), 0, nullptr);
+    if (data_.handle) bind_constants(gpu);
+    return {};
+}
+
+// The constants are at the beginning of the grid's data.
+void GridFrame::bind_constants(const Gpu& gpu) const {
+    const VkDescriptorBufferInfo buffer{data_.handle.get(), 0, sizeof(gpu::FrameConstants)};
+    VkWriteDescriptorSet write{};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set_;
+    write.dstBinding = 3;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    write.pBufferInfo = &buffer;
+    vkUpdateDescriptorSets(gpu.device(), 1, &write, 0, nullptr);
+}
+
+Result<void> GridFrame::reserve(const Gpu& gpu, const FramePlan& plan) {
+    const DataLayout layout = layout_of(plan);
+    if (staging_.size < layout.size) {
+        const VkDeviceSize size = std::max(layout.size, 2 * staging_.size);
+        ORO_TRY(Buffer staging, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload,
+                                              "frame staging"));
+        constexpr VkBufferUsageFlags usage =
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+        ORO_TRY(data_, create_buffer(gpu, size, usage, MemoryKind::device, "frame data"));
+        staging_ = std::move(staging);  // both are that large, or neither is
+        bind_constants(gpu);
+    }
+    const std::size_t count = std::max<std::size_t>(plan.pages.size(), 64);
+    if (count > page_capacity_) {
+        // A multiple of 4, so that each part starts at a multiple of 16 bytes.
+        const std::size_t capacity = (std::max(count, 2 * page_capacity_) + 3) / 4 * 4;
+        constexpr VkBufferUsageFlags usage =
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+        ORO_TRY(choice_, create_buffer(gpu, 4 * (live_pages_words + capacity * choice_words), usage,
+                                       MemoryKind::device, "choice of levels"));
+        page_capacity_ = capacity;
+    }
+    return {};
+}
+
+void GridFrame::address(FramePlan& plan) const {
+    const DataLayout layout = layout_of(plan);
+    gpu::FrameConstants& constants = plan.constants;
+    constants.pages = address_words(data_.address + pages_offset);
+    constants.row_terms = address_words(data_.address + layout.rows);
+    constants.column_terms = address_words(data_.address + layout.columns);
+    VkDeviceAddress at = choice_.address;
+    constants.live_pages = address_words(at);
+    at += 4 * live_pages_words;
+    constants.live = address_words(at);
+    at += 4 * live_words * page_capacity_;
+    constants.accepted = address_words(at);
+    at += VkDeviceSize{4} * gpu::accepted_words * page_capacity_;
+    constants.edges = address_words(at);
+}
+
+void GridFrame::fill(const FramePlan& plan) {
+    const DataLayout layout = layout_of(plan);
+    size_ = layout.size;
+    const auto copy = [&](VkDeviceSize at, const auto& values) {
+        if (!values.empty())
+            std::memcpy(staging_.mapped + at, values.data(), values.size() * sizeof(values[0]));
+    };
+    std::memcpy(staging_.mapped, &plan.constants, sizeof(plan.constants));
+    copy(pages_offset, plan.pages);
+    copy(layout.rows, plan.row_terms);
+    copy(layout.columns, plan.column_terms);
+}
+
+void GridFrame::record_upload(VkCommandBuffer commands) const {
+    const VkBufferCopy copy{0, 0, size_};
+    vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
+}
+
+void GridFrame::bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const {
+    vkCmdBindDescriptorSets(commands, point, pipelines.layout.get(), 0, 1, &set_, 0, nullptr);
+}
+
+}  // namespace oro
