@@ -61,6 +61,13 @@ Error without_region(const InfoOptions& options, const FileListing& listing, Err
     return fault;
 }
 
+nlohmann::ordered_json regions_apart_json(const Region& region) {
+    nlohmann::ordered_json regions = nlohmann::ordered_json::array();
+    for (const Region& other : region.beside)
+        regions.push_back(json_object("sources", sources_json(other.sources), "region", region_json(other)));
+    return regions;
+}
+
 Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
     if (baked_path(request.paths)) return FileListing{};
     return list_files(request, {cache_folder().string(), program_print()},
@@ -70,7 +77,8 @@ Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
 }  // namespace
 
 Result<void> run_info(const InfoOptions& options) {
-    ORO_TRY(const RegionRequest request, region_request(options.region));
+    ORO_TRY(RegionRequest request, region_request(options.region));
+    request.grids_apart = true;
     ProgressBar bar(options.quiet);
     const auto listed = listing_of(request, bar);
     if (!listed) return listed.error();
@@ -87,13 +95,18 @@ Result<void> run_info(const InfoOptions& options) {
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
     if (options.check && region.file) ORO_CHECK(region.file->verify());
     if (options.json) {
-        const nlohmann::ordered_json json = json_object(
+        nlohmann::ordered_json json = json_object(
             "sources", sources_json(region.sources), "region", region_json(region), "file", file_json(region),
             "checked", options.check || !region.file, "passed_over", files_json(listing.files, false));
+        if (!region.beside.empty()) json["apart"] = regions_apart_json(region);
         std::printf("%s\n", json_text(json, true).c_str());
         return {};
     }
-    std::printf("%s%s", info_text(region).c_str(), unread_files_text(listing).c_str());
+    if (!region.beside.empty())
+        std::printf("%zu regions that lie far apart; shot draws them together\n\n", 1 + region.beside.size());
+    std::printf("%s", info_text(region).c_str());
+    for (const Region& other : region.beside) std::printf("\n%s", info_text(other).c_str());
+    std::printf("%s", unread_files_text(listing).c_str());
     if (options.check)
         std::printf("check: %s\n", region.file ? "every page was read, and is as it was written"
                                                : "every post was read, as always without a whole .oro");

@@ -22,6 +22,7 @@ struct RegionOptions {
     bool strict_datum{false};
     bool fill_voids{false};
     bool own_posts{false};
+    bool grids_apart{false};  // of a command that draws several: RegionRequest.grids_apart
 };
 
 // From where, and how it looks.

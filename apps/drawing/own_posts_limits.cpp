@@ -7,6 +7,7 @@
 namespace oro {
 
 Result<void> check_own_posts(const View& view, const Region& region) {
+    for (const Region& other : region.beside) ORO_CHECK(check_own_posts(view, other));
     if (!region.field.grid.net) return {};
     if (view.model.earth != Earth::ellipsoid)
         return refused("--earth", "", "not together with --own-posts: they lie on the ellipsoid alone");

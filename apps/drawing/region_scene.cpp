@@ -42,12 +42,26 @@ Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggera
 }
 
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
-                           HeightStorage heights, bool means) {
+                           HeightStorage heights, bool means, unsigned shares) {
     const auto bytes = [](const std::optional<int>& mb) {
         return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
     };
-    return Scene::create(gpu, std::move(pages), {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb)},
+    return Scene::create(gpu, std::move(pages), {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares},
                          heights, means);
+}
+
+Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, double exaggeration,
+                                  const MemoryOptions& memory, HeightStorage heights, bool means,
+                                  Scene& scene) {
+    std::uint64_t triangles = 0;
+    for (const Region& other : region.beside) {
+        ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(other, exaggeration));
+        triangles += pages->facts().triangles;
+        ORO_TRY(Scene more, create_scene(gpu, std::move(pages), memory, heights, means,
+                                         1U + static_cast<unsigned>(region.beside.size())));
+        scene.draw_beside(std::move(more));
+    }
+    return triangles;
 }
 
 std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages) {

@@ -18,7 +18,13 @@ Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double e
 // Makes them ready for a GPU. Errors: out of device memory. heights: how they are kept there. means: as
 // Scene::create().
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
-                           HeightStorage heights = HeightStorage::f32, bool means = false);
+                           HeightStorage heights = HeightStorage::f32, bool means = false,
+                           unsigned shares = 1);
+// The regions beside one whose scene has 1 / (1 + their number) of the memory, into its frames. Gives the
+// triangles that they have at full resolution.
+Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, double exaggeration,
+                                  const MemoryOptions& memory, HeightStorage heights, bool means,
+                                  Scene& scene);
 
 // What to tell of a style that asks for means of the ground over pages that have none, being of too many
 // posts: each pixel then has the colour of the ground in its middle. "" where nothing of that is so.

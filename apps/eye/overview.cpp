@@ -102,6 +102,11 @@ Result<void> see_whole_region(View& view, const ViewOptions& options, const Regi
     std::vector<Ecef> points = inner_points(region.field, view.exaggeration);
     std::vector<Ecef> rim;
     add_rim_points(region.field, view.exaggeration, rim);
+    for (const Region& other : region.beside) {
+        const std::vector<Ecef> more = inner_points(other.field, view.exaggeration);
+        points.insert(points.end(), more.begin(), more.end());
+        add_rim_points(other.field, view.exaggeration, rim);
+    }
     if (rim.empty()) return Error{ErrorKind::no_data, "region", "every post is void"};
     const Middle middle = middle_of(points.empty() ? rim : points);
     points.insert(points.end(), rim.begin(), rim.end());

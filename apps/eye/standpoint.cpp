@@ -28,6 +28,13 @@ std::string where_data_are(const PostGrid& grid, double lat_deg, double lon_deg)
     return text + (". " + place_name(lon_deg, lat_deg)) + " lies inside: latitude comes first";
 }
 
+const Region& region_at(const Region& region, double lat_deg, double lon_deg) {
+    if (holds(region.field.grid, lat_deg, lon_deg)) return region;
+    for (const Region& other : region.beside)
+        if (holds(other.field.grid, lat_deg, lon_deg)) return other;
+    return region;
+}
+
 Result<Place> place_at(const char* option, const std::string& text) {
     Result<Place> place = parse_place(text);
     if (!place.ok()) return refused(option, text, place.error().what);

@@ -8,6 +8,7 @@
 #include "core/earth/ellipsoid.h"
 #include "core/terrain/post_grid.h"
 #include "geo/places/place.h"
+#include "geo/region/region.h"
 
 namespace oro {
 
@@ -25,6 +26,9 @@ struct Standing {
 // Where that is. A geo: place with a height has its own, above the ellipsoid. Errors: text that is no place,
 // two heights (usage); no ground to stand on (no_data), which names the data's box.
 Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, double exaggeration = 1.0);
+
+// Of regions that lie apart, the one that has ground at a place; the first where none has.
+const Region& region_at(const Region& region, double lat_deg, double lon_deg);
 
 // A place of an option. Errors (usage) name the option.
 Result<Place> place_at(const char* option, const std::string& text);

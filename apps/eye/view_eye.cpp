@@ -14,14 +14,17 @@ namespace {
 
 Result<void> stand_at(View& view, const ViewOptions& options, const Region& region) {
     const Standing standing{"--at", *options.at, "--above", options.above_m, 2.0, options.altitude_m};
-    ORO_TRY(view.camera.eye, standpoint(standing, region.field, view.exaggeration));
+    ORO_TRY(const Place place, place_at("--at", *options.at));
+    const Region& there = region_at(region, place.lat_deg, place.lon_deg);
+    ORO_TRY(view.camera.eye, standpoint(standing, there.field, view.exaggeration));
     return {};
 }
 
 Result<void> turn_to(View& view, const std::string& text, const Region& region) {
     ORO_TRY(const Place place, place_at("--look-at", text));
     const std::optional<double> ground =
-        ground_h_m(region.field, place.lat_deg, place.lon_deg, view.exaggeration);
+        ground_h_m(region_at(region, place.lat_deg, place.lon_deg).field, place.lat_deg, place.lon_deg,
+                   view.exaggeration);
     if (!ground && !place.height_m)
         return Error{ErrorKind::no_data, "--look-at " + place_name(place.lat_deg, place.lon_deg),
                      "no elevation data there; give a heading and pitch, or geo:LAT,LON,HEIGHT" +
@@ -54,7 +57,7 @@ Result<void> place_eye(View& view, const ViewOptions& options, const Region& reg
 
 Result<std::string> nothing_in_view(const View& view, const Region& region, const std::string& view_file) {
     const Geodetic& eye = view.camera.eye;
-    const PostGrid& grid = region.field.grid;
+    const PostGrid& grid = region_at(region, eye.lat_deg, eye.lon_deg).field.grid;
     const std::string what = "nothing of the region is in view";
     if (holds(grid, eye.lat_deg, eye.lon_deg)) return what + ": the eye is over the data and looks past them";
     return Error{ErrorKind::no_data, view_file.empty() ? "" : "--view " + view_file,

@@ -122,14 +122,19 @@ std::string note_of_voids(const Region& region) {
 void say_notes(const Region& region, bool quiet) {
     for (const std::string& note : region.notes) say(quiet, "note: " + note);
     if (const std::string holes = note_of_voids(region); !holes.empty()) say(quiet, "note: " + holes);
+    for (const Region& other : region.beside) say_notes(other, quiet);
 }
 
 std::string attribution_of(const Region& region) {
     std::set<std::string> seen;
     std::string all;
-    for (const SourceReport& source : region.sources) {
+    std::vector<const SourceReport*> sources;
+    for (const SourceReport& source : region.sources) sources.push_back(&source);
+    for (const Region& other : region.beside)
+        for (const SourceReport& source : other.sources) sources.push_back(&source);
+    for (const SourceReport* source : sources) {
         // Once more: a region may have been baked when such text was kept as it was.
-        const std::string attribution = foreign_text(source.attribution);
+        const std::string attribution = foreign_text(source->attribution);
         if (attribution.empty() || !seen.insert(attribution).second) continue;
         all += (all.empty() ? "" : "; ") + attribution;
     }

@@ -17,6 +17,22 @@ std::string program_print() {
     return std::string(OROGRAPH_VERSION " ") + picture_code;
 }
 
+namespace {
+
+std::uint64_t both(std::uint64_t one, std::uint64_t other) {
+    const std::array prints{one, other};
+    return xxh64(std::as_bytes(std::span(prints)));
+}
+
+// Of regions that lie apart, what is told of each region becomes one.
+void add_print(const Region& region, Fingerprints& prints) {
+    prints.grid = both(prints.grid, grid_print(region.field.grid));
+    if (prints.posts && region.posts_print) prints.posts = both(*prints.posts, *region.posts_print);
+    prints.undulation = both(prints.undulation, region.geoid_print);
+}
+
+}  // namespace
+
 Fingerprints prints_of(const Region& region) {
     Fingerprints prints;
     prints.program = program_print();
@@ -25,10 +41,19 @@ Fingerprints prints_of(const Region& region) {
     prints.resampling = region_resampling(region);
     prints.geoid = region.geoid;
     prints.undulation = region.geoid_print;
-    if (region.sources.size() > most_sources_with_prints) return prints;
-    for (const SourceReport& source : region.sources)
-        prints.sources.push_back(
-            {std::filesystem::path(source.path).filename().string(), source.posts_print});
+    std::vector<const Region*> regions{&region};
+    for (const Region& other : region.beside) {
+        add_print(other, prints);
+        regions.push_back(&other);
+    }
+    std::size_t sources = 0;
+    for (const Region* one : regions) sources += one->sources.size();
+    if (sources > most_sources_with_prints) return prints;
+    for (const Region* one : regions) {
+        for (const SourceReport& source : one->sources)
+            prints.sources.push_back(
+                {std::filesystem::path(source.path).filename().string(), source.posts_print});
+    }
     return prints;
 }
 

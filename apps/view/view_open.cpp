@@ -1,8 +1,10 @@
 // From options, or from a view's file, to a view and its region: what shot and view begin with.
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "apps/drawing/own_posts_limits.h"
+#include "apps/eye/standpoint.h"
 #include "apps/view/view.h"
 #include "core/base/file_there.h"
 
@@ -14,9 +16,31 @@ void leave_geoid_out(Region& region) {
     region.N_of_posts_left_out_m = std::move(region.field.N_of_posts_m);
     region.field.N_of_posts_m.clear();
     region.geoid = "none";
+    for (Region& other : region.beside) leave_geoid_out(other);
 }
 
 namespace {
+
+// Of regions that lie apart, the first is the one that the eye is over, where it is over any: what is told of
+// ground around the eye is told of that.
+void begin_with_region_at(const Geodetic& eye, Region& region) {
+    const auto is_over = [&](const Region& one) { return holds(one.field.grid, eye.lat_deg, eye.lon_deg); };
+    if (is_over(region)) return;
+    const auto there = std::ranges::find_if(region.beside, is_over);
+    if (there == region.beside.end()) return;
+    const auto number = static_cast<std::size_t>(there - region.beside.begin());
+    std::vector<Region> others = std::exchange(region.beside, {});
+    Region first = std::move(others[number]);
+    first.notes = std::exchange(region.notes, {});
+    others[number] = std::move(region);
+    first.beside = std::move(others);
+    region = std::move(first);
+}
+
+// Names, lines, images, maps and legends are of one grid yet.
+bool draws_grids_apart(const View& view) {
+    return !view.map && !view.panorama && !view.legend && view.drape.empty() && !view.vectors.any();
+}
 
 // Where the data that a view names are gone: what to do about it.
 Error with_way_out(Error fault, const View& view, const RegionOptions& options) {
@@ -94,13 +118,18 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         // A sun that its file told stays where the file has it: the same view, the same bytes.
         if (view_options.sun_time) aim_sun(view.sun, view.camera.eye);
         ORO_CHECK(change_region(view, region_options));
+        view.region.grids_apart = draws_grids_apart(view);
         if (view.region.paths.empty())
             return Error{ErrorKind::usage, "--view " + view_file,
                          "does not tell where its elevation data lie: name them, too"};
         auto opened = open_region(view.region, progress);
         if (!opened) return with_way_out(opened.error(), view, region_options);
         region = std::move(*opened);
+        if (!region.beside.empty() && !region_options.grids_apart)
+            return Error{ErrorKind::usage, view_file,
+                         "shows files that lie far apart: shot draws it again, and does not measure it yet"};
         view.prints = prints_of(region);
+        begin_with_region_at(view.camera.eye, region);
         ORO_CHECK(check_own_posts(view, region));
         if (!view.has_geoid) leave_geoid_out(region);
         // Those that somebody names instead are others on purpose.
@@ -111,12 +140,14 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
+    view.region.grids_apart = region_options.grids_apart && draws_grids_apart(view);
     ORO_TRY(region, open_region(view.region, progress));
     view.prints = prints_of(region);
     ORO_CHECK(check_own_posts(view, region));
     ORO_CHECK(open_files(view));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
+    begin_with_region_at(view.camera.eye, region);
     if (placed.ok()) aim_sun(view.sun, view.camera.eye);
     // Ground that could not be read is no ground to stand on, but that is not why there is none.
     ORO_CHECK(region.field.health());

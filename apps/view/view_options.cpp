@@ -181,6 +181,7 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
     request.strict_datum = options.strict_datum;
     request.fill_voids = options.fill_voids;
     request.own_posts = options.own_posts;
+    request.grids_apart = options.grids_apart;
     request.height_unit = options.height_unit;
     request.source_crs = options.source_crs;
     request.source_vertical = options.source_vertical;

@@ -36,9 +36,25 @@ Result<std::optional<SeenPlace>> place_seen(const View& view, const Region& regi
     return std::optional(place);
 }
 
-Result<std::optional<SeenPlace>> place_in_middle(const View& view, const Region& region) {
+namespace {
+
+Result<std::optional<SeenPlace>> place_in_middle_of(const View& view, const Region& region,
+                                                    glm::dvec2 middle_px) {
     const TrueSurface surface(region.field, view.exaggeration, thread_count());
-    return place_seen(view, region, surface, {0.5 * view.camera.width_px, 0.5 * view.camera.height_px});
+    return place_seen(view, region, surface, middle_px);
+}
+
+}  // namespace
+
+Result<std::optional<SeenPlace>> place_in_middle(const View& view, const Region& region) {
+    const glm::dvec2 middle_px(0.5 * view.camera.width_px, 0.5 * view.camera.height_px);
+    const TrueSurface surface(region.field, view.exaggeration, thread_count());
+    ORO_TRY(std::optional<SeenPlace> nearest, place_seen(view, region, surface, middle_px));
+    for (const Region& other : region.beside) {
+        ORO_TRY(const std::optional<SeenPlace> seen, place_in_middle_of(view, other, middle_px));
+        if (seen && (!nearest || seen->seen_distance_m < nearest->seen_distance_m)) nearest = seen;
+    }
+    return nearest;
 }
 
 std::string line_of(const std::optional<SeenPlace>& place) {

@@ -13,6 +13,7 @@
 #include "geo/datum/horizontal_datum.h"
 #include "geo/files/source_paths.h"
 #include "geo/listing/header_cache.h"
+#include "geo/region/lying_apart.h"
 #include "geo/region/region_grid.h"
 #include "geo/region/region_sources.h"
 #include "geo/sources/hgt_source.h"
@@ -145,12 +146,21 @@ void find_obstacle(const RegionRequest& request, std::vector<Source> sources, Fi
         listing.error = Error{ErrorKind::failed, damaged->path, damaged->reason};
     const auto extent = choose_extent(sources, request.box);
     if (!extent) return;
-    const auto grid = region_grid(sources, *extent);
-    if (grid.ok()) return;
-    if (!listing.error) listing.error = grid.error();
-    for (const auto& [path, why] : to_leave_out(sources, request.box)) {
-        const auto file = std::ranges::find(listing.files, path, &ListedFile::path);
-        if (file != listing.files.end()) file->leave_out = why;
+    std::vector<std::vector<Source>> groups;
+    if (request.grids_apart)
+        groups = lying_apart(std::move(sources), request.box);
+    else
+        groups.push_back(std::move(sources));
+    for (const std::vector<Source>& group : groups) {
+        const auto own = groups.size() == 1 ? extent : region_extent(group, request.box);
+        if (!own) continue;
+        const auto grid = region_grid(group, *own);
+        if (grid.ok()) continue;
+        if (!listing.error) listing.error = grid.error();
+        for (const auto& [path, why] : to_leave_out(group, request.box)) {
+            const auto file = std::ranges::find(listing.files, path, &ListedFile::path);
+            if (file != listing.files.end()) file->leave_out = why;
+        }
     }
 }
 

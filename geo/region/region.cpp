@@ -13,6 +13,7 @@
 #include "geo/posts/seams.h"
 #include "geo/posts/voids.h"
 #include "geo/region/baked_region.h"
+#include "geo/region/lying_apart.h"
 #include "geo/region/region_grid.h"
 #include "geo/region/region_prints.h"
 #include "geo/region/region_sources.h"
@@ -118,23 +119,14 @@ std::string all_without_height(const Region& region) {
     return "all its posts are " + (why.find(',') == std::string::npos ? why.substr(why.find(' ') + 1) : why);
 }
 
-// Looks at the sources, chooses the grid, lays them into it, and describes what has become of them.
-Result<Region> read_region(const RegionRequest& request, const Progress& progress) {
-    if (request.paths.empty()) return Error{ErrorKind::no_data, "", "no path to elevation data was given"};
-    ORO_TRY(RegionSources found, look_at_sources(request, progress));
-    std::vector<Source>& sources = found.sources;
-    if (sources.empty() && !request.box) return no_sources(request, found.first_skipped);
-
-    const auto extent = choose_extent(sources, request.box);
-    if (!extent && request.box) return no_sources(request, "");
-    if (!extent)
-        return Error{ErrorKind::no_data, list_of(request.paths),
-                     "its posts lie on a line or a point, and cover no area"};
+// Chooses the grid of some sources, lays them into it, and describes what has become of them.
+Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent, const RegionRequest& request,
+                         std::vector<std::string> notes, const Progress& progress) {
     Region region;
-    region.notes = std::move(found.notes);
+    region.notes = std::move(notes);
     ORO_TRY(const GeoidOfRegion geoid, GeoidOfRegion::open(request.strict_datum));
     ORO_TRY(const std::optional<OwnPosts> own, own_posts_of(sources, request));
-    Result<PostGrid> chosen = own ? Result<PostGrid>(own->grid) : region_grid(sources, *extent);
+    Result<PostGrid> chosen = own ? Result<PostGrid>(own->grid) : region_grid(sources, extent);
     ORO_TRY(const PostGrid grid, std::move(chosen));
     const BoundingBox posts{grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()};
     region.field.grid = grid;
@@ -172,8 +164,52 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     region.posts_print = posts_print(region.field);
     region.geoid_print = undulation_print(region.field.undulation);
     for (Source& source : sources) region.sources.push_back(std::move(source.report));
-    if (progress) progress(1.0, "region read");
     return region;
+}
+
+// One region of several that lie apart: that of most posts, the others beside it.
+Region joined(std::vector<Region> regions) {
+    const auto largest = std::ranges::max_element(
+        regions, {}, [](const Region& region) { return region.field.grid.post_count(); });
+    Region first = std::move(*largest);
+    regions.erase(largest);
+    for (Region& other : regions) {
+        for (const std::string& note : other.notes) add_note(first.notes, note);
+        other.notes.clear();
+    }
+    first.beside = std::move(regions);
+    return first;
+}
+
+// Looks at the sources, and reads them as one region, or as several that lie apart.
+Result<Region> read_region(const RegionRequest& request, const Progress& progress) {
+    if (request.paths.empty()) return Error{ErrorKind::no_data, "", "no path to elevation data was given"};
+    ORO_TRY(RegionSources found, look_at_sources(request, progress));
+    if (found.sources.empty() && !request.box) return no_sources(request, found.first_skipped);
+    const auto extent = choose_extent(found.sources, request.box);
+    if (!extent && request.box) return no_sources(request, "");
+    if (!extent)
+        return Error{ErrorKind::no_data, list_of(request.paths),
+                     "its posts lie on a line or a point, and cover no area"};
+    std::vector<std::vector<Source>> groups;
+    if (request.grids_apart) groups = lying_apart(std::move(found.sources), request.box);
+    else groups.push_back(std::move(found.sources));
+    std::vector<Region> regions;
+    for (std::vector<Source>& group : groups) {
+        const auto own = groups.size() == 1 ? extent : region_extent(group, request.box);
+        if (!own) continue;  // on a line or a point
+        const double before = static_cast<double>(regions.size()) / static_cast<double>(groups.size());
+        const Progress part = [&](double share, const std::string& what) {
+            if (progress) progress(before + share / static_cast<double>(groups.size()), what);
+        };
+        ORO_TRY(Region region, region_of(std::move(group), *own, request,
+                                         regions.empty() ? found.notes : std::vector<std::string>(), part));
+        regions.push_back(std::move(region));
+    }
+    if (regions.empty())
+        return Error{ErrorKind::no_data, list_of(request.paths), "no file's posts cover an area"};
+    if (progress) progress(1.0, "region read");
+    return joined(std::move(regions));
 }
 
 }  // namespace

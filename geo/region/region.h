@@ -36,6 +36,9 @@ struct RegionRequest {
     // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). ""
     // for nothing told.
     std::string source_crs, source_vertical;
+    // Whoever asks can do with several grids: files that lie far apart (lying_apart.h) are then a region each.
+    // Otherwise one grid holds them all, with what lies between.
+    bool grids_apart{false};
 };
 
 // What becomes of void posts: they are left out of the terrain, or filled from their neighbours.
@@ -67,6 +70,9 @@ struct Region {
     // Void in the source that covers them: what --fill-voids is for.
     [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }
     std::vector<std::string> notes;  // what a user must know, one line each (a geoid that stands in, ...)
+    // Regions of other files that lie far from this one's; only where RegionRequest.grids_apart. None of them
+    // has any in turn; this is the one of most posts, and the notes are those of all.
+    std::vector<Region> beside;
 };
 
 // Told how far reading is, 0..1, from the calling thread.

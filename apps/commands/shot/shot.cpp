@@ -1,4 +1,5 @@
 // orograph shot: from files to a picture that knows where it was taken from.
+#include <algorithm>
 #include <cstdio>
 #include <span>
 
@@ -129,7 +130,10 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
         ORO_TRY(const FramePlan first,
                 scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, shot.view.tau_px,
                            shot.view.model));
-        if (first.pages_wanted == 0 && !nothing.ok()) return nothing.error();
+        const bool any = first.pages_wanted > 0 || std::ranges::any_of(first.beside, [](const FramePlan& plan) {
+                             return plan.pages_wanted > 0;
+                         });
+        if (!any && !nothing.ok()) return nothing.error();
     }
     ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
     std::vector<std::uint8_t> strip;
@@ -196,14 +200,18 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
     ORO_TRY(Scene scene, create_scene(gpu, std::move(pages), memory_of_pages(shot.view, options.memory),
-                                      shot.view.heights, asks_for_means(style.frame)));
+                                      shot.view.heights, asks_for_means(style.frame),
+                                      1U + static_cast<unsigned>(shot.region.beside.size())));
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
     shot.has_means = asks_for_means(style.frame) && scene.pages().knows_means();
     ORO_CHECK(lay_images(shot.view, shot.region, options.memory, gpu, scene, options.quiet));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
-    shot.triangles_at_full_resolution = scene.pages().facts().triangles;
+    ORO_TRY(const std::uint64_t beside,
+            draw_beside(gpu, shot.region, shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
+                        shot.view.heights, asks_for_means(style.frame), scene));
+    shot.triangles_at_full_resolution = scene.pages().facts().triangles + beside;
     shot.times.pages_s = seconds_since(start);
     return scene;
 }
@@ -259,6 +267,8 @@ Result<void> run_shot(const ShotOptions& asked) {
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
     options.view.takes_maps = true;
+    // What these measure is measured on one grid.
+    options.region.grids_apart = !options.verify && !options.layers && !options.view.tolerance && !options.ortho;
     if (!options.view_file.empty()) {
         ORO_TRY(const View told, read_view(options.view_file));
         options.ortho = told.map.has_value();

@@ -134,6 +134,20 @@ void put_layers(const LayersReport& layers, const ShotTimes& times, const Pictur
     json["times_s"]["layers"] = times.layers_s;
 }
 
+// All sources, the region, and those that lie apart from it.
+void put_regions(const ShotResult& shot, ordered_json& json) {
+    json["sources"] = sources_json(shot.region.sources);
+    for (const Region& other : shot.region.beside) {
+        for (nlohmann::ordered_json& source : sources_json(other.sources))
+            json["sources"].push_back(std::move(source));
+    }
+    json["region"] = region_json(shot.region);
+    if (!shot.region.beside.empty()) {
+        json["apart"] = nlohmann::ordered_json::array();
+        for (const Region& other : shot.region.beside) json["apart"].push_back(region_json(other));
+    }
+}
+
 }  // namespace
 
 ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
@@ -167,8 +181,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["time"] = time_text(shot.view.time_utc_s);
     json["destination"] = destination_json(shot.middle);
     json["attribution"] = tags.attribution;
-    json["sources"] = sources_json(shot.region.sources);
-    json["region"] = region_json(shot.region);
+    put_regions(shot, json);
     put_counts(shot, json);
     json["tau_px"] = shot.view.tau_px;
     json["models"] = models_json(shot.view);
