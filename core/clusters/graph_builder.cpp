@@ -1,0 +1,236 @@
+#include "core/clusters/graph_builder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "core/base/parallel.h"
+#include "core/clusters/cluster_split.h"
+#include "core/clusters/group_assignment.h"
+#include "core/clusters/group_bounds.h"
+#include "core/clusters/simplify_group.h"
+
+namespace oro {
+namespace {
+
+// With so few triangles a level is one group: what 3 x 3 leaves have.
+constexpr std::size_t one_group_triangles = 9 * most_cluster_triangles;
+// Groups that a thread takes at a time.
+constexpr std::size_t groups_at_a_time = 8;
+
+class Builder {
+  public:
+    Builder(const OriginalSurface& surface, const GroundBounds& bounds, const GraphOptions& options)
+        : surface_(surface), bounds_(bounds), options_(options), locks_(surface.vertex_count()) {}
+
+    ClusterGraph build();
+
+  private:
+    // What a group of the last level made (or a leaf has), sorted by the groups that it goes to.
+    struct Part {
+        std::uint32_t made_by;
+        std::vector<std::size_t> clusters;  // triangles of each
+        std::vector<std::uint32_t> groups;  // of each; empty: none
+    };
+    struct Made {
+        std::vector<VertexTriangle> triangles;
+        std::size_t triangles_in;
+        GroupBounds bounds;
+    };
+
+    void share_out(const GroupAssignment& assignment, std::size_t part, Part& shared);
+    void add_clusters(const std::vector<Part>& shared, GraphLevel& report);
+    void add_groups(std::size_t groups, std::uint32_t first_cluster, GraphLevel& report);
+    void make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simplifier, Made& made) const;
+    bool add_level();
+    void add_coarsest();
+    [[nodiscard]] std::size_t triangles_left() const;
+
+    const OriginalSurface& surface_;
+    const GroundBounds& bounds_;
+    const GraphOptions& options_;
+    VertexLocks locks_;
+    ClusterGraph graph_;
+    std::vector<std::vector<VertexTriangle>> parts_;  // of the last level
+    std::vector<std::uint32_t> made_by_;              // of each part
+};
+
+std::size_t Builder::triangles_left() const {
+    return std::accumulate(parts_.begin(), parts_.end(), std::size_t{0},
+                           [](std::size_t sum, const auto& part) { return sum + part.size(); });
+}
+
+// Sorts a part's triangles by group, and those of each group into clusters. A leaf is a cluster already.
+void Builder::share_out(const GroupAssignment& assignment, std::size_t part, Part& shared) {
+    std::vector<VertexTriangle>& triangles = parts_[part];
+    const auto groups = assignment.groups_of(part);
+    shared.made_by = made_by_[part];
+    if (shared.made_by == no_group) {
+        shared.clusters = {triangles.size()};
+        shared.groups = {groups.front()};
+        return;
+    }
+    std::vector<std::uint32_t> order(triangles.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return groups[a] < groups[b]; });
+    std::vector<VertexTriangle> sorted;
+    sorted.reserve(triangles.size());
+    for (const std::uint32_t i : order) sorted.push_back(triangles[i]);
+    for (std::size_t first = 0, last = 0; first < sorted.size(); first = last) {
+        const std::uint32_t group = groups[order[first]];
+        while (last < sorted.size() && groups[order[last]] == group) ++last;
+        split_to_clusters(surface_, std::span(sorted).subspan(first, last - first), shared.clusters);
+        shared.groups.resize(shared.clusters.size(), group);
+    }
+    triangles = std::move(sorted);
+}
+
+// used_by is the group's number on its level for now.
+void Builder::add_clusters(const std::vector<Part>& shared, GraphLevel& report) {
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+        const Part& part = shared[i];
+        if (part.made_by != no_group) {
+            ClusterGroup& maker = graph_.groups[part.made_by];
+            maker.first_made = static_cast<std::uint32_t>(graph_.clusters.size());
+            maker.made = static_cast<std::uint32_t>(part.clusters.size());
+        }
+        std::size_t first = 0;
+        for (std::size_t j = 0; j < part.clusters.size(); ++j) {
+            const auto triangles = std::span(parts_[i]).subspan(first, part.clusters[j]);
+            graph_.clusters.push_back({static_cast<std::uint32_t>(graph_.triangles.size()),
+                                       static_cast<std::uint32_t>(triangles.size()),
+                                       static_cast<std::uint32_t>(vertex_count(triangles)), part.made_by,
+                                       part.groups.empty() ? no_group : part.groups[j]});
+            graph_.triangles.insert(graph_.triangles.end(), triangles.begin(), triangles.end());
+            first += part.clusters[j];
+        }
+    }
+    report.triangles_in = triangles_left();
+}
+
+// The clusters from first_cluster on, by group.
+void Builder::add_groups(std::size_t groups, std::uint32_t first_cluster, GraphLevel& report) {
+    const auto first_group = static_cast<std::uint32_t>(graph_.groups.size());
+    const auto level = static_cast<std::uint32_t>(graph_.levels.size() + 1);
+    graph_.groups.resize(graph_.groups.size() + groups);
+    for (std::size_t i = first_cluster; i < graph_.clusters.size(); ++i) {
+        graph_.clusters[i].used_by += first_group;
+        ++graph_.groups[graph_.clusters[i].used_by].members;
+    }
+    auto first_member = static_cast<std::uint32_t>(graph_.members.size());
+    graph_.members.resize(graph_.members.size() + graph_.clusters.size() - first_cluster);
+    for (std::size_t i = first_group; i < graph_.groups.size(); ++i) {
+        graph_.groups[i].level = level;
+        graph_.groups[i].first_member = first_member;
+        first_member += graph_.groups[i].members;
+        graph_.groups[i].members = 0;
+    }
+    for (auto i = first_cluster; i < graph_.clusters.size(); ++i) {
+        ClusterGroup& group = graph_.groups[graph_.clusters[i].used_by];
+        graph_.members[group.first_member + group.members++] = i;
+    }
+    report.groups = groups;
+}
+
+void Builder::make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simplifier, Made& made) const {
+    std::vector<VertexTriangle> triangles;
+    for (const std::uint32_t member : graph_.members_of(graph_.groups[group])) {
+        const auto of_member = graph_.triangles_of(graph_.clusters[member]);
+        triangles.insert(triangles.end(), of_member.begin(), of_member.end());
+    }
+    mesh.start(surface_, triangles, [&](VertexNumber vertex) { return locks_.is_locked(vertex); });
+    const double target = std::floor(options_.kept_share * static_cast<double>(triangles.size()));
+    simplifier.simplify(mesh, static_cast<int>(target));
+    made.triangles_in = triangles.size();
+    mesh.copy_to(made.triangles);
+    made.bounds = group_bounds(surface_, bounds_, graph_, group, made.triangles, mesh.difference(surface_));
+}
+
+// False when nothing could be made coarser; then the level is not there.
+bool Builder::add_level() {
+    GraphLevel report;
+    const int level = static_cast<int>(graph_.levels.size()) + 1;
+    const GroupAssignment assignment(surface_, parts_, level, triangles_left() <= one_group_triangles,
+                                     locks_);
+    report.locked = assignment.locked();
+    report.locked_twice = assignment.locked_twice();
+    std::vector<Part> shared(parts_.size());
+    in_parallel(static_cast<int>(parts_.size()), options_.threads, [&](int part) {
+        const auto i = static_cast<std::size_t>(part);
+        share_out(assignment, i, shared[i]);
+    });
+    const auto first_cluster = static_cast<std::uint32_t>(graph_.clusters.size());
+    const auto first_group = static_cast<std::uint32_t>(graph_.groups.size());
+    add_clusters(shared, report);
+    add_groups(assignment.groups(), first_cluster, report);
+    std::vector<Made> made(assignment.groups());
+    const std::size_t turns = (made.size() + groups_at_a_time - 1) / groups_at_a_time;
+    in_parallel(static_cast<int>(turns), options_.threads, [&](int turn) {
+        GroupMesh mesh;
+        GroupSimplifier simplifier(surface_);
+        const std::size_t first = static_cast<std::size_t>(turn) * groups_at_a_time;
+        for (std::size_t i = first; i < std::min(made.size(), first + groups_at_a_time); ++i)
+            make(first_group + static_cast<std::uint32_t>(i), mesh, simplifier, made[i]);
+    });
+    parts_.clear();
+    made_by_.clear();
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        ClusterGroup& group = graph_.groups[first_group + i];
+        group.error_m = made[i].bounds.error_m;
+        group.centre = made[i].bounds.centre;
+        group.radius_m = made[i].bounds.radius_m;
+        const auto in = static_cast<double>(made[i].triangles_in);
+        report.stuck_groups += static_cast<double>(made[i].triangles.size()) > stuck_share * in ? 1U : 0U;
+        report.largest_group = std::max(report.largest_group, made[i].triangles_in);
+        report.largest_error_m = std::max(report.largest_error_m, group.error_m);
+        report.triangles_out += made[i].triangles.size();
+        parts_.push_back(std::move(made[i].triangles));
+        made_by_.push_back(first_group + static_cast<std::uint32_t>(i));
+    }
+    graph_.levels.push_back(report);
+    return report.triangles_out < report.triangles_in;
+}
+
+// What is left is used by none.
+void Builder::add_coarsest() {
+    std::vector<Part> shared(parts_.size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        shared[i].made_by = made_by_[i];
+        if (made_by_[i] == no_group)
+            shared[i].clusters = {parts_[i].size()};
+        else
+            split_to_clusters(surface_, parts_[i], shared[i].clusters);
+    }
+    GraphLevel unused;
+    add_clusters(shared, unused);
+}
+
+ClusterGraph Builder::build() {
+    parts_ = surface_.leaves();
+    made_by_.assign(parts_.size(), no_group);
+    // Groups may be stuck for a level: the next has other borders, and the one after that.
+    int without_progress = 0;
+    while (!parts_.empty() && without_progress < 3 &&
+           !(parts_.size() == 1 && triangles_left() <= most_cluster_triangles)) {
+        without_progress = add_level() ? 0 : without_progress + 1;
+        if (graph_.levels.size() == 40) break;
+    }
+    add_coarsest();
+    for (std::size_t i = 0; i < graph_.levels.size(); ++i) {
+        for (const ClusterGroup& group : graph_.groups) {
+            if (group.level == i + 1) graph_.levels[i].clusters_out += group.made;
+        }
+    }
+    return std::move(graph_);
+}
+
+}  // namespace
+
+ClusterGraph build_cluster_graph(const OriginalSurface& surface, const GroundBounds& bounds,
+                                 const GraphOptions& options) {
+    return Builder(surface, bounds, options).build();
+}
+
+}  // namespace oro

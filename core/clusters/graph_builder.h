@@ -1,0 +1,27 @@
+// Builds the cluster graph of a surface (docs/CLUSTERS.md).
+#pragma once
+
+#include "core/clusters/cluster_graph.h"
+#include "core/clusters/ground_bounds.h"
+#include "core/clusters/original_surface.h"
+
+namespace oro {
+
+struct GraphOptions {
+    int threads{1};
+    double kept_share{0.5};  // of a group's triangles, in what comes out of it
+};
+
+// All levels up to the coarsest: one group, or groups that cannot be made coarser. The result does not depend
+// on `threads`.
+//
+// Each level: triangles go to groups by where they lie (group_assignment.h); what one group has made is split
+// where groups of the next level meet, and into clusters of most_cluster_triangles; each group is made
+// coarser with its border as it is (simplify_group.h), and measured against the original.
+//
+// Memory: 12 bytes a triangle of all levels together (some 70 a vertex of a grid), and 30 a vertex while it
+// works.
+[[nodiscard]] ClusterGraph build_cluster_graph(const OriginalSurface& surface, const GroundBounds& bounds,
+                                               const GraphOptions& options = {});
+
+}  // namespace oro

@@ -1,0 +1,63 @@
+// One group made of fewer triangles, by half-edge collapses whose largest difference is least.
+#pragma once
+
+#include <vector>
+
+#include "core/clusters/group_mesh.h"
+
+namespace oro {
+
+// Kept for many groups one after another.
+class GroupSimplifier {
+  public:
+    explicit GroupSimplifier(const OriginalSurface& surface) : surface_(surface) {}
+
+    // Collapses vertices that are not locked, always the one next whose new triangles have the least largest
+    // difference from the original, over every place, until at most `target` triangles are left, or none can
+    // be collapsed. (A vertex whose surroundings have changed is asked again when its turn comes by its old
+    // difference: where that has become smaller it comes later than it might.)
+    void simplify(GroupMesh& mesh, int target);
+
+  private:
+    static constexpr int none = -1;
+    struct Choice {
+        double difference;
+        int target;  // in the vertex's ring
+    };
+    // Where a trial stands before its edges are asked: what it costs at the vertex itself.
+    struct Trial {
+        double least;
+        int target;
+        bool operator<(const Trial& other) const {
+            return least != other.least ? least < other.least : target < other.target;
+        }
+    };
+
+    [[nodiscard]] Choice best_choice(const GroupMesh& mesh, int vertex);
+    void add_trial(const SurfaceVertex& middle, int target);
+    [[nodiscard]] double trial_difference(int target, double limit);
+    [[nodiscard]] double chord_difference(int from, int to, double limit);
+
+    // The queue: a heap of vertices by difference, then by number.
+    [[nodiscard]] bool sooner(int a, int b) const {
+        const double of_a = cost_[static_cast<std::size_t>(a)], of_b = cost_[static_cast<std::size_t>(b)];
+        return of_a != of_b ? of_a < of_b : a < b;
+    }
+    void fill_queue(const GroupMesh& mesh);
+    void sift_up(int slot);
+    void sift_down(int slot);
+    void take_first();
+    void change_cost(int vertex, double cost);
+
+    const OriginalSurface& surface_;
+    std::vector<double> cost_;    // by vertex
+    std::vector<char> outdated_;  // by vertex: its surroundings have changed
+    std::vector<int> queue_;
+    std::vector<int> slot_;  // of a vertex in the queue; none: it is not there
+    GroupMesh::Ring ring_;
+    std::vector<SurfaceVertex> around_;  // places of the ring
+    std::vector<Trial> trials_;
+    std::vector<double> chords_;  // differences of the chords of a ring; negative: not asked
+};
+
+}  // namespace oro
