@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -63,6 +64,39 @@ WorstPost worst_post(const DrawnHeights& heights, const MeshTriangle& triangle) 
         }
     }
     return {height_step_m * (static_cast<double>(largest) / static_cast<double>(area)), worst};
+}
+
+WorstPlace worst_place(const DrawnHeights& heights, const MeshTriangle& triangle) {
+    const WorstPost post = worst_post(heights, triangle);
+    WorstPlace worst{post.error_m, post.post, post.post};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const MeshPost &a = triangle[i], &b = triangle[(i + 1) % 3];
+        const int down = b.row - a.row, right = b.column - a.column;
+        const double h_a = heights.at(a.row, a.column), h_b = heights.at(b.row, b.column);
+        const auto cross = [&](int lines, const MeshPost& along) {
+            for (int line = 1; line < lines; ++line) {
+                const double share = static_cast<double>(line) / lines;
+                // Posts on either side of the crossing, along the grid's line.
+                const std::int64_t moved = static_cast<std::int64_t>(along.row != 0 ? down : right) * line;
+                const std::int64_t whole = divided_down(moved, lines);
+                const double beyond = static_cast<double>(moved - whole * lines) / lines;
+                MeshPost from{a.row + static_cast<int>(whole), a.column + static_cast<int>(whole)};
+                if (along.row == 0) from.row = a.row + (down > 0 ? line : -line);
+                if (along.column == 0) from.column = a.column + (right > 0 ? line : -line);
+                if (along.row != 0 && along.column != 0) from.column += right > down ? line : -line;
+                if (beyond == 0.0) continue;  // a post
+                const MeshPost to{from.row + along.row, from.column + along.column};
+                const double ground = heights.at(from.row, from.column) * (1.0 - beyond) +
+                                      heights.at(to.row, to.column) * beyond;
+                const double off_m = height_step_m * std::abs(ground - (h_a + share * (h_b - h_a)));
+                if (off_m > worst.error_m) worst = {off_m, from, to};
+            }
+        };
+        cross(std::abs(down), {0, 1});
+        cross(std::abs(right), {1, 0});
+        cross(std::abs(right - down), {1, 1});
+    }
+    return worst;
 }
 
 MeshCheck check_mesh(const DrawnHeights& heights, std::span<const MeshTriangle> mesh, double error_m) {

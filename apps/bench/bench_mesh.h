@@ -36,6 +36,17 @@ struct WorstPost {
 };
 [[nodiscard]] WorstPost worst_post(const DrawnHeights& heights, const MeshTriangle& triangle);
 
+// The place of a triangle, its edges included, that is farthest from the full resolution, vertically in
+// metres: a post, or where an edge of the triangle crosses an edge of the grid (a row, a column, or a cell's
+// diagonal), which is between two posts. The triangle is at least as far off at one of these as it is
+// anywhere. Within 1e-6 m. No post may be void.
+struct WorstPlace {
+    double error_m{};
+    MeshPost from;
+    MeshPost to;  // the same for a post
+};
+[[nodiscard]] WorstPlace worst_place(const DrawnHeights& heights, const MeshTriangle& triangle);
+
 // A mesh held against every post by brute force, apart from what made it: each post in each triangle's
 // bounding box is asked whether it lies in the triangle, and how far from its plane.
 struct MeshCheck {

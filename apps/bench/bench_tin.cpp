@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 
 namespace oro {
@@ -21,7 +22,8 @@ bool in_circle(const MeshPost& a, const MeshPost& b, const MeshPost& c, const Me
 
 }  // namespace
 
-GreedyTin::GreedyTin(const DrawnHeights& heights) : heights_(heights) {
+GreedyTin::GreedyTin(const DrawnHeights& heights, bool every_place)
+    : heights_(heights), every_place_(every_place) {
     assert(heights.rows >= 2 && heights.rows <= most_mesh_posts);
     assert(heights.columns >= 2 && heights.columns <= most_mesh_posts);
     const int south = heights.rows - 1, east = heights.columns - 1;
@@ -78,7 +80,66 @@ void GreedyTin::link(int edge, int twin) {
 }
 
 void GreedyTin::insert_worst_of(int triangle) {
-    const MeshPost post = worst_[static_cast<std::size_t>(triangle)].post;
+    const WorstPlace worst = worst_[static_cast<std::size_t>(triangle)];
+    if (worst.from == worst.to)
+        insert(triangle, worst.from);
+    else
+        mend_worst_of(triangle);
+    flip_until_delaunay();
+    look_for_candidates();
+}
+
+// The worst place is where an edge of the triangle crosses one of the grid.
+void GreedyTin::mend_worst_of(int triangle) {
+    const WorstPlace worst = worst_[static_cast<std::size_t>(triangle)];
+    const int at_from = triangle_at(triangle, worst.from), at_to = triangle_at(triangle, worst.to);
+    const auto is_vertex = [&](int at, const MeshPost& post) {
+        const MeshTriangle posts = corners(at);
+        return std::find(posts.begin(), posts.end(), post) != posts.end();
+    };
+    const bool has_from = is_vertex(at_from, worst.from), has_to = is_vertex(at_to, worst.to);
+    if (has_from && has_to) {
+        for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+            const MeshPost a = origin_[static_cast<std::size_t>(edge)];
+            const MeshPost b = origin_[static_cast<std::size_t>(next(edge))];
+            if (a.row + b.row == worst.from.row + worst.to.row &&
+                a.column + b.column == worst.from.column + worst.to.column)
+                return flip(edge);
+        }
+        assert(false);
+    }
+    const bool take_from =
+        !has_from && (has_to || distance(at_from, worst.from) >= distance(at_to, worst.to));
+    insert(take_from ? at_from : at_to, take_from ? worst.from : worst.to);
+    changed_.push_back(triangle);  // its worst place is as it was where the post lies apart from it
+}
+
+// A triangle that holds a post, found by going towards it.
+int GreedyTin::triangle_at(int start, const MeshPost& post) const {
+    for (int triangle = start, edge = 3 * start; edge < 3 * triangle + 3;) {
+        const MeshPost a = origin_[static_cast<std::size_t>(edge)];
+        const MeshPost b = origin_[static_cast<std::size_t>(next(edge))];
+        if (twice_area(a, b, post) < 0) {
+            triangle = twin_[static_cast<std::size_t>(edge)] / 3;
+            edge = 3 * triangle;
+        } else if (++edge == 3 * triangle + 3) {
+            return triangle;
+        }
+    }
+    return start;
+}
+
+// Of a post that lies in it, times a constant: vertically.
+double GreedyTin::distance(int triangle, const MeshPost& post) const {
+    const auto [a, b, c] = corners(triangle);
+    const double h = heights_.at(post.row, post.column);
+    const auto part = [&](const MeshPost& from, const MeshPost& to, const MeshPost& across) {
+        return static_cast<double>(twice_area(from, to, post)) * (heights_.at(across.row, across.column) - h);
+    };
+    return std::abs(part(a, b, c) + part(b, c, a) + part(c, a, b)) / static_cast<double>(twice_area(a, b, c));
+}
+
+void GreedyTin::insert(int triangle, const MeshPost& post) {
     const MeshTriangle at = corners(triangle);
     int on_edge = none;
     for (int i = 0; i < 3; ++i) {
@@ -89,8 +150,6 @@ void GreedyTin::insert_worst_of(int triangle) {
         split_triangle(triangle, post);
     else
         split_edge(on_edge, post);
-    flip_until_delaunay();
-    look_for_candidates();
 }
 
 // The triangles around a new post have it as their last corner, so that their first edge is opposite to it.
@@ -146,24 +205,35 @@ void GreedyTin::flip_until_delaunay() {
         to_test_.pop_back();
         const int other_edge = twin_[static_cast<std::size_t>(edge)];
         if (other_edge == none) continue;
-        const int ours = edge / 3, theirs = other_edge / 3;
-        const auto [a, b, post] = corners(ours);
+        const auto [a, b, post] = corners(edge / 3);
         const MeshPost d = origin_[static_cast<std::size_t>(apex(other_edge))];
         if (!in_circle(a, b, post, d)) continue;
-        const int beyond_ad = twin_[static_cast<std::size_t>(next(other_edge))];
-        const int beyond_db = twin_[static_cast<std::size_t>(apex(other_edge))];
-        const int beyond_bp = twin_[static_cast<std::size_t>(3 * ours + 1)];
-        const int beyond_pa = twin_[static_cast<std::size_t>(3 * ours + 2)];
-        set_triangle(ours, a, d, post);
-        set_triangle(theirs, d, b, post);
-        link(3 * ours, beyond_ad);
-        link(3 * ours + 2, beyond_pa);
-        link(3 * theirs, beyond_db);
-        link(3 * theirs + 1, beyond_bp);
-        link(3 * ours + 1, 3 * theirs + 2);
+        const int ours = edge / 3, theirs = other_edge / 3;
+        flip(edge);
         to_test_.push_back(3 * ours);
         to_test_.push_back(3 * theirs);
     }
+}
+
+// Afterwards the apex is the last corner of both triangles.
+void GreedyTin::flip(int edge) {
+    const int other_edge = twin_[static_cast<std::size_t>(edge)];
+    const int ours = edge / 3, theirs = other_edge / 3;
+    const MeshPost a = origin_[static_cast<std::size_t>(edge)];
+    const MeshPost b = origin_[static_cast<std::size_t>(next(edge))];
+    const MeshPost post = origin_[static_cast<std::size_t>(apex(edge))];
+    const MeshPost d = origin_[static_cast<std::size_t>(apex(other_edge))];
+    const int beyond_ad = twin_[static_cast<std::size_t>(next(other_edge))];
+    const int beyond_db = twin_[static_cast<std::size_t>(apex(other_edge))];
+    const int beyond_bp = twin_[static_cast<std::size_t>(next(edge))];
+    const int beyond_pa = twin_[static_cast<std::size_t>(apex(edge))];
+    set_triangle(ours, a, d, post);
+    set_triangle(theirs, d, b, post);
+    link(3 * ours, beyond_ad);
+    link(3 * ours + 2, beyond_pa);
+    link(3 * theirs, beyond_db);
+    link(3 * theirs + 1, beyond_bp);
+    link(3 * ours + 1, 3 * theirs + 2);
 }
 
 void GreedyTin::look_for_candidates() {
@@ -171,7 +241,12 @@ void GreedyTin::look_for_candidates() {
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
     for (const int triangle : changed_) {
         const auto i = static_cast<std::size_t>(triangle);
-        worst_[i] = worst_post(heights_, corners(triangle));
+        if (every_place_) {
+            worst_[i] = worst_place(heights_, corners(triangle));
+        } else {
+            const WorstPost worst = worst_post(heights_, corners(triangle));
+            worst_[i] = {worst.error_m, worst.post, worst.post};
+        }
         ++version_[i];
         if (worst_[i].error_m > 0.0) candidates_.push({worst_[i].error_m, triangle, version_[i]});
     }

@@ -11,18 +11,20 @@
 namespace oro {
 
 // Begins with the region's four corners, then takes the post farthest from the mesh again and again, the
-// triangulation being Delaunay's in (row, column) all the time. Errors are vertical and at posts: the sag of
-// flat triangles below the ellipsoid is not in them, nor are places between posts, so that a mesh with a
-// certificate has to do more.
-// Source: M. Garland, P. S. Heckbert, Fast Polygonal Approximation of Terrains and Height Fields,
-// CMU-CS-95-181, 1995, "greedy insertion" (sequential, with a heap of each triangle's candidate).
+// triangulation being Delaunay's in (row, column) all the time. Errors are vertical: the sag of flat
+// triangles below the ellipsoid is not in them. They are those at posts, so that a mesh with a certificate
+// has to do more; or those at every place, as a certificate's are. There the farthest place may be a crossing
+// of two edges: then that end of the grid's edge is taken that is farther from the mesh. Where both are
+// vertices the edge is the diagonal of a cell, and the mesh takes it (it is as good for Delaunay). Source: M.
+// Garland, P. S. Heckbert, Fast Polygonal Approximation of Terrains and Height Fields, CMU-CS-95-181, 1995,
+// "greedy insertion" (sequential, with a heap of each triangle's candidate).
 class GreedyTin {
   public:
     // 2 to most_mesh_posts posts along each axis, none void. Reads heights where it is.
-    explicit GreedyTin(const DrawnHeights& heights);
+    explicit GreedyTin(const DrawnHeights& heights, bool every_place = false);
 
-    // Inserts posts until none is farther than error_m (metres, >= 0) from the mesh. Going on to a smaller
-    // error gives what the smaller one alone would.
+    // Inserts posts until none (or no place) is farther than error_m (metres, >= 0) from the mesh. Going on
+    // to a smaller error gives what the smaller one alone would.
     void refine(double error_m);
 
     [[nodiscard]] std::size_t triangles() const { return worst_.size(); }
@@ -48,6 +50,11 @@ class GreedyTin {
     void set_triangle(int triangle, const MeshPost& a, const MeshPost& b, const MeshPost& c);
     void link(int edge, int twin);
     void insert_worst_of(int triangle);
+    void mend_worst_of(int triangle);
+    void insert(int triangle, const MeshPost& post);
+    [[nodiscard]] int triangle_at(int start, const MeshPost& post) const;
+    [[nodiscard]] double distance(int triangle, const MeshPost& post) const;
+    void flip(int edge);
     void split_triangle(int triangle, const MeshPost& post);
     void split_edge(int edge, const MeshPost& post);
     void flip_until_delaunay();
@@ -56,7 +63,8 @@ class GreedyTin {
     const DrawnHeights& heights_;
     std::vector<MeshPost> origin_;
     std::vector<int> twin_;  // none: the region ends there
-    std::vector<WorstPost> worst_;
+    bool every_place_;
+    std::vector<WorstPlace> worst_;
     std::vector<unsigned> version_;
     std::priority_queue<Candidate> candidates_;
     std::vector<int> to_test_;  // edges opposite the new post

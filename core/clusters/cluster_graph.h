@@ -2,6 +2,7 @@
 // that are drawn as they are or made coarser, whole.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -75,5 +76,15 @@ struct ClusterGraph {
         return std::span(members).subspan(group.first_member, group.members);
     }
 };
+
+// The largest error of the groups that made what a group uses; 0 where it uses the original's own clusters.
+[[nodiscard]] inline double largest_member_error_m(const ClusterGraph& graph, const ClusterGroup& group) {
+    double largest_m = 0.0;
+    for (const std::uint32_t member : graph.members_of(group)) {
+        const std::uint32_t below = graph.clusters[member].made_by;
+        if (below != no_group) largest_m = std::max(largest_m, graph.groups[below].error_m);
+    }
+    return largest_m;
+}
 
 }  // namespace oro

@@ -9,7 +9,7 @@ namespace oro {
 
 struct GraphOptions {
     int threads{1};
-    double kept_share{0.5};  // of a group's triangles, in what comes out of it
+    double kept_share{0.65};  // of a group's triangles, in what comes out of it
 };
 
 // All levels up to the coarsest: one group, or groups that cannot be made coarser. The result does not depend

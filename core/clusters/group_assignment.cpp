@@ -5,9 +5,9 @@
 
 namespace oro {
 
-GroupAssignment::GroupAssignment(const OriginalSurface& surface, Parts parts, int level, bool in_one,
-                                 VertexLocks& locks)
-    : tiling_(level) {
+GroupAssignment::GroupAssignment(const OriginalSurface& surface, Parts parts, const GroupTiling& tiling,
+                                 bool in_one, VertexLocks& locks)
+    : tiling_(tiling) {
     first_.push_back(0);
     for (const auto& part : parts) first_.push_back(first_.back() + part.size());
     if (in_one) {

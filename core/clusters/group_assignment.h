@@ -38,7 +38,8 @@ class GroupAssignment {
     using Parts = std::span<const std::vector<VertexTriangle>>;
 
     // in_one: all triangles go to one group. Afterwards `locks` tells of this level.
-    GroupAssignment(const OriginalSurface& surface, Parts parts, int level, bool in_one, VertexLocks& locks);
+    GroupAssignment(const OriginalSurface& surface, Parts parts, const GroupTiling& tiling, bool in_one,
+                    VertexLocks& locks);
 
     // Groups are numbered by tile, row by row.
     [[nodiscard]] std::size_t groups() const { return groups_; }

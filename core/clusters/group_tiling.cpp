@@ -1,8 +1,8 @@
 #include "core/clusters/group_tiling.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
+#include <cmath>
 
 namespace oro {
 
@@ -12,14 +12,16 @@ std::int64_t GroupTiling::Lines::distance(std::int64_t place) const {
     return std::min(beyond, period - beyond);
 }
 
-// The periods of an axis double on every second level, from `first_doubled` on. Of a level's possible places
-// the one that is farthest from the lines of the two levels before.
-GroupTiling::Lines GroupTiling::lines_of(int level, int first_doubled) {
+// Of a level's possible places the one that is farthest from the lines of the two levels before. The axes
+// take turns in doubling; first_doubled: the number of the doubling that is this axis's first.
+GroupTiling::Lines GroupTiling::lines_of(int level, double kept_share, int first_doubled) {
     Lines older, last, lines{first_group_side, 0};
     for (int i = 2; i <= level; ++i) {
         older = last;
         last = lines;
-        if (i >= first_doubled && (i - first_doubled) % 2 == 0) lines.period *= 2;
+        const int doublings = static_cast<int>(std::lround((i - 1) * -std::log2(kept_share)));
+        const int of_axis = (doublings + 2 - first_doubled) / 2;
+        lines.period = std::int64_t{first_group_side} << std::min(of_axis, 30);
         std::int64_t farthest = -1;
         const Lines before = lines;
         for (std::int64_t part = 0; part < 16; ++part) {
@@ -34,8 +36,9 @@ GroupTiling::Lines GroupTiling::lines_of(int level, int first_doubled) {
     return lines;
 }
 
-GroupTiling::GroupTiling(int level) : row_(lines_of(level, 3)), column_(lines_of(level, 2)) {
-    assert(level >= 1 && level <= 40);
+GroupTiling::GroupTiling(int level, double kept_share)
+    : row_(lines_of(level, kept_share, 2)), column_(lines_of(level, kept_share, 1)) {
+    assert(level >= 1 && level <= 80);
 }
 
 }  // namespace oro

@@ -12,8 +12,7 @@ namespace oro {
 inline constexpr int leaf_side = 8;
 inline constexpr int first_group_side = 3 * leaf_side;
 
-// One of the rectangles that a level's lines cut the plane into. Each level's have twice the area of those of
-// the level before.
+// One of the rectangles that a level's lines cut the plane into.
 struct GroupTile {
     std::int64_t row{};
     std::int64_t column{};
@@ -26,7 +25,9 @@ struct GroupTile {
 // free on the level after that (see group_assignment.h).
 class GroupTiling {
   public:
-    explicit GroupTiling(int level);  // 1 .. 40
+    // level: 1 .. 80. kept_share: of a group's triangles, in what comes out of it. So that groups have as
+    // many triangles on each level, tiles grow by that share, in whole doublings of one side or the other.
+    GroupTiling(int level, double kept_share);
 
     // The tile of a triangle's middle.
     [[nodiscard]] GroupTile tile_of(const SurfaceVertex& a, const SurfaceVertex& b,
@@ -48,7 +49,7 @@ class GroupTiling {
         }
         [[nodiscard]] std::int64_t distance(std::int64_t place) const;
     };
-    static Lines lines_of(int level, int first_doubled);
+    static Lines lines_of(int level, double kept_share, int first_doubled);
 
     Lines row_;
     Lines column_;

@@ -153,23 +153,27 @@ void GroupSimplifier::fill_queue(const GroupMesh& mesh) {
     }
 }
 
-void GroupSimplifier::simplify(GroupMesh& mesh, int target) {
+void GroupSimplifier::simplify(GroupMesh& mesh, const Aim& aim) {
     fill_queue(mesh);
-    while (mesh.triangles() > target && !queue_.empty()) {
+    const auto most = static_cast<int>(aim.most_share * static_cast<double>(queue_.size()));
+    double reached = aim.free_difference;
+    for (int collapses = 0; !queue_.empty();) {
         const int vertex = queue_.front();
         const double cost = cost_[at(vertex)];
-        if (cost == never) return;
+        const double limit = mesh.triangles() > aim.triangles && collapses < most ? aim.limit : reached;
+        if (cost == never || cost > limit) return;
         const Choice choice = best_choice(mesh, vertex);
         if (outdated_[at(vertex)] != 0) {
             outdated_[at(vertex)] = 0;
             if (choice.difference > cost) {
                 change_cost(vertex, choice.difference);
-                if (queue_.front() != vertex) continue;
-                if (choice.difference == never) return;
+                if (queue_.front() != vertex || choice.difference > limit || choice.target == none) continue;
             }
         }
+        reached = std::max(reached, choice.difference);
         take_first();
         mesh.collapse(vertex, ring_, choice.target);
+        ++collapses;
         for (const int other : ring_.vertices) {
             if (slot_[at(other)] == none) continue;
             outdated_[at(other)] = 1;

@@ -12,11 +12,18 @@ class GroupSimplifier {
   public:
     explicit GroupSimplifier(const OriginalSurface& surface) : surface_(surface) {}
 
+    struct Aim {
+        int triangles{};  // to go on until so many are left
+        double most_share{
+            1.0};  // of the vertices that may go: no more of them go for the sake of `triangles`
+        double free_difference{};                 // steps: what costs no more goes in any case
+        double limit{OriginalSurface::no_limit};  // steps: what costs more stays
+    };
     // Collapses vertices that are not locked, always the one next whose new triangles have the least largest
-    // difference from the original, over every place, until at most `target` triangles are left, or none can
-    // be collapsed. (A vertex whose surroundings have changed is asked again when its turn comes by its old
+    // difference from the original, over every place; in the end also what costs no more than what went
+    // before. (A vertex whose surroundings have changed is asked again when its turn comes by its old
     // difference: where that has become smaller it comes later than it might.)
-    void simplify(GroupMesh& mesh, int target);
+    void simplify(GroupMesh& mesh, const Aim& aim);
 
   private:
     static constexpr int none = -1;
