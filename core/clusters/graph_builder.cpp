@@ -22,7 +22,7 @@ constexpr std::size_t one_group_triangles = 9 * most_cluster_triangles;
 constexpr std::size_t groups_at_a_time = 8;
 // Of vertices that are not locked, so many times (1 - kept_share) may go at most: in a narrow group, with a
 // border all around, there are few, and what they hold up would fall.
-const double most_share = getenv("MOST") ? atof(getenv("MOST")) : 1.25;
+constexpr double most_share = 1.25;
 
 class Builder {
   public:
@@ -147,9 +147,9 @@ void Builder::make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simpli
     mesh.start(surface_, triangles, [&](VertexNumber vertex) { return locks_.is_locked(vertex); });
     const double target = std::floor(options_.kept_share * static_cast<double>(triangles.size()));
     const double floor_m = largest_member_error_m(graph_, graph_.groups[group]);
-    GroupSimplifier::Aim aim{static_cast<int>(target), most_share * (1.0 - options_.kept_share), 0.0};
-    if (!getenv("NOFREE")) aim.free_difference = floor_m / height_step_m;
-    simplifier.simplify(mesh, aim);
+    simplifier.simplify(mesh, {.triangles = static_cast<int>(target),
+                               .most_share = most_share * (1.0 - options_.kept_share),
+                               .free_difference = floor_m / height_step_m});
     made.triangles_in = triangles.size();
     mesh.copy_to(made.triangles);
     made.bounds = group_bounds(surface_, bounds_, graph_, group, made.triangles, mesh.difference(surface_));
@@ -159,9 +159,8 @@ void Builder::make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simpli
 bool Builder::add_level() {
     GraphLevel report;
     const int level = static_cast<int>(graph_.levels.size()) + 1;
-    const GroupAssignment assignment(
-        surface_, parts_, GroupTiling(level, getenv("TILE") ? atof(getenv("TILE")) : options_.kept_share),
-        triangles_left() <= one_group_triangles, locks_);
+    const GroupAssignment assignment(surface_, parts_, GroupTiling(level, options_.kept_share),
+                                     triangles_left() <= one_group_triangles, locks_);
     report.locked = assignment.locked();
     report.locked_twice = assignment.locked_twice();
     std::vector<Part> shared(parts_.size());

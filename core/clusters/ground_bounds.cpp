@@ -36,37 +36,32 @@ Ecef GridBounds::ecef(const SurfaceVertex& vertex) const {
 
 // The bounds of NodeDeviations::sag: half the second derivative of the position along the offsets to a
 // triangle's corners; of the triangle and of one of the original.
-double GridBounds::flat_m(const VertexRange& triangle, const VertexRange& group) const {
-    const auto dh_m = [](const VertexRange& range) {
-        return (static_cast<double>(range.highest.steps) - range.lowest.steps) * height_step_m;
-    };
+double GridBounds::flat_m(const GroundExtent& triangle, const GroundExtent& group) const {
     const double down = grid_.row_step_rad(), right = grid_.column_step_rad();
-    const double rows = triangle.highest.row - triangle.lowest.row;
-    const double columns = triangle.highest.column - triangle.lowest.column;
-    const double group_rows = group.highest.row - group.lowest.row;
-    const double group_columns = group.highest.column - group.lowest.column;
+    const double tall = triangle.rows() * down, wide = triangle.columns * right;
+    const double group_tall = group.rows() * down, group_wide = group.columns * right;
     if (grid_.net) {
         const double radius_m = wgs84_a_m + highest_m_;
-        const auto bound_m = [&](double both, double dh) {
-            return 0.125 * (grid_.net->bend() * radius_m * both * both + 2.02 * dh * both);
+        const auto bound_m = [&](double both, double rise_m) {
+            return 0.125 * (grid_.net->bend() * radius_m * both * both + 2.02 * rise_m * both);
         };
-        return bound_m(rows * down + columns * right, dh_m(triangle)) + bound_m(down + right, dh_m(group)) +
-               placement_share * radius_m * (group_rows * down + group_columns * right) + rounding_m;
+        return bound_m(tall + wide, triangle.rise_m) + bound_m(down + right, group.rise_m) +
+               placement_share * radius_m * (group_tall + group_wide) + rounding_m;
     }
-    const double north_deg = row_lat_deg(grid_, group.lowest.row);
-    const double south_deg = row_lat_deg(grid_, group.highest.row);
+    const double north_deg = row_lat_deg(grid_, group.first_row);
+    const double south_deg = row_lat_deg(grid_, group.last_row);
     const double outer_deg = std::min(90.0, std::max(std::abs(north_deg), std::abs(south_deg)));
     const double inner_deg =
         north_deg >= 0.0 && south_deg <= 0.0 ? 0.0 : std::min(std::abs(north_deg), std::abs(south_deg));
     const double sine = sine_cosine_deg(outer_deg).sine, cosine = sine_cosine_deg(inner_deg).cosine;
     const double M_m = 1.0001 * (meridian_radius_m(outer_deg) + highest_m_);
     const double r_m = (prime_vertical_radius_m(outer_deg) + highest_m_) * cosine;
-    const auto bound_m = [&](double dlat, double dlon, double dh) {
+    const auto bound_m = [&](double dlat, double dlon, double rise_m) {
         return 0.125 * (M_m * dlat * dlat + r_m * dlon * dlon + 2.0 * M_m * sine * dlat * dlon +
-                        2.0 * dh * (dlat + cosine * dlon));
+                        2.0 * rise_m * (dlat + cosine * dlon));
     };
-    return bound_m(rows * down, columns * right, dh_m(triangle)) + bound_m(down, right, dh_m(group)) +
-           placement_share * (M_m * group_rows * down + r_m * group_columns * right) + rounding_m;
+    return bound_m(tall, wide, triangle.rise_m) + bound_m(down, right, group.rise_m) +
+           placement_share * (M_m * group_tall + r_m * group_wide) + rounding_m;
 }
 
 }  // namespace oro

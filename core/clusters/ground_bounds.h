@@ -10,10 +10,14 @@
 
 namespace oro {
 
-// The range of a group's places.
-struct VertexRange {
-    SurfaceVertex lowest{};  // row, column and height, each by itself
-    SurfaceVertex highest{};
+// How far a triangle, or a group of them, reaches in the plane and in height.
+struct GroundExtent {
+    std::int32_t first_row{};
+    std::int32_t last_row{};
+    std::int32_t columns{};  // from the first to the last
+    double rise_m{};         // from the lowest to the highest
+
+    [[nodiscard]] double rows() const { return static_cast<double>(last_row) - first_row; }
 };
 
 class GroundBounds {
@@ -21,10 +25,10 @@ class GroundBounds {
     virtual ~GroundBounds() = default;
     [[nodiscard]] virtual Ecef ecef(const SurfaceVertex& vertex) const = 0;
     // Upper bound, metres, of how much farther apart two places of the same row and column are in space than
-    // their heights differ, one on a flat triangle within `triangle` (the largest range of one of them), the
-    // other on a flat triangle of the original within `group`. In it are the ellipsoid's sag and the rounding
+    // their heights differ, one on a flat triangle that reaches no farther than `triangle`, the other on
+    // a flat triangle of the original; both in `group`. In it are the ellipsoid's sag and the rounding
     // of drawn places.
-    [[nodiscard]] virtual double flat_m(const VertexRange& triangle, const VertexRange& group) const = 0;
+    [[nodiscard]] virtual double flat_m(const GroundExtent& triangle, const GroundExtent& group) const = 0;
 };
 
 // Of a grid's posts.
@@ -33,7 +37,7 @@ class GridBounds final : public GroundBounds {
     // highest_steps: of all posts. Keeps `grid`.
     GridBounds(const PostGrid& grid, std::int32_t highest_steps);
     [[nodiscard]] Ecef ecef(const SurfaceVertex& vertex) const override;
-    [[nodiscard]] double flat_m(const VertexRange& triangle, const VertexRange& group) const override;
+    [[nodiscard]] double flat_m(const GroundExtent& triangle, const GroundExtent& group) const override;
 
   private:
     struct Row {

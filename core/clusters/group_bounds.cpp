@@ -1,7 +1,6 @@
 #include "core/clusters/group_bounds.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -34,33 +33,43 @@ Sphere around(std::span<const Sphere> spheres) {
     return all;
 }
 
-void widen(VertexRange& range, const SurfaceVertex& vertex) {
-    range.lowest = {std::min(range.lowest.row, vertex.row), std::min(range.lowest.column, vertex.column),
-                    std::min(range.lowest.steps, vertex.steps)};
-    range.highest = {std::max(range.highest.row, vertex.row), std::max(range.highest.column, vertex.column),
-                     std::max(range.highest.steps, vertex.steps)};
-}
+// A box in the plane and in height.
+struct Box {
+    SurfaceVertex lowest;  // row, column and height, each by itself
+    SurfaceVertex highest;
+
+    void widen(const SurfaceVertex& vertex) {
+        lowest = {std::min(lowest.row, vertex.row), std::min(lowest.column, vertex.column),
+                  std::min(lowest.steps, vertex.steps)};
+        highest = {std::max(highest.row, vertex.row), std::max(highest.column, vertex.column),
+                   std::max(highest.steps, vertex.steps)};
+    }
+    [[nodiscard]] GroundExtent extent() const {
+        return {lowest.row, highest.row, highest.column - lowest.column,
+                height_step_m * (static_cast<double>(highest.steps) - lowest.steps)};
+    }
+};
 
 double flat_m(const OriginalSurface& surface, const GroundBounds& ground,
               std::span<const VertexTriangle> made, double difference) {
     const SurfaceVertex first = surface.vertex(made.front()[0]);
-    VertexRange group{first, first};
-    VertexRange largest{};  // of triangles, from 0 on
+    Box group{first, first};
+    GroundExtent largest;
     for (const VertexTriangle& triangle : made) {
         const SurfaceVertex corner = surface.vertex(triangle[0]);
-        VertexRange range{corner, corner};
-        for (const VertexNumber number : triangle) widen(range, surface.vertex(number));
-        widen(group, range.lowest);
-        widen(group, range.highest);
-        largest.highest.row = std::max(largest.highest.row, range.highest.row - range.lowest.row);
-        largest.highest.column = std::max(largest.highest.column, range.highest.column - range.lowest.column);
-        largest.highest.steps = std::max(largest.highest.steps, range.highest.steps - range.lowest.steps);
+        Box box{corner, corner};
+        for (const VertexNumber number : triangle) box.widen(surface.vertex(number));
+        group.widen(box.lowest);
+        group.widen(box.highest);
+        const GroundExtent extent = box.extent();
+        largest.last_row = std::max(largest.last_row, extent.last_row - extent.first_row);
+        largest.columns = std::max(largest.columns, extent.columns);
+        largest.rise_m = std::max(largest.rise_m, extent.rise_m);
     }
     // The original may be that much lower and higher.
-    const auto beyond = static_cast<std::int32_t>(std::ceil(difference));
-    group.lowest.steps -= beyond;
-    group.highest.steps += beyond;
-    return ground.flat_m(largest, group);
+    GroundExtent extent = group.extent();
+    extent.rise_m += 2.0 * difference * height_step_m;
+    return ground.flat_m(largest, extent);
 }
 
 }  // namespace

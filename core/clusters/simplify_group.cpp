@@ -12,35 +12,39 @@ std::size_t at(int number) {
     return static_cast<std::size_t>(number);
 }
 
-// How far a triangle passes from a vertex that lies in it on the map.
-double difference_at(const SurfaceVertex& a, const SurfaceVertex& b, const SurfaceVertex& c,
-                     const SurfaceVertex& at) {
-    const auto of_a = static_cast<double>(twice_area(b, c, at));
-    const auto of_b = static_cast<double>(twice_area(c, a, at));
-    const auto of_c = static_cast<double>(twice_area(a, b, at));
-    return std::abs(of_a * (static_cast<double>(a.steps) - at.steps) +
-                    of_b * (static_cast<double>(b.steps) - at.steps) +
-                    of_c * (static_cast<double>(c.steps) - at.steps)) /
-           (of_a + of_b + of_c);
+// Twice the area between two places and the vertex that their offsets are from.
+std::int64_t cross(const SurfaceVertex& a, const SurfaceVertex& b) {
+    return std::int64_t{a.column} * b.row - std::int64_t{a.row} * b.column;
 }
 
 }  // namespace
 
 // A trial is possible where all new triangles have an area; the one that covers the vertex says what the
-// trial costs at least.
-void GroupSimplifier::add_trial(const SurfaceVertex& middle, int target) {
+// trial costs at least. Areas come from those of triangles with the vertex itself.
+void GroupSimplifier::add_trial(const SurfaceVertex& middle, int target, double below) {
     const int count = ring_.count(), triangles = ring_.triangles();
-    const SurfaceVertex& to = around_[at(target)];
+    const SurfaceVertex& to = offsets_[at(target)];
     double least = 0.0;
+    std::int64_t to_a = cross(to, offsets_[0]);
     for (int i = 0; i < triangles; ++i) {
         const int j = i + 1 == count ? 0 : i + 1;
-        if (i == target || j == target) continue;
-        const SurfaceVertex &a = around_[at(i)], &b = around_[at(j)];
-        if (twice_area(to, a, b) <= 0) return;
-        if (twice_area(to, a, middle) >= 0 && twice_area(to, middle, b) >= 0)
-            least = difference_at(to, a, b, middle);
+        const std::int64_t to_b = cross(to, offsets_[at(j)]);
+        if (i != target && j != target) {
+            const std::int64_t a_b = cross(offsets_[at(i)], offsets_[at(j)]);
+            const std::int64_t area = to_a + a_b - to_b;
+            if (area <= 0) return;
+            if (to_a >= 0 && to_b <= 0) {
+                const auto rise = [&](int vertex) {
+                    return static_cast<double>(around_[at(vertex)].steps) - middle.steps;
+                };
+                least = std::abs(static_cast<double>(a_b) * rise(target) +
+                                 static_cast<double>(to_a) * rise(j) - static_cast<double>(to_b) * rise(i)) /
+                        static_cast<double>(area);
+            }
+        }
+        to_a = to_b;
     }
-    trials_.push_back({least, target});
+    if (least < below) trials_.push_back({least, target});
 }
 
 double GroupSimplifier::chord_difference(int from, int to, double limit) {
@@ -72,23 +76,29 @@ double GroupSimplifier::trial_difference(int target, double limit) {
     return largest;
 }
 
-GroupSimplifier::Choice GroupSimplifier::best_choice(const GroupMesh& mesh, int vertex) {
+GroupSimplifier::Choice GroupSimplifier::best_choice(const GroupMesh& mesh, int vertex, double below) {
     mesh.ring_of(vertex, ring_);
     const SurfaceVertex& middle = mesh.place(vertex);
     around_.clear();
-    for (const int other : ring_.vertices) around_.push_back(mesh.place(other));
+    offsets_.clear();
+    for (const int other : ring_.vertices) {
+        const SurfaceVertex& place = mesh.place(other);
+        around_.push_back(place);
+        offsets_.push_back({place.row - middle.row, place.column - middle.column, 0});
+    }
     trials_.clear();
     if (ring_.on_rim) {
         if (ring_.triangles() < 2 || twice_area(around_.front(), middle, around_.back()) != 0)
-            return {never, none};
-        add_trial(middle, 0);
-        add_trial(middle, ring_.count() - 1);
+            return {below, none};
+        add_trial(middle, 0, below);
+        add_trial(middle, ring_.count() - 1, below);
     } else {
-        for (int target = 0; target < ring_.count(); ++target) add_trial(middle, target);
+        for (int target = 0; target < ring_.count(); ++target) add_trial(middle, target, below);
     }
     std::sort(trials_.begin(), trials_.end());
+    if (trials_.empty()) return {below, none};
     chords_.assign(at(ring_.count() * ring_.count()), -1.0);
-    Choice best{never, none};
+    Choice best{below, none};
     for (const Trial& trial : trials_) {
         if (trial.least >= best.difference) break;
         const double difference = std::max(trial.least, trial_difference(trial.target, best.difference));
@@ -147,7 +157,7 @@ void GroupSimplifier::fill_queue(const GroupMesh& mesh) {
     queue_.clear();
     for (int vertex = 0; vertex < mesh.vertices(); ++vertex) {
         if (mesh.is_locked(vertex)) continue;
-        cost_[at(vertex)] = best_choice(mesh, vertex).difference;
+        cost_[at(vertex)] = best_choice(mesh, vertex, never).difference;
         queue_.push_back(vertex);
         sift_up(static_cast<int>(queue_.size()) - 1);
     }
@@ -162,7 +172,7 @@ void GroupSimplifier::simplify(GroupMesh& mesh, const Aim& aim) {
         const double cost = cost_[at(vertex)];
         const double limit = mesh.triangles() > aim.triangles && collapses < most ? aim.limit : reached;
         if (cost == never || cost > limit) return;
-        const Choice choice = best_choice(mesh, vertex);
+        const Choice choice = best_choice(mesh, vertex, never);
         if (outdated_[at(vertex)] != 0) {
             outdated_[at(vertex)] = 0;
             if (choice.difference > cost) {
@@ -174,10 +184,16 @@ void GroupSimplifier::simplify(GroupMesh& mesh, const Aim& aim) {
         take_first();
         mesh.collapse(vertex, ring_, choice.target);
         ++collapses;
+        touched_.clear();
         for (const int other : ring_.vertices) {
             if (slot_[at(other)] == none) continue;
+            touched_.push_back(other);
+        }
+        // From now on their costs are no more than they truly are.
+        for (const int other : touched_) {
             outdated_[at(other)] = 1;
-            if (cost_[at(other)] == never) change_cost(other, choice.difference);
+            const double sooner_now = best_choice(mesh, other, cost_[at(other)]).difference;
+            if (sooner_now < cost_[at(other)]) change_cost(other, sooner_now);
         }
     }
 }

@@ -21,8 +21,7 @@ class GroupSimplifier {
     };
     // Collapses vertices that are not locked, always the one next whose new triangles have the least largest
     // difference from the original, over every place; in the end also what costs no more than what went
-    // before. (A vertex whose surroundings have changed is asked again when its turn comes by its old
-    // difference: where that has become smaller it comes later than it might.)
+    // before.
     void simplify(GroupMesh& mesh, const Aim& aim);
 
   private:
@@ -40,8 +39,9 @@ class GroupSimplifier {
         }
     };
 
-    [[nodiscard]] Choice best_choice(const GroupMesh& mesh, int vertex);
-    void add_trial(const SurfaceVertex& middle, int target);
+    // The best of a vertex's collapses, if it costs less than `below`; leaves its ring in ring_.
+    [[nodiscard]] Choice best_choice(const GroupMesh& mesh, int vertex, double below);
+    void add_trial(const SurfaceVertex& middle, int target, double below);
     [[nodiscard]] double trial_difference(int target, double limit);
     [[nodiscard]] double chord_difference(int from, int to, double limit);
 
@@ -58,11 +58,13 @@ class GroupSimplifier {
 
     const OriginalSurface& surface_;
     std::vector<double> cost_;    // by vertex
-    std::vector<char> outdated_;  // by vertex: its surroundings have changed
+    std::vector<char> outdated_;  // by vertex: it may cost more by now
+    std::vector<int> touched_;
     std::vector<int> queue_;
     std::vector<int> slot_;  // of a vertex in the queue; none: it is not there
     GroupMesh::Ring ring_;
-    std::vector<SurfaceVertex> around_;  // places of the ring
+    std::vector<SurfaceVertex> around_;   // places of the ring
+    std::vector<SurfaceVertex> offsets_;  // of these from the middle; without heights
     std::vector<Trial> trials_;
     std::vector<double> chords_;  // differences of the chords of a ring; negative: not asked
 };
