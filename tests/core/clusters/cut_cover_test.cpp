@@ -1,0 +1,127 @@
+// Every cut covers what the original covers: once, with edges that meet.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/core/clusters/cluster_terrain.h"
+
+namespace oro {
+namespace {
+
+using namespace test;
+
+std::int64_t twice_area_of(const OriginalSurface& surface, const std::vector<VertexTriangle>& triangles) {
+    std::int64_t sum = 0;
+    for (const VertexTriangle& triangle : triangles) {
+        const std::int64_t area =
+            twice_area(surface.vertex(triangle[0]), surface.vertex(triangle[1]), surface.vertex(triangle[2]));
+        EXPECT_GT(area, 0);
+        sum += area;
+    }
+    return sum;
+}
+
+// The original's triangles, their area, and its rim.
+struct Whole {
+    std::int64_t area;
+    std::set<DirectedEdge> rim;
+};
+Whole whole_of(const OriginalSurface& surface) {
+    const auto triangles = original_triangles(surface);
+    std::size_t twice = 0;
+    Whole whole{twice_area_of(surface, triangles), rim_of(triangles, twice)};
+    EXPECT_EQ(twice, 0U);
+    return whole;
+}
+
+// Same area, each edge once each way, and no edge without a partner but along the original's rim, all of it:
+// then the triangles lie beside each other, and each place of the original is in one of them.
+void expect_cover(const ClusterTerrain& terrain, const Whole& whole, const std::vector<std::uint32_t>& cut) {
+    const auto triangles = triangles_of(terrain.graph, cut);
+    EXPECT_EQ(twice_area_of(terrain.surface, triangles), whole.area);
+    std::size_t twice = 0;
+    std::set<DirectedEdge> steps;
+    for (const DirectedEdge& edge : rim_of(triangles, twice)) {
+        for (const DirectedEdge& step : unit_steps(terrain.surface, edge, terrain.heights.columns))
+            EXPECT_TRUE(steps.insert(step).second);
+    }
+    EXPECT_EQ(twice, 0U) << "edges of two triangles on the same side";
+    EXPECT_TRUE(steps == whole.rim) << steps.size() << " steps along rims, for " << whole.rim.size();
+}
+
+void expect_covers(const ClusterTerrain& terrain, std::uint64_t seed) {
+    const Whole whole = whole_of(terrain.surface);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    for (int i = 0; i < 12; ++i) {
+        const double error_m = i == 0 ? 0.0 : i == 1 ? 1.0e9 : 0.05 * std::pow(1.0e5, 0.1 * (i - 2));
+        SCOPED_TRACE(error_m);
+        expect_cover(terrain, whole, cut_by_metres(terrain.graph, error_m));
+    }
+    for (int i = 0; i < 12; ++i) {
+        const double share = std::uniform_real_distribution<double>(0.2, 1.0)(random);
+        SCOPED_TRACE(share);
+        expect_cover(terrain, whole, cut_of(terrain.graph, random_stands(terrain.graph, random, share)));
+    }
+}
+
+TEST(ClusterCutCover, RoughGroundIsCoveredOnceByAnyCut) {
+    const ClusterTerrain terrain(rough_field(47.0, 8.0, 201, 173));
+    expect_covers(terrain, 20261);
+    // There is much between the original and the coarsest.
+    EXPECT_EQ(triangles_of(terrain.graph, cut_by_metres(terrain.graph, 0.0)).size(), 2U * 200U * 172U);
+    EXPECT_LE(triangles_of(terrain.graph, cut_by_metres(terrain.graph, 1.0e9)).size(), 128U);
+    EXPECT_GT(terrain.graph.levels.size(), 10U);
+}
+
+TEST(ClusterCutCover, SoIsGroundWithHoles) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const ClusterTerrain terrain(holed_field(120, 150, seed));
+        expect_covers(terrain, seed);
+        EXPECT_LT(triangles_of(terrain.graph, cut_by_metres(terrain.graph, 1.0e9)).size(), 3000U);
+    }
+}
+
+TEST(ClusterCutCover, SoAreTinyGrids) {
+    for (const auto& [rows, columns] : {std::pair{2, 2}, {2, 4}, {4, 2}, {3, 3}, {9, 9}, {10, 9}, {2, 300}}) {
+        SCOPED_TRACE(std::to_string(rows) + " x " + std::to_string(columns));
+        const ClusterTerrain terrain(rough_field(47.0, 8.0, rows, columns));
+        expect_covers(terrain, 5);
+    }
+}
+
+TEST(ClusterCutCover, NothingButVoidsIsNothing) {
+    HeightField field = flat_field(40, 40);
+    std::fill(field.H_m.begin(), field.H_m.end(), void_height_m);
+    const ClusterTerrain terrain(std::move(field));
+    EXPECT_TRUE(terrain.graph.clusters.empty());
+    EXPECT_TRUE(cut_by_metres(terrain.graph, 10.0).empty());
+}
+
+// A place at random is in one triangle, asked of all of them.
+TEST(ClusterCutCover, PlacesAtRandomAreInOneTriangle) {
+    const ClusterTerrain terrain(holed_field(90, 80, 8));
+    std::mt19937_64 random(88);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (const double error_m : {3.0, 30.0, 300.0}) {
+        const auto triangles = triangles_of(terrain.graph, cut_by_metres(terrain.graph, error_m));
+        for (int i = 0; i < 2000; ++i) {
+            const double row = unit(random) * 89.0, column = unit(random) * 79.0;
+            int holding = 0;
+            for (const VertexTriangle& triangle : triangles) {
+                bool in = true;
+                for (std::size_t j = 0; j < 3; ++j) {
+                    const SurfaceVertex a = terrain.surface.vertex(triangle[j]);
+                    const SurfaceVertex b = terrain.surface.vertex(triangle[(j + 1) % 3]);
+                    in = in &&
+                         (b.column - a.column) * (row - a.row) - (b.row - a.row) * (column - a.column) > 0.0;
+                }
+                holding += in ? 1 : 0;
+            }
+            EXPECT_EQ(holding, terrain.original(row, column) ? 1 : 0) << row << " " << column;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace oro
