@@ -16,8 +16,8 @@
 #include "core/base/parallel.h"
 #include "core/clusters/cluster_cut.h"
 #include "core/clusters/graph_builder.h"
-#include "core/clusters/grid_surface.h"
 #include "core/clusters/simplify_group.h"
+#include "core/surface/grid_surface.h"
 
 namespace oro {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/clusters/surface_vertex.h"
 #include "core/earth/ellipsoid.h"
+#include "core/surface/surface_vertex.h"
 
 namespace oro {
 
@@ -42,6 +42,8 @@ struct ClusterGroup {
     // uses.
     Ecef centre;
     double radius_m;
+    // It is the same as in the graph of the whole surface, of which a window was built.
+    bool whole;
 };
 
 // What building a level did.

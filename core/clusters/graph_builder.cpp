@@ -10,6 +10,7 @@
 #include "core/clusters/cluster_split.h"
 #include "core/clusters/group_assignment.h"
 #include "core/clusters/group_bounds.h"
+#include "core/clusters/open_border.h"
 #include "core/clusters/simplify_group.h"
 #include "core/terrain/drawn_heights.h"
 
@@ -24,10 +25,16 @@ constexpr std::size_t groups_at_a_time = 8;
 // border all around, there are few, and what they hold up would fall.
 constexpr double most_share = 1.25;
 
+constexpr std::size_t most_levels = 80;
+
 class Builder {
   public:
     Builder(const OriginalSurface& surface, const GroundBounds& bounds, const GraphOptions& options)
-        : surface_(surface), bounds_(bounds), options_(options), locks_(surface.vertex_count()) {}
+        : surface_(surface),
+          bounds_(bounds),
+          options_(options),
+          locks_(surface.vertex_count()),
+          border_(surface) {}
 
     ClusterGraph build();
 
@@ -56,6 +63,8 @@ class Builder {
     const GroundBounds& bounds_;
     const GraphOptions& options_;
     VertexLocks locks_;
+    OpenBorder border_;
+    bool any_whole_{true};  // of the last level's groups
     ClusterGraph graph_;
     std::vector<std::vector<VertexTriangle>> parts_;  // of the last level
     std::vector<std::uint32_t> made_by_;              // of each part
@@ -144,7 +153,8 @@ void Builder::make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simpli
         const auto of_member = graph_.triangles_of(graph_.clusters[member]);
         triangles.insert(triangles.end(), of_member.begin(), of_member.end());
     }
-    mesh.start(surface_, triangles, [&](VertexNumber vertex) { return locks_.is_locked(vertex); });
+    mesh.start(surface_, triangles,
+               [&](VertexNumber vertex) { return locks_.is_locked(vertex) || surface_.is_open(vertex); });
     const double target = std::floor(options_.kept_share * static_cast<double>(triangles.size()));
     const double floor_m = largest_member_error_m(graph_, graph_.groups[group]);
     simplifier.simplify(mesh, {.triangles = static_cast<int>(target),
@@ -160,7 +170,8 @@ bool Builder::add_level() {
     GraphLevel report;
     const int level = static_cast<int>(graph_.levels.size()) + 1;
     const GroupAssignment assignment(surface_, parts_, GroupTiling(level, options_.kept_share),
-                                     triangles_left() <= one_group_triangles, locks_);
+                                     !surface_.is_window() && triangles_left() <= one_group_triangles,
+                                     locks_);
     report.locked = assignment.locked();
     report.locked_twice = assignment.locked_twice();
     std::vector<Part> shared(parts_.size());
@@ -172,6 +183,7 @@ bool Builder::add_level() {
     const auto first_group = static_cast<std::uint32_t>(graph_.groups.size());
     add_clusters(shared, report);
     add_groups(assignment.groups(), first_cluster, report);
+    const std::vector<char> whole = border_.whole_groups(assignment, parts_);
     std::vector<Made> made(assignment.groups());
     const std::size_t turns = (made.size() + groups_at_a_time - 1) / groups_at_a_time;
     in_parallel(static_cast<int>(turns), options_.threads, [&](int turn) {
@@ -188,6 +200,7 @@ bool Builder::add_level() {
         group.error_m = made[i].bounds.error_m;
         group.centre = made[i].bounds.centre;
         group.radius_m = made[i].bounds.radius_m;
+        group.whole = whole[i] != 0;
         const auto in = static_cast<double>(made[i].triangles_in);
         report.stuck_groups += static_cast<double>(made[i].triangles.size()) > stuck_share * in ? 1U : 0U;
         report.largest_group = std::max(report.largest_group, made[i].triangles_in);
@@ -196,6 +209,8 @@ bool Builder::add_level() {
         parts_.push_back(std::move(made[i].triangles));
         made_by_.push_back(first_group + static_cast<std::uint32_t>(i));
     }
+    border_.reach(parts_, whole);
+    any_whole_ = std::find(whole.begin(), whole.end(), 1) != whole.end();
     graph_.levels.push_back(report);
     return report.triangles_out < report.triangles_in;
 }
@@ -222,7 +237,7 @@ ClusterGraph Builder::build() {
     while (!parts_.empty() && without_progress < 3 &&
            !(parts_.size() == 1 && triangles_left() <= most_cluster_triangles)) {
         without_progress = add_level() ? 0 : without_progress + 1;
-        if (graph_.levels.size() == 80) break;
+        if (graph_.levels.size() == most_levels || !any_whole_) break;
     }
     add_coarsest();
     for (std::size_t i = 0; i < graph_.levels.size(); ++i) {

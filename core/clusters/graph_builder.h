@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/clusters/cluster_graph.h"
-#include "core/clusters/ground_bounds.h"
-#include "core/clusters/original_surface.h"
+#include "core/surface/ground_bounds.h"
+#include "core/surface/original_surface.h"
 
 namespace oro {
 
@@ -12,8 +12,8 @@ struct GraphOptions {
     double kept_share{0.65};  // of a group's triangles, in what comes out of it
 };
 
-// All levels up to the coarsest: one group, or groups that cannot be made coarser. The result does not depend
-// on `threads`.
+// All levels up to the coarsest: one group, or groups that cannot be made coarser; of a window all that have
+// a group that is whole (docs/CLUSTERS.md, "Regions of any size"). The result does not depend on `threads`.
 //
 // Each level: triangles go to groups by where they lie (group_assignment.h); what one group has made is split
 // where groups of the next level meet, and into clusters of most_cluster_triangles; each group is made

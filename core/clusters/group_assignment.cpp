@@ -57,19 +57,18 @@ void GroupAssignment::choose_tiles(const OriginalSurface& surface, Parts parts, 
                                                 surface.vertex(triangle[2])));
         }
     }
-    std::vector<GroupTile> numbered;
-    std::unique_copy(tiles.begin(), tiles.end(), std::back_inserter(numbered));
-    std::sort(numbered.begin(), numbered.end());
-    numbered.erase(std::unique(numbered.begin(), numbered.end()), numbered.end());
-    groups_ = numbered.size();
+    std::unique_copy(tiles.begin(), tiles.end(), std::back_inserter(tiles_));
+    std::sort(tiles_.begin(), tiles_.end());
+    tiles_.erase(std::unique(tiles_.begin(), tiles_.end()), tiles_.end());
+    groups_ = tiles_.size();
     group_.reserve(tiles.size());
     const GroupTile* last = nullptr;
     for (const GroupTile& tile : tiles) {
         if (last != nullptr && *last == tile) {
             group_.push_back(group_.back());
         } else {
-            group_.push_back(static_cast<std::uint32_t>(
-                std::lower_bound(numbered.begin(), numbered.end(), tile) - numbered.begin()));
+            group_.push_back(static_cast<std::uint32_t>(std::lower_bound(tiles_.begin(), tiles_.end(), tile) -
+                                                        tiles_.begin()));
         }
         last = &tile;
     }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/clusters/group_tiling.h"
-#include "core/clusters/original_surface.h"
+#include "core/surface/original_surface.h"
 
 namespace oro {
 
@@ -43,6 +43,8 @@ class GroupAssignment {
 
     // Groups are numbered by tile, row by row.
     [[nodiscard]] std::size_t groups() const { return groups_; }
+    // A group's tile, widened.
+    [[nodiscard]] PlaneBox around(std::size_t group) const { return tiling_.widened(tiles_[group]); }
     // Of the triangles of a part.
     [[nodiscard]] std::span<const std::uint32_t> groups_of(std::size_t part) const {
         return std::span(group_).subspan(first_[part], first_[part + 1] - first_[part]);
@@ -60,6 +62,7 @@ class GroupAssignment {
     std::size_t groups_{};
     std::size_t locked_{};
     std::size_t locked_twice_{};
+    std::vector<GroupTile> tiles_;      // by group; none where all is one
     std::vector<std::uint32_t> group_;  // by triangle, part after part
     std::vector<std::size_t> first_;    // triangle, by part
     // Vertices that must not stay for a third level: one of those that they go together with, of a lower

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "core/clusters/cluster_graph.h"
-#include "core/clusters/ground_bounds.h"
-#include "core/clusters/original_surface.h"
+#include "core/surface/ground_bounds.h"
+#include "core/surface/original_surface.h"
 
 namespace oro {
 

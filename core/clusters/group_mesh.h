@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/clusters/original_surface.h"
+#include "core/surface/original_surface.h"
 
 namespace oro {
 

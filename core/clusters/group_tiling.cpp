@@ -36,6 +36,13 @@ GroupTiling::Lines GroupTiling::lines_of(int level, double kept_share, int first
     return lines;
 }
 
+PlaneBox GroupTiling::widened(const GroupTile& tile) const {
+    const std::int64_t row = tile.row * row_.period + row_.shift;
+    const std::int64_t column = tile.column * column_.period + column_.shift;
+    return {row - row_.period / 4, row + row_.period + row_.period / 4, column - column_.period / 4,
+            column + column_.period + column_.period / 4};
+}
+
 GroupTiling::GroupTiling(int level, double kept_share)
     : row_(lines_of(level, kept_share, 2)), column_(lines_of(level, kept_share, 1)) {
     assert(level >= 1 && level <= 80);

@@ -4,7 +4,7 @@
 #include <compare>
 #include <cstdint>
 
-#include "core/clusters/surface_vertex.h"
+#include "core/surface/surface_vertex.h"
 
 namespace oro {
 
@@ -17,6 +17,19 @@ struct GroupTile {
     std::int64_t row{};
     std::int64_t column{};
     friend auto operator<=>(const GroupTile&, const GroupTile&) = default;
+};
+
+// Places, both ends included.
+struct PlaneBox {
+    std::int64_t first_row{};
+    std::int64_t last_row{};
+    std::int64_t first_column{};
+    std::int64_t last_column{};
+
+    [[nodiscard]] bool meets(const PlaneBox& other) const {
+        return first_row <= other.last_row && other.first_row <= last_row &&
+               first_column <= other.last_column && other.first_column <= last_column;
+    }
 };
 
 // Lines of one level, the same for any part of the plane that is built: what becomes of a place depends on
@@ -36,6 +49,8 @@ class GroupTiling {
                 column_.of(std::int64_t{a.column} + b.column + c.column)};
     }
     [[nodiscard]] GroupTile tile_of(const SurfaceVertex& a) const { return tile_of(a, a, a); }
+    // A tile, and a quarter of its side around it.
+    [[nodiscard]] PlaneBox widened(const GroupTile& tile) const;
 
   private:
     struct Lines {

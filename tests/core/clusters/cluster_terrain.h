@@ -14,7 +14,7 @@
 
 #include "core/clusters/cluster_cut.h"
 #include "core/clusters/graph_builder.h"
-#include "core/clusters/grid_surface.h"
+#include "core/surface/grid_surface.h"
 #include "core/terrain/triangle_heights.h"
 #include "tests/support/rough_terrain.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/clusters/surface_vertex.h"
+#include "core/surface/surface_vertex.h"
 
 namespace oro {
 
@@ -23,6 +23,10 @@ class OriginalSurface {
     // Vertices are numbered 0 .. vertex_count() - 1; some of them may be in no triangle.
     [[nodiscard]] virtual std::size_t vertex_count() const = 0;
     [[nodiscard]] virtual SurfaceVertex vertex(VertexNumber number) const = 0;
+    // Whether a vertex lies where more of the surface goes on beyond, which this object does not know: it is
+    // a window of a larger one. Such vertices stay on all levels.
+    [[nodiscard]] virtual bool is_open(VertexNumber) const { return false; }
+    [[nodiscard]] virtual bool is_window() const { return false; }
     // The original's triangles as clusters of at most 128 triangles and 128 vertices, in a fixed order; none
     // empty. What a cluster of a grid covers is a square of `leaf_side` posts (core/clusters/group_tiling.h).
     [[nodiscard]] virtual std::vector<std::vector<VertexTriangle>> leaves() const = 0;

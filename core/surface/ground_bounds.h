@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/clusters/surface_vertex.h"
 #include "core/earth/ellipsoid.h"
+#include "core/surface/surface_vertex.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {

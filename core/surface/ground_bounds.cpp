@@ -1,4 +1,4 @@
-#include "core/clusters/ground_bounds.h"
+#include "core/surface/ground_bounds.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
-#include "core/clusters/grid_surface.h"
+#include "core/surface/grid_surface.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -15,10 +16,27 @@ constexpr double on_edge_posts = 1.0e-7;
 
 }  // namespace
 
+GridSurface::GridSurface(const DrawnHeights& heights, const GridWindow& window)
+    : heights_(heights), window_(window) {
+    assert(window.first_row % static_cast<int>(gpu::meshlet_quads) == 0);
+    assert(window.first_column % static_cast<int>(gpu::meshlet_quads) == 0);
+}
+
+bool GridSurface::is_window() const {
+    return window_.north_open || window_.east_open || window_.south_open || window_.west_open;
+}
+
+bool GridSurface::is_open(VertexNumber number) const {
+    const auto columns = static_cast<VertexNumber>(heights_.columns);
+    const auto row = static_cast<int>(number / columns), column = static_cast<int>(number % columns);
+    return (window_.north_open && row == 0) || (window_.south_open && row == heights_.rows - 1) ||
+           (window_.west_open && column == 0) || (window_.east_open && column == heights_.columns - 1);
+}
+
 SurfaceVertex GridSurface::vertex(VertexNumber number) const {
     const auto columns = static_cast<VertexNumber>(heights_.columns);
-    return {static_cast<std::int32_t>(number / columns), static_cast<std::int32_t>(number % columns),
-            heights_.steps[number]};
+    return {window_.first_row + static_cast<std::int32_t>(number / columns),
+            window_.first_column + static_cast<std::int32_t>(number % columns), heights_.steps[number]};
 }
 
 // side 0: south-west of the diagonal, 1: north-east of it. Clockwise on the map.
@@ -82,18 +100,19 @@ double GridSurface::crossing_difference(const SurfaceVertex& from, const Surface
     else
         across = right - down > 0 ? 1 : -1;  // a diagonal's post of the same row
     const std::ptrdiff_t whole_step = across + whole * lines.along;
-    const std::int32_t* post = heights_.row(from.row) + from.column;
+    const std::int32_t* passed = post(from.row, from.column);
     std::int64_t left = 0;
     for (int i = 1; i < lines.count; ++i) {
-        post += whole_step;
+        passed += whole_step;
         left += rest;
         if (left >= lines.count) {
             left -= lines.count;
-            post += lines.along;
+            passed += lines.along;
         }
-        double original = *post;
+        double original = *passed;
         if (left != 0)
-            original += share * static_cast<double>(left) * (static_cast<double>(post[lines.along]) - *post);
+            original +=
+                share * static_cast<double>(left) * (static_cast<double>(passed[lines.along]) - *passed);
         largest = std::max(largest, std::abs(original - (from.steps + i * rise)));
         if (largest > limit) return largest;
     }
@@ -105,8 +124,7 @@ double GridSurface::edge_difference(const SurfaceVertex& from, const SurfaceVert
     const int rows = std::abs(down), columns = std::abs(right), diagonals = std::abs(right - down);
     if (rows <= 1 && columns <= 1) {
         if (diagonals != 2) return 0.0;  // an edge of the grid
-        const double crossed =
-            static_cast<double>(heights_.at(from.row, to.column)) + heights_.at(to.row, from.column);
+        const double crossed = static_cast<double>(*post(from.row, to.column)) + *post(to.row, from.column);
         return 0.5 * std::abs(crossed - (static_cast<double>(from.steps) + to.steps));
     }
     double largest = 0.0;
@@ -143,10 +161,10 @@ double GridSurface::inner_difference(const SurfaceVertex& a, const SurfaceVertex
                                                : middle->column + lower * (row - middle->row);
         const int first = static_cast<int>(std::ceil(std::min(one, other) - on_edge_posts));
         const int last = static_cast<int>(std::floor(std::max(one, other) + on_edge_posts));
-        const std::int32_t* steps = heights_.row(row);
+        const std::int32_t* steps = post(row, first);
         const double plane = a.steps + per_row * (row - a.row) - per_column * a.column;
         for (int column = first; column <= last; ++column) {
-            const double off = steps[column] - (plane + per_column * column);
+            const double off = steps[column - first] - (plane + per_column * column);
             lowest = std::min(lowest, off);
             highest = std::max(highest, off);
         }

@@ -1,20 +1,33 @@
 // The one place where a vertex of a cluster graph is a post: a grid of heights as its original surface.
 #pragma once
 
-#include "core/clusters/original_surface.h"
+#include "core/surface/original_surface.h"
 #include "core/terrain/drawn_heights.h"
 
 namespace oro {
 
-// Vertex number row * columns + column. A cell is two triangles, split from its north-west to its south-east
-// post; a triangle with a void post is not there, so that cells with void posts are holes. Leaves are the
-// nodes of level 0: 8 x 8 quads. Reads `heights` where it is.
+// Which part of a region's grid some heights are, and on which sides the region goes on beyond them.
+struct GridWindow {
+    int first_row{};     // in the region; a whole number of leaves
+    int first_column{};  // likewise
+    bool north_open{};
+    bool east_open{};
+    bool south_open{};
+    bool west_open{};
+};
+
+// Vertex number row * columns + column, counted within the heights; places are those in the region. A cell is
+// two triangles, split from its north-west to its south-east post; a triangle with a void post is not there,
+// so that cells with void posts are holes. Leaves are the nodes of level 0: 8 x 8 quads. Reads `heights`
+// where it is.
 class GridSurface final : public OriginalSurface {
   public:
-    explicit GridSurface(const DrawnHeights& heights) : heights_(heights) {}
+    explicit GridSurface(const DrawnHeights& heights, const GridWindow& window = {});
 
     [[nodiscard]] std::size_t vertex_count() const override { return heights_.steps.size(); }
     [[nodiscard]] SurfaceVertex vertex(VertexNumber number) const override;
+    [[nodiscard]] bool is_open(VertexNumber number) const override;
+    [[nodiscard]] bool is_window() const override;
     [[nodiscard]] std::vector<std::vector<VertexTriangle>> leaves() const override;
     [[nodiscard]] double edge_difference(const SurfaceVertex& from, const SurfaceVertex& to,
                                          double limit) const override;
@@ -33,7 +46,13 @@ class GridSurface final : public OriginalSurface {
     [[nodiscard]] double crossing_difference(const SurfaceVertex& from, const SurfaceVertex& to,
                                              const Lines& lines, double limit) const;
 
+    // Of a place in the region.
+    [[nodiscard]] const std::int32_t* post(int row, int column) const {
+        return heights_.row(row - window_.first_row) + (column - window_.first_column);
+    }
+
     const DrawnHeights& heights_;
+    GridWindow window_;
 };
 
 }  // namespace oro
