@@ -7,7 +7,11 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
+#include <set>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/bench/bench_blocks.h"
@@ -28,6 +32,7 @@ struct ClustersOptions {
     int threads{1};
     double kept_share{GraphOptions{}.kept_share};
     bool references{false};
+    bool bytes{false};
 };
 
 // User time of this process.
@@ -58,6 +63,101 @@ double every_place_m(const DrawnHeights& heights, const GridSurface& surface, co
         }
     }
     return largest_m;
+}
+
+// How often each of some numbers comes, and the bits that they take when a coder knows that.
+class Histogram {
+  public:
+    void add(std::int64_t number) {
+        ++counts_[number];
+        ++all_;
+    }
+    [[nodiscard]] double bits() const {
+        double bits = 0.0;
+        for (const auto& [number, count] : counts_)
+            bits -= static_cast<double>(count) *
+                    std::log2(static_cast<double>(count) / static_cast<double>(all_));
+        return bits;
+    }
+
+  private:
+    std::map<std::int64_t, std::size_t> counts_;
+    std::size_t all_{};
+};
+
+// What the clusters of one level would take in a file: an estimate, not a format. Triangles are told one
+// after another, each across an edge of those before: none there, one with a new vertex, or with a known one
+// (its number among the cluster's). New vertices as rows and columns from where a parallelogram would put
+// them. As an arithmetic coder with one table of each kind for the level would write it.
+class LevelBytes {
+  public:
+    void add(const OriginalSurface& surface, std::span<const VertexTriangle> triangles) {
+        std::map<std::pair<VertexNumber, VertexNumber>, std::size_t> across;
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            for (std::size_t j = 0; j < 3; ++j) across[{triangles[i][j], triangles[i][(j + 1) % 3]}] = i;
+        }
+        std::vector<bool> told(triangles.size());
+        std::set<VertexNumber> known;
+        bits_ += 8.0 * header_bytes;
+        for (std::size_t first = 0; first < triangles.size(); ++first) {
+            if (told[first]) continue;
+            told[first] = true;
+            bits_ += 2.0 * 32.0;
+            for (const VertexNumber vertex : triangles[first]) known.insert(vertex);
+            std::vector<std::size_t> open{first};
+            for (std::size_t i = 0; i < open.size(); ++i) {
+                for (std::size_t j = 0; j < 3; ++j) {
+                    const VertexTriangle& from = triangles[open[i]];
+                    const auto beyond = across.find({from[(j + 1) % 3], from[j]});
+                    if (beyond == across.end()) {
+                        steps_.add(0);
+                    } else if (!told[beyond->second]) {
+                        told[beyond->second] = true;
+                        open.push_back(beyond->second);
+                        tell(surface, from, j, triangles[beyond->second], known);
+                    }
+                }
+            }
+        }
+    }
+    [[nodiscard]] double bytes() const {
+        return (bits_ + steps_.bits() + rows_.bits() + columns_.bits()) / 8.0;
+    }
+    // Of each cluster: counts, groups, and a share of its group's sphere and error.
+    static constexpr double header_bytes = 16.0;
+
+  private:
+    void tell(const OriginalSurface& surface, const VertexTriangle& from, std::size_t edge,
+              const VertexTriangle& triangle, std::set<VertexNumber>& known) {
+        const VertexNumber a = from[edge], b = from[(edge + 1) % 3], c = from[(edge + 2) % 3];
+        const VertexNumber vertex =
+            *std::find_if(triangle.begin(), triangle.end(), [&](VertexNumber v) { return v != a && v != b; });
+        steps_.add(known.contains(vertex) ? 2 : 1);
+        if (!known.insert(vertex).second) {
+            bits_ += std::log2(static_cast<double>(known.size()));
+            return;
+        }
+        const SurfaceVertex at = surface.vertex(vertex), of_a = surface.vertex(a), of_b = surface.vertex(b),
+                            of_c = surface.vertex(c);
+        rows_.add(at.row - (of_a.row + of_b.row - of_c.row));
+        columns_.add(at.column - (of_a.column + of_b.column - of_c.column));
+    }
+
+    double bits_{};
+    Histogram steps_;
+    Histogram rows_;
+    Histogram columns_;
+};
+
+void print_bytes(const OriginalSurface& surface, const ClusterGraph& graph) {
+    std::vector<LevelBytes> levels(graph.levels.size() + 1);
+    for (const Cluster& cluster : graph.clusters) {
+        const std::uint32_t level = cluster.made_by == no_group ? 0 : graph.groups[cluster.made_by].level;
+        if (level > 0) levels[level].add(surface, graph.triangles_of(cluster));
+    }
+    double bytes = 0.0;
+    for (const LevelBytes& level : levels) bytes += level.bytes();
+    std::printf("above the leaves, estimated: %.2f MB without heights\n", 1.0e-6 * bytes);
 }
 
 void print_levels(const ClusterGraph& graph) {
@@ -119,7 +219,6 @@ class References {
 
 Result<void> print_cuts(const ClustersOptions& options, const RegionFile& file, const PostGrid& grid,
                         const DrawnHeights& heights, const ClusterGraph& graph) {
-    const GridSurface surface(heights);
     std::vector<double> errors_m = options.errors_m;
     std::sort(errors_m.begin(), errors_m.end(), std::greater<>());
     std::vector<References> references;
@@ -132,7 +231,7 @@ Result<void> print_cuts(const ClustersOptions& options, const RegionFile& file, 
     for (const double error_m : errors_m) {
         const auto cut = cut_by_metres(graph, error_m);
         const std::size_t triangles = triangles_of_cut(graph, cut);
-        const double found_m = every_place_m(heights, surface, graph, cut);
+        const double found_m = every_place_m(heights, GridSurface(heights), graph, cut);
         std::printf("%8g %9zu %10zu %8.2f", error_m, cut.size(), triangles, found_m);
         if (found_m > error_m)
             return Error{ErrorKind::failed, "clusters", "have a place that is farther off"};
@@ -152,13 +251,14 @@ Result<void> report(const ClustersOptions& options) {
         return Error{ErrorKind::usage, options.region, "has voids, around which a TIN cannot be compared"};
     ORO_TRY(const HeightField field, field_in_memory(file));
     const DrawnHeights heights = drawn_heights(field, 1.0, options.threads);
-    const GridSurface surface(heights);
+    const GridSurface surface(heights, {.goes_round = field.grid.goes_round()});
     const GridBounds bounds(field.grid, heights.highest_steps);
     const double before_s = processor_s();
     const ClusterGraph graph = build_cluster_graph(surface, bounds, {options.threads, options.kept_share});
     std::printf("%s: %d x %d posts, %.1f s of processor time\n", options.region.c_str(), heights.rows,
                 heights.columns, processor_s() - before_s);
     print_levels(graph);
+    if (options.bytes) print_bytes(surface, graph);
     return print_cuts(options, file, field.grid, heights, graph);
 }
 
@@ -178,6 +278,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.1, 0.9));
     app.add_flag("--references", options.references,
                  "Count blocks, greedy triangulations (TIN) and collapses without groups, too");
+    app.add_flag("--bytes", options.bytes, "Estimate what the levels above the leaves take in a file");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -153,8 +153,9 @@ void Builder::make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simpli
         const auto of_member = graph_.triangles_of(graph_.clusters[member]);
         triangles.insert(triangles.end(), of_member.begin(), of_member.end());
     }
-    mesh.start(surface_, triangles,
-               [&](VertexNumber vertex) { return locks_.is_locked(vertex) || surface_.is_open(vertex); });
+    mesh.start(surface_, triangles, [&](VertexNumber vertex) {
+        return locks_.is_locked(vertex) || surface_.is_open(vertex) || surface_.must_stay(vertex);
+    });
     const double target = std::floor(options_.kept_share * static_cast<double>(triangles.size()));
     const double floor_m = largest_member_error_m(graph_, graph_.groups[group]);
     simplifier.simplify(mesh, {.triangles = static_cast<int>(target),

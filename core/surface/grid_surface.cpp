@@ -33,6 +33,11 @@ bool GridSurface::is_open(VertexNumber number) const {
            (window_.west_open && column == 0) || (window_.east_open && column == heights_.columns - 1);
 }
 
+bool GridSurface::must_stay(VertexNumber number) const {
+    const auto column = static_cast<int>(number % static_cast<VertexNumber>(heights_.columns));
+    return window_.goes_round && (column == 0 || column == heights_.columns - 1);
+}
+
 SurfaceVertex GridSurface::vertex(VertexNumber number) const {
     const auto columns = static_cast<VertexNumber>(heights_.columns);
     return {window_.first_row + static_cast<std::int32_t>(number / columns),

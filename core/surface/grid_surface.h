@@ -14,6 +14,8 @@ struct GridWindow {
     bool east_open{};
     bool south_open{};
     bool west_open{};
+    // The first and the last column are one meridian: their posts stay, so that both sides have the same.
+    bool goes_round{};
 };
 
 // Vertex number row * columns + column, counted within the heights; places are those in the region. A cell is
@@ -28,6 +30,7 @@ class GridSurface final : public OriginalSurface {
     [[nodiscard]] SurfaceVertex vertex(VertexNumber number) const override;
     [[nodiscard]] bool is_open(VertexNumber number) const override;
     [[nodiscard]] bool is_window() const override;
+    [[nodiscard]] bool must_stay(VertexNumber number) const override;
     [[nodiscard]] std::vector<std::vector<VertexTriangle>> leaves() const override;
     [[nodiscard]] double edge_difference(const SurfaceVertex& from, const SurfaceVertex& to,
                                          double limit) const override;

@@ -27,6 +27,8 @@ class OriginalSurface {
     // a window of a larger one. Such vertices stay on all levels.
     [[nodiscard]] virtual bool is_open(VertexNumber) const { return false; }
     [[nodiscard]] virtual bool is_window() const { return false; }
+    // Whether a vertex stays on all levels for another reason.
+    [[nodiscard]] virtual bool must_stay(VertexNumber) const { return false; }
     // The original's triangles as clusters of at most 128 triangles and 128 vertices, in a fixed order; none
     // empty. What a cluster of a grid covers is a square of `leaf_side` posts (core/clusters/group_tiling.h).
     [[nodiscard]] virtual std::vector<std::vector<VertexTriangle>> leaves() const = 0;

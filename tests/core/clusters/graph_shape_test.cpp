@@ -167,6 +167,27 @@ TEST(ClusterGraph, SpikesAsHighAsHeightsGo) {
     }
 }
 
+// Round the Earth the first and the last column are the same posts: whatever is drawn has all of them.
+TEST(ClusterGraph, RoundTheEarthTheSeamStays) {
+    const HeightField field = made_field(60.0, -180.0, 0.5, 40, 181, rough_H_m);
+    ASSERT_TRUE(field.grid.goes_round());
+    const DrawnHeights heights = drawn_heights(field, 1.0, 1);
+    const GridSurface surface(heights, {.goes_round = true});
+    const ClusterGraph graph = build_cluster_graph(surface, GridBounds(field.grid, heights.highest_steps));
+    for (const double error_m : {0.0, 1.0e4, 1.0e9}) {
+        std::set<VertexNumber> drawn;
+        for (const VertexTriangle& triangle : triangles_of(graph, cut_by_metres(graph, error_m)))
+            drawn.insert(triangle.begin(), triangle.end());
+        for (VertexNumber row = 0; row < 40; ++row) {
+            EXPECT_TRUE(drawn.contains(row * 181)) << row;
+            EXPECT_TRUE(drawn.contains(row * 181 + 180)) << row;
+        }
+        if (error_m == 1.0e9) {
+            EXPECT_LT(drawn.size(), 200U);
+        }
+    }
+}
+
 // The same to the last bit, whatever the number of threads.
 TEST(ClusterGraph, DoesNotDependOnThreads) {
     const ClusterTerrain one(holed_field(150, 160, 6), {.threads = 1});
