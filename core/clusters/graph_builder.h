@@ -19,8 +19,8 @@ struct GraphOptions {
 // where groups of the next level meet, and into clusters of most_cluster_triangles; each group is made
 // coarser with its border as it is (simplify_group.h), and measured against the original.
 //
-// Memory: 12 bytes a triangle of all levels together (some 70 a vertex of a grid), and 30 a vertex while it
-// works.
+// Memory: 12 bytes a triangle of all levels together, some 70 a vertex of a grid; and half as much again or a
+// little more while it works (194 MB in all for 1201 x 1201 posts).
 [[nodiscard]] ClusterGraph build_cluster_graph(const OriginalSurface& surface, const GroundBounds& bounds,
                                                const GraphOptions& options = {});
 
