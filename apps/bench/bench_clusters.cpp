@@ -4,9 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <map>
 #include <set>
 #include <span>
@@ -15,12 +18,14 @@
 #include <vector>
 
 #include "apps/bench/bench_blocks.h"
+#include "apps/bench/bench_path.h"
 #include "apps/bench/bench_tin.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
 #include "core/clusters/cluster_cut.h"
 #include "core/clusters/graph_builder.h"
 #include "core/clusters/simplify_group.h"
+#include "core/lod/levels.h"
 #include "core/surface/grid_surface.h"
 
 namespace oro {
@@ -33,6 +38,8 @@ struct ClustersOptions {
     double kept_share{GraphOptions{}.kept_share};
     bool references{false};
     bool bytes{false};
+    std::string path;
+    double tau_px{1.0};
 };
 
 // User time of this process.
@@ -245,6 +252,82 @@ Result<void> print_cuts(const ClustersOptions& options, const RegionFile& file, 
     return {};
 }
 
+// Triangles in view: of the clusters that a view's error asks for, and of the nodes. Both are counted where
+// their own sphere meets the picture's frustum; nothing is left out for another reason.
+class InView {
+  public:
+    explicit InView(const Camera& camera)
+        : eye_m_(camera.eye_ecef().m),
+          view_(camera.view_from_ecef()),
+          tile_{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+          planes_(frustum_planes_view(projection_of_tile(camera, tile_))) {}
+
+    [[nodiscard]] const Tile& tile() const { return tile_; }
+    [[nodiscard]] bool meets(const glm::dvec3& centre_m, double radius_m) const {
+        return !beyond_frustum(planes_, view_ * (centre_m - eye_m_), radius_m);
+    }
+    [[nodiscard]] std::size_t triangles(const OriginalSurface& surface, const GroundBounds& bounds,
+                                        const ClusterGraph& graph,
+                                        const std::vector<std::uint32_t>& cut) const {
+        std::size_t triangles = 0;
+        for (const std::uint32_t i : cut) {
+            std::vector<glm::dvec3> places_m;
+            for (const VertexTriangle& triangle : graph.triangles_of(graph.clusters[i])) {
+                for (const VertexNumber vertex : triangle)
+                    places_m.push_back(bounds.ecef(surface.vertex(vertex)).m);
+            }
+            glm::dvec3 lowest = places_m.front(), highest = lowest;
+            for (const glm::dvec3& place : places_m) {
+                lowest = glm::min(lowest, place);
+                highest = glm::max(highest, place);
+            }
+            const glm::dvec3 centre_m = 0.5 * (lowest + highest);
+            double radius_m = 0.0;
+            for (const glm::dvec3& place : places_m)
+                radius_m = std::max(radius_m, glm::distance(centre_m, place));
+            if (meets(centre_m, radius_m)) triangles += graph.clusters[i].triangles;
+        }
+        return triangles;
+    }
+    [[nodiscard]] std::size_t triangles(const LevelPyramid& pyramid, const NodeSelection& selection) const {
+        std::size_t triangles = 0;
+        for (const DrawnNode& drawn : selection.nodes) {
+            const PyramidLevel& level = pyramid.levels[static_cast<std::size_t>(drawn.level)];
+            const PageSummary& page = level.page_of_node(drawn.row, drawn.column).summary;
+            const gpu::MeshletBounds& node = level.node(drawn.row, drawn.column);
+            if (meets(page.origin_ecef.m + page.ecef_from_page * glm::dvec3(node.centre),
+                      static_cast<double>(node.radius)))
+                triangles += static_cast<std::size_t>(2 * level.grid.row.quads_of_node(drawn.row) *
+                                                      level.grid.column.quads_of_node(drawn.column));
+        }
+        return triangles;
+    }
+
+  private:
+    glm::dvec3 eye_m_;
+    glm::dmat3 view_;
+    Tile tile_;
+    std::array<Plane, 5> planes_;
+};
+
+Result<void> print_views(const ClustersOptions& options, const RegionFile& file, const HeightField& field,
+                         const DrawnHeights& heights, const OriginalSurface& surface,
+                         const GroundBounds& bounds, const ClusterGraph& graph) {
+    ORO_TRY(const std::vector<BenchEye> eyes, read_bench_path(options.path, field.undulation, 1920, 1080));
+    const LevelPyramid pyramid = build_pyramid(field.grid, file.outline().shape, heights, options.threads);
+    for (const BenchEye& eye : eyes) {
+        const InView view(eye.camera);
+        const std::size_t clusters =
+            view.triangles(surface, bounds, graph, cut_by_pixels(graph, eye.camera, options.tau_px));
+        const std::size_t blocks =
+            view.triangles(pyramid, select_nodes(pyramid, eye.camera, view.tile(), options.tau_px));
+        std::printf("%s, 1920 x 1080, tau %g: %zu triangles in clusters, %zu in blocks, %.2f times\n",
+                    eye.name.c_str(), options.tau_px, clusters, blocks,
+                    static_cast<double>(blocks) / static_cast<double>(clusters));
+    }
+    return {};
+}
+
 Result<void> report(const ClustersOptions& options) {
     ORO_TRY(const RegionFile file, RegionFile::open(options.region));
     if (options.references && file.outline().voids > 0)
@@ -259,6 +342,7 @@ Result<void> report(const ClustersOptions& options) {
                 heights.columns, processor_s() - before_s);
     print_levels(graph);
     if (options.bytes) print_bytes(surface, graph);
+    if (!options.path.empty()) ORO_CHECK(print_views(options, file, field, heights, surface, bounds, graph));
     return print_cuts(options, file, field.grid, heights, graph);
 }
 
@@ -276,6 +360,9 @@ int main(int argc, char** argv) {
     app.add_option("--threads", options.threads, "Threads")->check(CLI::Range(1, 64));
     app.add_option("--kept", options.kept_share, "Share of a group's triangles that is kept")
         ->check(CLI::Range(0.1, 0.9));
+    app.add_option("--path", options.path, "A file of eyes: count what their views take, too");
+    app.add_option("--tau", options.tau_px, "Largest error in these views, pixels")
+        ->check(CLI::Range(0.0, 1000.0));
     app.add_flag("--references", options.references,
                  "Count blocks, greedy triangulations (TIN) and collapses without groups, too");
     app.add_flag("--bytes", options.bytes, "Estimate what the levels above the leaves take in a file");

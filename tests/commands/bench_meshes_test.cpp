@@ -7,10 +7,12 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <string>
 
 #include "apps/bench/bench_blocks.h"
 #include "apps/bench/bench_rtin.h"
 #include "apps/bench/bench_tin.h"
+#include "core/surface/grid_surface.h"
 #include "tests/core/lod/pyramid_region.h"
 
 namespace oro {
@@ -137,6 +139,56 @@ TEST(BenchTin, IsDelaunayAndWithinItsErrorOnRandomFields) {
     }
     std::printf("seed %u: %zu triangles\n", seed, triangles);
     EXPECT_GT(triangles, 10000U);
+}
+
+// One cell: from its south-west to its north-east post an edge passes the cell's diagonal 7 m off.
+TEST(BenchMesh, WorstPlaceOfAFlippedDiagonalIsInItsMiddle) {
+    const DrawnHeights heights =
+        heights_of(2, 2, [](int row, int column) { return row == column ? 2.0 + 2.0 * row : 20.0 * column; });
+    const WorstPlace worst = worst_place(heights, {MeshPost{0, 0}, {0, 1}, {1, 0}});
+    EXPECT_DOUBLE_EQ(worst.error_m, 7.0);
+    EXPECT_EQ(worst.from, (MeshPost{0, 0}));
+    EXPECT_EQ(worst.to, (MeshPost{1, 1}));
+    EXPECT_EQ(worst_place(heights, {MeshPost{0, 0}, {0, 1}, {1, 1}}).error_m, 0.0);
+    // The triangulation of four posts takes the better diagonal.
+    GreedyTin tin(heights, true);
+    tin.refine(0.0);
+    EXPECT_EQ(tin.triangles(), 2U);
+    for (const MeshTriangle& triangle : tin.mesh()) EXPECT_EQ(worst_place(heights, triangle).error_m, 0.0);
+}
+
+// Held to every place: asked of the surface that clusters are held against.
+TEST(BenchTin, IsWithinItsErrorAtEveryPlaceOfRandomFields) {
+    constexpr std::uint64_t seed = 515;
+    std::mt19937_64 random(seed);
+    for (int i = 0; i < 12; ++i) {
+        const int rows = 2 + static_cast<int>(random() % 40), columns = 2 + static_cast<int>(random() % 40);
+        const DrawnHeights heights = random_heights(random, rows, columns);
+        const GridSurface surface(heights);
+        GreedyTin tin(heights, true), at_posts(heights);
+        for (const double error_m : {60.0, 20.0, 3.0, 0.0}) {
+            SCOPED_TRACE("seed 515, field " + std::to_string(i) + ", error " + std::to_string(error_m));
+            tin.refine(error_m);
+            at_posts.refine(error_m);
+            const auto mesh = tin.mesh();
+            expect_whole(mesh, rows, columns);
+            expect_delaunay(mesh);
+            EXPECT_GE(mesh.size(), at_posts.triangles() / 2);
+            for (const MeshTriangle& triangle : mesh) {
+                std::array<SurfaceVertex, 3> corners;
+                for (std::size_t j = 0; j < 3; ++j)
+                    corners[j] = surface.vertex(
+                        static_cast<VertexNumber>(triangle[j].row * columns + triangle[j].column));
+                double found =
+                    surface.inner_difference(corners[0], corners[1], corners[2], OriginalSurface::no_limit);
+                for (std::size_t j = 0; j < 3; ++j)
+                    found = std::max(found, surface.edge_difference(corners[j], corners[(j + 1) % 3],
+                                                                    OriginalSurface::no_limit));
+                EXPECT_LE(found * height_step_m, error_m + 1.0e-9);
+                EXPECT_NEAR(found * height_step_m, worst_place(heights, triangle).error_m, 1.0e-9);
+            }
+        }
+    }
 }
 
 TEST(BenchMesh, WorstPostIsThatOfBruteForce) {

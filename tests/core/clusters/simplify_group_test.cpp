@@ -99,6 +99,22 @@ TEST(SimplifyGroup, KeepsToALimitAtEveryPlace) {
     }
 }
 
+// One move at a time, with all costs asked anew each time, does the same.
+TEST(SimplifyGroup, TheOrderIsThatOfCostsAskedAnew) {
+    for (const double limit_m : {20.0, 100.0}) {
+        const GroupSimplifier::Aim all{.limit = limit_m / height_step_m};
+        Group at_once(rough_field(47.0, 8.0, 22, 20), none_locked);
+        at_once.simplify(all);
+        Group one_by_one(rough_field(47.0, 8.0, 22, 20), none_locked);
+        for (int before = 0; before != one_by_one.mesh.triangles();) {
+            before = one_by_one.mesh.triangles();
+            one_by_one.simplify({.triangles = before - 1, .limit = all.limit});
+        }
+        EXPECT_LT(at_once.mesh.triangles(), 500);
+        EXPECT_EQ(at_once.triangles(), one_by_one.triangles());
+    }
+}
+
 // A half plane, and a triangle that touches its straight rim with a corner alone: that vertex is on the rim
 // of both, and stays, or the triangle would move, too.
 TEST(SimplifyGroup, WhereTrianglesMeetAtAPointItStays) {
