@@ -18,7 +18,10 @@ Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exagg
     const bool own_geoid = region.field.undulation.N_m.size() == region.file->outline().undulation.N_m.size();
     if (own_geoid && exaggeration == 1.0) return pages_of_file(region.file);
     ORO_TRY(HeightField field, field_in_memory(*region.file));
-    if (!own_geoid) field.undulation = region.field.undulation;
+    if (!own_geoid) {
+        field.undulation = region.field.undulation;
+        field.N_of_posts_m = region.field.N_of_posts_m;
+    }
     return pages_in_memory(field, exaggeration, thread_count(), progress);
 }
 

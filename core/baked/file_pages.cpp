@@ -11,16 +11,26 @@
 
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
+#include "core/net/page_on_net.h"
 
 namespace oro {
 namespace {
 
 constexpr std::size_t records_kept = 65536;  // 40 MB
 
+// N for what is coloured by H.
+UndulationField drawn_undulation(const RegionOutline& outline) {
+    if (!outline.grid.net) return outline.undulation;
+    HeightField field;
+    field.grid = outline.grid;
+    field.undulation = outline.undulation;
+    return oro::drawn_undulation(field);
+}
+
 class FilePages : public RegionPages {
   public:
     explicit FilePages(std::shared_ptr<const RegionFile> file)
-        : RegionPages({file->outline().grid, file->outline().undulation, file->outline().shape,
+        : RegionPages({file->outline().grid, drawn_undulation(file->outline()), file->outline().shape,
                        file->outline().triangles}),
           file_(std::move(file)) {}
 
@@ -42,8 +52,8 @@ class FilePages : public RegionPages {
         const auto payload = std::make_unique<PagePayload>();
         ORO_CHECK(file_->payload(page, *payload));
         const auto elevations = std::make_unique<PageElevations>(PageElevations{payload->H_m});
-        const PageHeights heights =
-            page_heights(facts().grid, facts().undulation, facts().shape.exaggeration, *elevations, page);
+        const PageHeights heights = page_heights(facts().grid, file_->outline().undulation,
+                                                 facts().shape.exaggeration, *elevations, page);
         build_page(facts().grid, facts().shape, heights, page, block);
         for (std::size_t i = 0; i < gpu::meshlets_per_page; ++i) {
             block.meshlets[i].error_m = payload->error_m[i];
@@ -168,6 +178,7 @@ Result<HeightField> field_in_memory(const RegionFile& file) {
     HeightField field;
     field.grid = file.outline().grid;
     field.undulation = file.outline().undulation;
+    if (field.grid.net) field.N_of_posts_m = N_of_net_m(*field.grid.net, field.undulation, thread_count());
     field.H_m.assign(field.grid.post_count(), void_height_m);
     const auto payload = std::make_unique<PagePayload>();
     for (std::uint64_t i = 0; i < pages; ++i) {

@@ -58,6 +58,7 @@ class PageOrder {
 // Where the parts of a region file lie; see core/baked/region_format.h.
 struct RegionOffsets {
     std::uint64_t undulation;
+    std::uint64_t net;
     std::uint64_t records;
     std::uint64_t payloads;
 };

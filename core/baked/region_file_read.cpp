@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/baked/net_bytes.h"
 #include "core/baked/region_format.h"
 #include "core/base/checksum.h"
 #include "core/base/little_endian.h"
@@ -31,10 +32,10 @@ Result<RegionHeader> read_header(const OpenFile& file, std::uint64_t size, Heade
         return refused("is cut off at byte " + std::to_string(size) + ", within its header of " +
                        std::to_string(header_bytes) + " bytes");
     const auto found_version = from_little_endian<std::uint32_t>(&bytes[magic.size()]);
-    if (found_version != version)
+    if (found_version != version && found_version != version_on_net)
         return refused("is of version " + std::to_string(found_version) +
-                       " of the region format (byte 8), this program reads version " +
-                       std::to_string(version));
+                       " of the region format (byte 8), this program reads versions " +
+                       std::to_string(version) + " and " + std::to_string(version_on_net));
     const std::uint64_t computed = xxh64(std::span(bytes).first(header_bytes - 8));
     const auto stored = from_little_endian<std::uint64_t>(&bytes[header_bytes - 8]);
     if (computed != stored)
@@ -83,6 +84,18 @@ Result<void> check_part(const OpenFile& file, const Part& part) {
     return read_part(file, part, [](std::uint64_t, std::span<const std::byte>) {});
 }
 
+Result<PostGrid> read_net(const OpenFile& file, const RegionHeader& header, std::uint64_t offset) {
+    const Part part{"net", offset, header.net_bytes, header.net_checksum};
+    ORO_CHECK(check_part(file, part));
+    std::vector<std::byte> bytes(header.net_bytes);
+    ORO_CHECK(read_part(file, part, [&](std::uint64_t at, std::span<const std::byte> piece) {
+        std::copy(piece.begin(), piece.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+    }));
+    auto net = net_from_bytes(bytes, header.grid.rows(), header.grid.columns());
+    if (!net.ok()) return file.damaged(offset, "the net of its posts is none: " + net.error().what);
+    return grid_on_net(std::move(*net));
+}
+
 Result<RegionOutline> read_outline(const OpenFile& file, const RegionHeader& header) {
     const RegionOffsets offsets = offsets_of(header);
     RegionOutline outline;
@@ -110,6 +123,9 @@ Result<RegionOutline> read_outline(const OpenFile& file, const RegionHeader& hea
     }));
     if (const auto wrong = implausible(outline.undulation.N_m, offsets.undulation))
         return file.damaged(wrong->offset, wrong->what);
+    if (header.version == version_on_net) {
+        ORO_TRY(outline.grid, read_net(file, header, offsets.net));
+    }
     return outline;
 }
 

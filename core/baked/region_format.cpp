@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "core/baked/net_bytes.h"
 #include "core/base/checksum.h"
 #include "core/base/little_endian.h"
 
@@ -74,16 +75,30 @@ void exchange_axis(Visit& visit, Axis& axis) {
     visit(step);
     visit(count);
 }
+// An axis of a grid on a net, and a number of the net.
+template <class Visit, class Axis, class Number>
+void exchange_net_axis(Visit& visit, Axis& axis, Number& of_net) {
+    visit(axis.posts_per_deg);
+    visit(axis.phase_deg);
+    visit(of_net);
+    visit(axis.step);
+    visit(axis.count);
+}
 template <class Visit, class Header>
 void exchange_header(Visit& visit, Header& header) {
-    auto& [header_size, file_bytes, fingerprint, grid, undulation_lat, undulation_lon, occluder_radii_m,
-           lowest_H_m, highest_H_m, voids, triangles, description_bytes, undulation_nodes, pages,
-           description_checksum, undulation_checksum] = header;
+    auto& [found_version, header_size, file_bytes, fingerprint, grid, net_bytes, net_checksum, undulation_lat,
+           undulation_lon, occluder_radii_m, lowest_H_m, highest_H_m, voids, triangles, description_bytes,
+           undulation_nodes, pages, description_checksum, undulation_checksum] = header;
     visit(header_size);
     visit(file_bytes);
     visit(fingerprint);
-    exchange_axis(visit, grid.lat);
-    exchange_axis(visit, grid.lon);
+    if (found_version == version_on_net) {
+        exchange_net_axis(visit, grid.lat, net_bytes);
+        exchange_net_axis(visit, grid.lon, net_checksum);
+    } else {
+        exchange_axis(visit, grid.lat);
+        exchange_axis(visit, grid.lon);
+    }
     exchange_axis(visit, undulation_lat);
     exchange_axis(visit, undulation_lon);
     exchange_vector(visit, occluder_radii_m);
@@ -164,6 +179,13 @@ RegionHeader header_of(const RegionOutline& outline, std::uint64_t fingerprint) 
     RegionHeader header;
     header.fingerprint = fingerprint;
     header.grid = outline.grid;
+    if (const GridNet* const net = outline.grid.net.get()) {
+        header.version = version_on_net;
+        header.grid.lat = {0.0, 0.0, 0, -1, net->rows()};
+        header.grid.lon = {0.0, 0.0, 0, +1, net->columns()};
+        header.grid.net.reset();
+        header.net_bytes = net_to_bytes(*net).size();
+    }
     header.undulation_lat = outline.undulation.lat;
     header.undulation_lon = outline.undulation.lon;
     header.occluder_radii_m = outline.shape.occluder.radii_m;
@@ -180,7 +202,7 @@ HeaderBytes header_to_bytes(const RegionHeader& header) {
     HeaderBytes bytes{};
     std::memcpy(bytes.data(), magic.data(), magic.size());
     Putter put(bytes.data() + magic.size());
-    put(version);
+    put(header.version);
     exchange_header(put, header);
     assert(put.at() == &bytes[header_bytes - 8]);
     put_checksum(bytes);
@@ -189,7 +211,8 @@ HeaderBytes header_to_bytes(const RegionHeader& header) {
 
 RegionHeader header_from_bytes(const HeaderBytes& bytes) {
     RegionHeader header;
-    Getter get(bytes.data() + magic.size() + sizeof(version));
+    Getter get(bytes.data() + magic.size());
+    get(header.version);
     exchange_header(get, header);
     return header;
 }
@@ -197,7 +220,8 @@ RegionHeader header_from_bytes(const HeaderBytes& bytes) {
 RegionOffsets offsets_of(const RegionHeader& header) {
     RegionOffsets offsets{};
     offsets.undulation = header_bytes + header.description_bytes;
-    offsets.records = offsets.undulation + header.undulation_nodes * sizeof(float);
+    offsets.net = offsets.undulation + header.undulation_nodes * sizeof(float);
+    offsets.records = offsets.net + header.net_bytes;
     offsets.payloads = offsets.records + header.pages * record_bytes;
     return offsets;
 }
@@ -215,6 +239,11 @@ std::vector<std::byte> beginning_of(const RegionOutline& outline, std::uint64_t 
     header.pages = PageOrder(outline.grid).count();
     header.description_checksum = xxh64(text);
     header.undulation_checksum = xxh64(values);
+    if (outline.grid.net) {
+        const std::vector<std::byte> net = net_to_bytes(*outline.grid.net);
+        header.net_checksum = xxh64(net);
+        bytes.insert(bytes.end(), net.begin(), net.end());
+    }
     const HeaderBytes front = header_to_bytes(header);
     std::copy(front.begin(), front.end(), bytes.begin());
     return bytes;

@@ -3,12 +3,17 @@
 //   byte 0      header, 256 bytes: RegionHeader between the magic, the version and a checksum
 //   byte 256    description
 //               undulation, 4 bytes a node
+//               the net, where the posts lie on one (core/baked/net_bytes.h)
 //               records, 448 bytes a page, in the order of PageOrder: found without reading anything else
 //               payloads (core/baked/page_compression.h), in the same order, one right after the other, to
 //               the end
 //
 // Numbers are little endian. Each part has its checksum, XXH64: header and records their own, at their end;
-// description and undulation in the header, a payload in its record. No byte is without one.
+// description, undulation and net in the header, a payload in its record. No byte is without one.
+//
+// Version 1 has posts on latitudes and longitudes, version 2 on a net. Of its axes only step and count mean
+// anything: that of the rows has the bytes of the net where the other version has the first post's index,
+// that of the columns its checksum, and all else is 0.
 #pragma once
 
 #include <array>
@@ -27,7 +32,10 @@ namespace oro::region_format {
 // Begins with a byte that no text has, and holds both kinds of line end, which a transfer as text would
 // change.
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'O', 'R', 'O', '\r', '\n', 0x1a, '\n'};
-inline constexpr std::uint32_t version = 1;
+inline constexpr std::uint32_t version = 1, version_on_net = 2;
+[[nodiscard]] inline std::uint32_t version_of(const PostGrid& grid) {
+    return grid.net ? version_on_net : version;
+}
 inline constexpr std::size_t header_bytes = 256;
 inline constexpr std::size_t record_bytes = 448;
 inline constexpr std::uint64_t longest_description = 64U << 20U;
@@ -35,10 +43,13 @@ inline constexpr std::uint64_t largest_file = (std::uint64_t{1} << 63U) - 1;
 
 // What the header holds between version and checksum, in this order.
 struct RegionHeader {
+    std::uint32_t version{region_format::version};  // the one before the others
     std::uint32_t header_size{header_bytes};
     std::uint64_t file_bytes{};  // 0: unfinished
     std::uint64_t fingerprint{};
-    PostGrid grid;
+    PostGrid grid;  // without its net
+    std::uint64_t net_bytes{};
+    std::uint64_t net_checksum{};
     GridAxis undulation_lat;
     GridAxis undulation_lon;
     glm::dvec3 occluder_radii_m{};

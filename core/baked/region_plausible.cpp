@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/baked/net_bytes.h"
 #include "core/baked/region_format.h"
 
 namespace oro::region_format {
@@ -125,12 +126,37 @@ void check_terrain(Findings& findings, const RegionHeader& header) {
                      "at most " + said(triangles));
 }
 
+void check_net_axis(Findings& findings, const GridAxis& axis, int step, std::uint64_t offset) {
+    findings.require(axis.posts_per_deg == 0.0, offset, "posts per degree of a net", axis.posts_per_deg, "0");
+    findings.require(axis.phase_deg == 0.0, offset + 8, "phase of a net", axis.phase_deg, "0");
+    findings.require(axis.step == step, offset + 24, "step", static_cast<double>(axis.step),
+                     step > 0 ? "1" : "-1");
+    findings.require(axis.count >= 2 && axis.count <= most_posts, offset + 28, "posts",
+                     static_cast<double>(axis.count), "2 to " + std::to_string(most_posts));
+}
+
+// Of a grid on a net; what its coefficients say is looked at when they are read.
+void check_net(Findings& findings, const RegionHeader& header) {
+    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 40U;
+    check_net_axis(findings, header.grid.lat, -1, at_grid_lat);
+    check_net_axis(findings, header.grid.lon, +1, at_grid_lon);
+    const std::uint64_t bytes = header.net_bytes;
+    findings.require(bytes >= net_front_bytes + patch_bytes && bytes <= most_bytes &&
+                         (bytes - net_front_bytes) % patch_bytes == 0,
+                     at_grid_lat + 16, "net bytes", bytes,
+                     said(net_front_bytes) + " and " + said(patch_bytes) + " for each patch");
+}
+
 // All that does not follow from other numbers.
 std::optional<Implausible> implausible_given(const RegionHeader& header) {
     Findings findings;
-    check_axis(findings, header.grid.lat, -1, at_grid_lat);
-    check_axis(findings, header.grid.lon, +1, at_grid_lon);
-    check_angles(findings, header.grid, at_grid_lat, at_grid_lon, angle_slack_deg);
+    if (header.version == version_on_net) {
+        check_net(findings, header);
+    } else {
+        check_axis(findings, header.grid.lat, -1, at_grid_lat);
+        check_axis(findings, header.grid.lon, +1, at_grid_lon);
+        check_angles(findings, header.grid, at_grid_lat, at_grid_lon, angle_slack_deg);
+    }
     check_undulation(findings, header);
     check_terrain(findings, header);
     findings.require(header.description_bytes <= longest_description, at_description, "description bytes",

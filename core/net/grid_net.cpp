@@ -49,18 +49,18 @@ PostPlace place_of_normal(const glm::dvec3& normal) {
 
 GridNet::Cut GridNet::cut(int posts, int patches) {
     const int patch_posts = std::max(fewest_posts, (posts + patches - 1) / patches);
-    return {posts, patch_posts, (posts + patch_posts - 1) / patch_posts};
+    return {{0, posts, patch_posts, (posts + patch_posts - 1) / patch_posts}};
 }
 
-GridNet::GridNet(int rows, int columns, int patches_a_side)
-    : down_(cut(rows, patches_a_side)),
-      across_(cut(columns, patches_a_side)),
+GridNet::GridNet(const Cut& down, const Cut& across)
+    : down_(down),
+      across_(across),
       patches_(static_cast<std::size_t>(down_.patches) * static_cast<std::size_t>(across_.patches)) {}
 
 Result<std::shared_ptr<const GridNet>> GridNet::fit(int rows, int columns, const ExactPlaces& exact) {
     assert(rows >= 2 && columns >= 2);
     for (int patches = 1; patches == 1 || patches * fewest_posts <= std::max(rows, columns); patches *= 2) {
-        std::shared_ptr<GridNet> net(new GridNet(rows, columns, patches));
+        std::shared_ptr<GridNet> net(new GridNet(cut(rows, patches), cut(columns, patches)));
         ORO_TRY(const bool holds, net->fit_patches(exact));
         if (!holds) continue;
         ORO_CHECK(net->measure());
@@ -139,7 +139,9 @@ Result<double> GridNet::patch_error_m(const ExactPlaces& exact, int row, int col
 }
 
 int GridNet::Cut::patch_of(double number) const {
-    return std::clamp(static_cast<int>(number / patch_posts), 0, patches - 1);
+    const double patch = (number + first) / patch_posts;
+    if (!(patch > 0.0)) return 0;  // nor is what is no number
+    return static_cast<int>(std::min(patch, patches - 1.0));
 }
 
 GridNet::Jet GridNet::jet_at(double row, double column) const {

@@ -45,6 +45,29 @@ class GridNet {
     // smooth enough, is mirrored or has a fold.
     static Result<std::shared_ptr<const GridNet>> fit(int rows, int columns, const ExactPlaces& exact);
 
+    // A part of it: the same posts, with the same bits. At least 2 of each, all within the grid. Errors: none
+    // that its whole had not.
+    [[nodiscard]] Result<std::shared_ptr<const GridNet>> part(int first_row, int first_column, int rows,
+                                                              int columns) const;
+
+    // All that it is made of, to the bit: for files.
+    struct Stored {
+        struct Axis {
+            int first;        // post of the first patch that the grid begins with
+            int posts;        // of the grid
+            int patch_posts;  // of each patch
+            int patches;
+        };
+        Axis down{}, across{};
+        double error_m{};
+        std::vector<glm::dvec3> coefficients;  // patch by patch, a row of them after another
+    };
+    static constexpr int coefficients_a_patch = 81;
+    [[nodiscard]] Stored stored() const;
+    // The inverse; any numbers may be given. Errors (of a "grid of posts"): what makes them no net: counts
+    // that do not fit each other, normals that are none, patches that do not meet, a fold.
+    static Result<std::shared_ptr<const GridNet>> from(const Stored& stored);
+
     [[nodiscard]] PostPlace place_at(double row, double column) const;
     // Fractional numbers of the post at a place. Within 1e-9 of a post inside the grid; outside it, a place
     // that is outside, too (all that is a quarter of the Earth away is one).
@@ -105,13 +128,16 @@ class GridNet {
     struct Patch {
         std::array<glm::dvec3, terms * terms> coefficients;
     };
+    static_assert(terms * terms == coefficients_a_patch);
     struct Jet {
         glm::dvec3 normal, by_row, by_column;  // not of unit length, but all but
     };
-    GridNet(int rows, int columns, int patches_a_side);
+    struct Cut;
+    GridNet(const Cut& down, const Cut& across);
     Result<bool> fit_patches(const ExactPlaces& exact);
     Result<void> fit_patch(const ExactPlaces& exact, int row, int column);
     Result<double> patch_error_m(const ExactPlaces& exact, int row, int column) const;
+    [[nodiscard]] bool patches_are_whole() const;
     Result<void> measure();
     void find_box();
     Result<void> fit_inverse();
@@ -120,19 +146,17 @@ class GridNet {
     }
     [[nodiscard]] Jet jet_at(double row, double column) const;
 
-    // The patches along one axis.
-    struct Cut {
-        int posts;  // of the grid
-        int patch_posts;
-        int patches;
+    // The patches along one axis. Sums of whole numbers are exact, so a part has the places of its whole.
+    struct Cut : Stored::Axis {
         [[nodiscard]] int patch_of(double number) const;
         // -1 .. 1 from the patch's first post to the next one's.
         [[nodiscard]] double in_patch(double number, int patch) const {
-            return 2.0 * (number - static_cast<double>(patch) * patch_posts) / patch_posts - 1.0;
+            return 2.0 * (number + first - static_cast<double>(patch) * patch_posts) / patch_posts - 1.0;
         }
         [[nodiscard]] double last() const { return posts - 1.0; }
     };
     static Cut cut(int posts, int patches);
+    [[nodiscard]] glm::dvec3 in_patch(int row, int column, double down, double right) const;
 
     Cut down_, across_;
     std::vector<Patch> patches_;

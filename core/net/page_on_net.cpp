@@ -72,7 +72,7 @@ double N_beyond_m(const HeightField& field, int row, int column) {
 
 UndulationField drawn_undulation(const HeightField& field) {
     UndulationField nodes;
-    if (field.N_of_posts_m.empty()) return nodes;
+    if (field.N_of_posts_m.empty() && field.undulation.N_m.empty()) return nodes;
     const PostGrid& grid = field.grid;
     const int step = undulation_step(grid);
     nodes.lat.count = (grid.rows() + step - 2) / step + 1;

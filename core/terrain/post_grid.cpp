@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "core/base/parallel.h"
 
 namespace oro {
 namespace {
@@ -71,6 +74,35 @@ double PostGrid::column_step_rad() const {
     return net ? net->column_m() / wgs84_a_m : radians_from_deg(lon.spacing_deg()).rad;
 }
 
+PostGrid grid_on_net(std::shared_ptr<const GridNet> net) {
+    // Its axes count, and say nothing else: what asks them for an angle gets no number.
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    PostGrid grid;
+    grid.lat = {nothing, nothing, 0, -1, net->rows()};
+    grid.lon = {nothing, nothing, 0, +1, net->columns()};
+    grid.net = std::move(net);
+    return grid;
+}
+
+float N_on_net_m(const UndulationField& undulation, const glm::dvec3& normal) {
+    const PostPlace place = place_of_normal(normal);
+    return static_cast<float>(undulation.at_m(place.lat_deg, place.lon_deg));
+}
+
+std::vector<float> N_of_net_m(const GridNet& net, const UndulationField& undulation, int threads) {
+    std::vector<float> N_m;
+    if (undulation.N_m.empty()) return N_m;
+    const auto columns = static_cast<std::size_t>(net.columns());
+    N_m.resize(static_cast<std::size_t>(net.rows()) * columns);
+    in_parallel(net.rows(), threads, [&](int row) {
+        std::vector<glm::dvec3> normals(columns);
+        net.normals_of_row(row, 0, normals);
+        for (std::size_t c = 0; c < columns; ++c)
+            N_m[static_cast<std::size_t>(row) * columns + c] = N_on_net_m(undulation, normals[c]);
+    });
+    return N_m;
+}
+
 bool PostGrid::goes_round() const {
     if (net) return false;
     return std::abs(lon.count - 1 - 360.0 * lon.posts_per_deg) < 0.01;
@@ -102,7 +134,12 @@ double UndulationField::at_m(const Between& row, const Between& column) const {
 
 double HeightField::N_at_post_m(int row, int column) const {
     if (!grid.net) return undulation.at_m(grid.lat.at_deg(row), grid.lon.at_deg(column));
-    if (N_of_posts_m.empty()) return 0.0;
+    if (N_of_posts_m.empty()) {
+        if (undulation.N_m.empty()) return 0.0;
+        glm::dvec3 normal;
+        grid.net->normals_of_row(row, column, {&normal, 1});
+        return static_cast<double>(N_on_net_m(undulation, normal));
+    }
     return static_cast<double>(
         N_of_posts_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
                      static_cast<std::size_t>(column)]);

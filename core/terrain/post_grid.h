@@ -66,6 +66,8 @@ struct PostGrid {
     // True for a region 360 degrees wide: its last column is its first.
     [[nodiscard]] bool goes_round() const;
 };
+// The grid of all posts of a net.
+PostGrid grid_on_net(std::shared_ptr<const GridNet> net);
 
 // The height of a post that has none. Not a height that any source can hold, and no NaN, so that none can
 // reach the GPU.
@@ -124,7 +126,8 @@ struct HeightField {
     std::shared_ptr<const PostSource> posts;
     std::optional<HeightRange> range;
     UndulationField undulation;
-    // N of each post where the grid has a net (and N is not 0 everywhere): to look it up by place takes long.
+    // N of each post where the grid has a net, as N_on_net_m() has it: to look it up by place takes long.
+    // Empty where the posts are not in memory, and where N is 0 everywhere.
     std::vector<float> N_of_posts_m;
 
     [[nodiscard]] float H_at_post_m(int row, int column) const {
@@ -145,6 +148,11 @@ struct HeightField {
     // The same in double, before it is rounded to 0.5 mm.
     [[nodiscard]] std::optional<double> surface_H_m(double lat_deg, double lon_deg) const;
 };
+
+// N at the place of a net's post with that normal, in whichever way it is asked for: rounded to float.
+float N_on_net_m(const UndulationField& undulation, const glm::dvec3& normal);
+// The same of all posts; nothing where N is 0 everywhere.
+std::vector<float> N_of_net_m(const GridNet& net, const UndulationField& undulation, int threads);
 
 // Lowest and highest H and the number of void posts; 0..0 when all are void.
 HeightRange height_range(const HeightField& field);

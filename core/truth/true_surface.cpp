@@ -62,10 +62,11 @@ TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int thre
             std::minmax_element(field.N_of_posts_m.begin(), field.N_of_posts_m.end());
         N_range_m_ = {static_cast<double>(*lowest), static_cast<double>(*highest)};
     }
-    if (!field.undulation.N_m.empty() && !grid.net) {
-        for (int row = 0; row < grid.rows(); ++row)
+    // Posts of a net that are not in memory have theirs from between these nodes.
+    if (!field.undulation.N_m.empty() && (!grid.net || field.N_of_posts_m.empty())) {
+        for (int row = 0; !grid.net && row < grid.rows(); ++row)
             N_rows_.push_back(field.undulation.row_between(row_lat_deg(grid, row)));
-        for (int column = 0; column < grid.columns(); ++column)
+        for (int column = 0; !grid.net && column < grid.columns(); ++column)
             N_columns_.push_back(field.undulation.column_between(grid.lon.at_deg(column)));
         const auto [lowest, highest] =
             std::minmax_element(field.undulation.N_m.begin(), field.undulation.N_m.end());

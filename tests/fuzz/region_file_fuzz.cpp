@@ -1,6 +1,6 @@
 // Any bytes as a region file. The first byte says how they are taken: as the whole file; as numbers of a
-// header whose magic, size and checksum are then made right, with the parts after it; as the payload of a
-// page. What opens must have an outline that makes sense, and may be read to its end.
+// header whose magic, size and checksums are then made right, with the parts after it, the net among them; as
+// the payload of a page. What opens must have an outline that makes sense, and may be read to its end.
 #include <unistd.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ void check_payload(const PagePayload& payload) {
 }
 
 // Makes right what a fuzzer cannot guess, so that the numbers behind it are looked at.
-void mend(std::vector<std::byte>& bytes) {
+void mend(std::vector<std::byte>& bytes, std::uint32_t version) {
     using namespace region_format;
     if (bytes.size() < header_bytes) bytes.resize(header_bytes);
     std::memcpy(bytes.data(), magic.data(), magic.size());
@@ -50,6 +50,8 @@ void mend(std::vector<std::byte>& bytes) {
         const std::span<std::byte> all(bytes);
         to_little_endian(xxh64(all.subspan(header_bytes, header.description_bytes)), &bytes[232]);
         to_little_endian(xxh64(all.subspan(places.undulation, header.undulation_nodes * 4)), &bytes[240]);
+        if (version == version_on_net)
+            to_little_endian(xxh64(all.subspan(places.net, header.net_bytes)), &bytes[80]);
         for (std::uint64_t at = places.records; at < places.payloads; at += record_bytes)
             to_little_endian(xxh64(all.subspan(at, record_bytes - 8)), &bytes[at + record_bytes - 8]);
     }
@@ -74,12 +76,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size == 0) return 0;
     const auto* const from = reinterpret_cast<const std::byte*>(data);
     std::vector<std::byte> bytes(from + 1, from + size);
-    if (data[0] % 3 == 2) {
+    if (data[0] % 4 == 2) {
         const auto payload = std::make_unique<PagePayload>();
         if (!decode_payload(bytes, *payload)) check_payload(*payload);
         return 0;
     }
-    if (data[0] % 3 == 1) mend(bytes);
+    if (data[0] % 4 == 1) mend(bytes, region_format::version);
+    if (data[0] % 4 == 3) mend(bytes, region_format::version_on_net);
     static const std::string path =
         (std::filesystem::temp_directory_path() / ("orograph-oro-fuzz-" + std::to_string(getpid()))).string();
     std::ofstream(path, std::ios::binary)

@@ -39,7 +39,7 @@ class DamagedPosts : public testing::Test {
         const std::uint64_t records = region_format::header_bytes + file->outline().description.size() +
                                       4 * file->outline().undulation.N_m.size();
         const std::uint64_t count = file->order().count();
-        const RegionOffsets offsets{0, records, records + count * region_format::record_bytes};
+        const RegionOffsets offsets{0, 0, records, records + count * region_format::record_bytes};
         const auto record = region_format::read_record(*input, offsets, file->order(),
                                                        file->order().number({1, 1, 0}), file->bytes());
         EXPECT_TRUE(record.ok());

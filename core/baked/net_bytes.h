@@ -1,0 +1,26 @@
+// A net of posts (core/net/grid_net.h) as it lies in a region file: how its posts are cut into patches, its
+// error, and the coefficients of each patch; little endian, to the bit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/net/grid_net.h"
+
+namespace oro::region_format {
+
+// Before the coefficients: eight counts of 4 bytes, and the error. A patch's coefficients are three doubles
+// each.
+inline constexpr std::uint64_t net_front_bytes = 40;
+inline constexpr std::uint64_t patch_bytes = std::uint64_t{GridNet::coefficients_a_patch} * 24;
+
+[[nodiscard]] std::vector<std::byte> net_to_bytes(const GridNet& net);
+// Any bytes may be given. Errors: what makes them no net of rows x columns posts.
+[[nodiscard]] Result<std::shared_ptr<const GridNet>> net_from_bytes(std::span<const std::byte> bytes,
+                                                                    int rows, int columns);
+
+}  // namespace oro::region_format

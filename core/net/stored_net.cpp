@@ -1,0 +1,130 @@
+// Nets as numbers for files, and parts of nets.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+
+#include "core/net/grid_net.h"
+
+namespace oro {
+namespace {
+
+Error no_net(const std::string& what) {
+    return {ErrorKind::failed, "grid of posts", what};
+}
+
+// Chebyshev polynomials at x.
+std::array<double, 9> chebyshev_at(double x) {
+    std::array<double, 9> value{1.0, x};
+    for (std::size_t i = 2; i < value.size(); ++i) value[i] = 2.0 * x * value[i - 1] - value[i - 2];
+    return value;
+}
+
+bool fit_each_other(const GridNet::Stored::Axis& axis) {
+    if (axis.posts < 2 || axis.patch_posts < 2 || axis.first < 0 || axis.first >= axis.patch_posts)
+        return false;
+    const std::int64_t end = std::int64_t{axis.first} + axis.posts;
+    return axis.patches == (end + axis.patch_posts - 1) / axis.patch_posts;
+}
+
+}  // namespace
+
+GridNet::Stored GridNet::stored() const {
+    Stored stored{down_, across_, error_m_, {}};
+    stored.coefficients.reserve(patches_.size() * coefficients_a_patch);
+    for (const Patch& patch : patches_)
+        stored.coefficients.insert(stored.coefficients.end(), patch.coefficients.begin(),
+                                   patch.coefficients.end());
+    return stored;
+}
+
+Result<std::shared_ptr<const GridNet>> GridNet::from(const Stored& stored) {
+    if (!fit_each_other(stored.down) || !fit_each_other(stored.across))
+        return no_net("its posts and patches do not fit each other");
+    const auto patches =
+        static_cast<std::size_t>(stored.down.patches) * static_cast<std::size_t>(stored.across.patches);
+    if (stored.coefficients.size() / coefficients_a_patch != patches ||
+        stored.coefficients.size() % coefficients_a_patch != 0)
+        return no_net("it has " + std::to_string(stored.coefficients.size()) + " coefficients, expected " +
+                      std::to_string(patches) + " times " + std::to_string(coefficients_a_patch));
+    if (!(stored.error_m >= 0.0 && stored.error_m <= largest_error_m))
+        return no_net("its places are " + std::to_string(stored.error_m) + " m off, expected at most " +
+                      std::to_string(largest_error_m) + " m");
+    for (const glm::dvec3& coefficient : stored.coefficients) {
+        // What a normal's parts can have: none is larger than 1 anywhere.
+        constexpr double largest = 2.0;
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::abs(coefficient[axis]) <= largest))
+                return no_net("a coefficient is not within -2 .. 2");
+    }
+    std::shared_ptr<GridNet> net(new GridNet({stored.down}, {stored.across}));
+    for (std::size_t i = 0; i < patches; ++i)
+        std::copy_n(stored.coefficients.begin() + static_cast<std::ptrdiff_t>(i * coefficients_a_patch),
+                    coefficients_a_patch, net->patches_[i].coefficients.begin());
+    net->error_m_ = stored.error_m;
+    if (!net->patches_are_whole()) return no_net("its normals are not of length 1, or do not meet");
+    ORO_CHECK(net->measure());
+    return std::shared_ptr<const GridNet>(std::move(net));
+}
+
+// The sum of a patch's polynomials, -1 .. 1 each way.
+glm::dvec3 GridNet::in_patch(int row, int column, double down, double right) const {
+    const auto by_row = chebyshev_at(down), by_column = chebyshev_at(right);
+    glm::dvec3 sum(0.0);
+    for (std::size_t j = 0; j < coefficients_a_patch; ++j)
+        sum += by_row[j / terms] * by_column[j % terms] * patch(row, column).coefficients[j];
+    return sum;
+}
+
+// Looks at as many places of each patch as it has coefficients, its corners among them.
+bool GridNet::patches_are_whole() const {
+    constexpr double length_slack = 1.0e-6, apart = 1.0e-10;  // 0.6 mm; those of a fit are within 1e-11
+    const auto at = [](int i) { return -std::cos(std::numbers::pi * i / (terms - 1)); };
+    for (int row = 0; row < down_.patches; ++row) {
+        for (int column = 0; column < across_.patches; ++column) {
+            for (int i = 0; i < terms * terms; ++i) {
+                const glm::dvec3 normal = in_patch(row, column, at(i / terms), at(i % terms));
+                if (!(std::abs(glm::length(normal) - 1.0) <= length_slack)) return false;
+            }
+            for (int i = 0; i < terms; ++i) {
+                const bool below = row + 1 < down_.patches, beside = column + 1 < across_.patches;
+                if (below && !(glm::distance(in_patch(row, column, 1.0, at(i)),
+                                             in_patch(row + 1, column, -1.0, at(i))) <= apart))
+                    return false;
+                if (beside && !(glm::distance(in_patch(row, column, at(i), 1.0),
+                                              in_patch(row, column + 1, at(i), -1.0)) <= apart))
+                    return false;
+            }
+        }
+    }
+    return true;
+}
+
+Result<std::shared_ptr<const GridNet>> GridNet::part(int first_row, int first_column, int rows,
+                                                     int columns) const {
+    assert(first_row >= 0 && first_column >= 0 && rows >= 2 && columns >= 2);
+    assert(rows <= down_.posts - first_row && columns <= across_.posts - first_column);
+    // The patches that it touches, and where among them it begins.
+    const auto touched = [](const Cut& axis, int first, int posts, int& patch) {
+        const int from = axis.first + first;
+        patch = from / axis.patch_posts;
+        const int last = (from + posts - 1) / axis.patch_posts;
+        return Cut{{from - patch * axis.patch_posts, posts, axis.patch_posts, last - patch + 1}};
+    };
+    int top = 0, left = 0;
+    const Cut down = touched(down_, first_row, rows, top),
+              across = touched(across_, first_column, columns, left);
+    std::shared_ptr<GridNet> net(new GridNet(down, across));
+    for (int row = 0; row < down.patches; ++row) {
+        for (int column = 0; column < across.patches; ++column)
+            net->patches_[static_cast<std::size_t>(row * across.patches + column)] =
+                patch(top + row, left + column);
+    }
+    net->error_m_ = error_m_;
+    ORO_CHECK(net->measure());
+    return std::shared_ptr<const GridNet>(std::move(net));
+}
+
+}  // namespace oro
