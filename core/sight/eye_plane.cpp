@@ -36,12 +36,13 @@ EyePlane::EyePlane(const TrueSurface& surface, const Lookout& lookout, const Pos
                    bend_per_m_) {
     const PostGrid& grid = surface.field().grid;
     eye_enu_ = enu_from_ecef_ * lookout.sight().eye.m;
-    for (int row = 0; row < window.rows; ++row) {
+    net_ = grid.net;
+    for (int row = 0; !net_ && row < window.rows; ++row) {
         const double lat_deg = row_lat_deg(grid, window.first_row + row);
         const SineCosine lat = sine_cosine_deg(lat_deg);
         rows_.push_back({prime_vertical_radius_m(lat_deg), lat.cosine, lat.sine});
     }
-    for (int column = 0; column < window.columns; ++column) {
+    for (int column = 0; !net_ && column < window.columns; ++column) {
         const SineCosine lon =
             sine_cosine_deg(grid.lon.at_deg(grid_column(grid, window.first_column + column)));
         columns_.push_back(enu_from_ecef_ * glm::dvec3(lon.cosine, lon.sine, 0.0));
@@ -52,17 +53,26 @@ EyePlane::EyePlane(const TrueSurface& surface, const Lookout& lookout, const Pos
 
 void EyePlane::place_row(const TrueSurface& surface, int row) {
     const PostGrid& grid = surface.field().grid;
-    const RowTerms& terms = rows_[static_cast<std::size_t>(row)];
     const glm::dvec3 up = enu_from_ecef_[2];
+    std::vector<glm::dvec3> normals;
+    if (net_) {
+        normals.resize(static_cast<std::size_t>(window_.columns));
+        net_->normals_of_row(window_.first_row + row, window_.first_column, normals);
+    }
+    const auto enu_of = [&](int column, double h_m) {
+        if (net_)
+            return enu_from_ecef_ * ecef_along(normals[static_cast<std::size_t>(column)], h_m).m - eye_enu_;
+        const RowTerms& terms = rows_[static_cast<std::size_t>(row)];
+        const double across_m = (terms.normal_m + h_m) * terms.cosine;
+        const double along_m = (terms.normal_m * (1.0 - wgs84_e2) + h_m) * terms.sine;
+        return across_m * columns_[static_cast<std::size_t>(column)] + along_m * up - eye_enu_;
+    };
     double last_h_m = 0.0;
     for (int column = 0; column < window_.columns; ++column) {
         const std::optional<double> found_m =
             surface.post_h_m(window_.first_row + row, grid_column(grid, window_.first_column + column));
         const double h_m = last_h_m = found_m.value_or(last_h_m);
-        const double across_m = (terms.normal_m + h_m) * terms.cosine;
-        const double along_m = (terms.normal_m * (1.0 - wgs84_e2) + h_m) * terms.sine;
-        const glm::dvec3 enu =
-            across_m * columns_[static_cast<std::size_t>(column)] + along_m * up - eye_enu_;
+        const glm::dvec3 enu = enu_of(column, h_m);
         const double across2 = enu.x * enu.x + enu.y * enu.y, distance_m = std::sqrt(across2);
         const double seen_m = found_m ? enu.z + bend_per_m_ * across2 : no_number;
         posts_[static_cast<std::size_t>(number(row, column))] = {enu.x, enu.y, seen_m, distance_m,
@@ -71,6 +81,7 @@ void EyePlane::place_row(const TrueSurface& surface, int row) {
 }
 
 glm::dvec3 EyePlane::normal(int row, int column) const {
+    if (net_) return enu_from_ecef_ * net_->normal_at(window_.first_row + row, window_.first_column + column);
     const RowTerms& terms = rows_[static_cast<std::size_t>(row)];
     return terms.cosine * columns_[static_cast<std::size_t>(column)] + terms.sine * enu_from_ecef_[2];
 }
@@ -110,8 +121,15 @@ void EyePlane::measure(const PostGrid& grid, int threads) {
     longest_edge_m_ = std::sqrt(longest2) * (1.0 + 1.0e-9) + 1.0e-6;
     shortest_right_m_ = std::sqrt(right2);
     shortest_down_m_ = std::sqrt(down2);
-    const double tall = radians_from_deg(grid.lat.spacing_deg()).rad;
-    const double wide = radians_from_deg(grid.lon.spacing_deg()).rad;
+    const double tall = grid.row_step_rad(), wide = grid.column_step_rad();
+    if (net_) {
+        constexpr double radius_m = 6.4e6;
+        // Of the longest edge, a diagonal: whatever way it bends.
+        const double off_m = radius_m / 8.0 * net_->bend() * (tall + wide) * (tall + wide);
+        set_error(off_m * (1.0 + 2.0 * std::abs(bend_per_m_) * radius_m),
+                  off_m + most_rise_m * (tall + wide) / 4.0, steepest2);
+        return;
+    }
     double cosine = 0.0, sine = 0.0;
     for (const RowTerms& row : rows_) {
         cosine = std::max(cosine, row.cosine);
@@ -122,6 +140,10 @@ void EyePlane::measure(const PostGrid& grid, int threads) {
                         (1.0 + 2.0 * std::abs(bend_per_m_) * radius_m);
     const double sideways_m = radius_m / 8.0 * sine * (cosine * wide * wide + 2.0 * tall * wide) +
                               most_rise_m * std::max(tall, wide) / 4.0;
+    set_error(up_m, sideways_m, steepest2);
+}
+
+void EyePlane::set_error(double up_m, double sideways_m, double steepest2) {
     constexpr double rounded_m = 2.0e-6;
     // A triangle is steeper than its edges, by at most twice where these are even.
     error_m_ = 1.2 * (up_m + sideways_m * (1.0 + 2.0 * std::sqrt(steepest2))) + rounded_m;

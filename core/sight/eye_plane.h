@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
+#include <memory>
 #include <vector>
 
 #include "core/sight/viewshed.h"
@@ -63,13 +64,15 @@ class EyePlane {
   private:
     void place_row(const TrueSurface& surface, int row);
     void measure(const PostGrid& grid, int threads);
+    void set_error(double up_m, double sideways_m, double steepest2);
 
     PostWindow window_;
     std::int64_t stride_;
     std::int64_t neighbours_[6];
     std::vector<PlanePost> posts_;
     glm::dmat3 enu_from_ecef_;
-    glm::dvec3 eye_enu_{};  // of the eye's ECEF place
+    glm::dvec3 eye_enu_{};                // of the eye's ECEF place
+    std::shared_ptr<const GridNet> net_;  // where posts lie on one, instead of rows_ and columns_
     double bend_per_m_;
     double bulge_per_m_;
     struct RowTerms {
