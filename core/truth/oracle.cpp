@@ -125,7 +125,9 @@ Oracle::Search::RayPoint Oracle::Search::point_at(double t_m, double near_column
                                ? geodetic_from_ecef({sight.eye.m + offset_m})
                                : model_point(sight.earth, sight.place, offset_m).value_or(nowhere);
     if (grid_.net) {
-        const PostNumber post = grid_.net->post_at(point.lat_deg, point.lon_deg);
+        constexpr PostNumber outside{1.0e9, 1.0e9};
+        const PostNumber post =
+            point.lat_deg > 90.0 ? outside : grid_.net->post_at(point.lat_deg, point.lon_deg);
         return {t_m, post.row, post.column, point.h_m, point};
     }
     const double turn = 360.0 * grid_.lon.posts_per_deg;

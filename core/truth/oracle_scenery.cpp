@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/terrain/drawn_heights.h"
 
@@ -32,10 +32,7 @@ Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from)
     const double lon_deg = flat ? sight.place.lon_deg : 0.5 * (grid.west_deg() + grid.east_deg());
     frame_from_ecef = glm::transpose(ecef_from_enu(lat_deg, lon_deg));
     constexpr int step = TrueSurface::block_cells;
-    if (grid.net) {
-        assert(sight.earth == Earth::ellipsoid);
-        return;
-    }
+    if (grid.net) return;
     for (int row = 0; row - step < grid.rows() - 1; row += step) {
         const double at_deg = row_lat_deg(grid, std::min(row, grid.rows() - 1));
         const SineCosine angle = sine_cosine_deg(at_deg);
@@ -56,9 +53,55 @@ Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from)
     }
 }
 
-// The frame is the plane's own; sight lines that bend lift it by the square of the distance across it.
-void Oracle::Scenery::flat_box(const Patch& patch, const TrueSurface::Layer& layer, glm::dvec3& low,
-                               glm::dvec3& high) const {
+// Between its corners a patch of a net strays from straight ways by at most an eighth of its angle squared
+// times how much it bends; on a parallel these angles are wider. Near a pole it may have any longitude.
+Oracle::Scenery::PlaneBox Oracle::Scenery::net_on_plane(const Patch& patch) const {
+    const PostGrid& grid = surface.field().grid;
+    const TrueSurface::Corners& corners = surface.corners();
+    const double cells = TrueSurface::block_cells;
+    const double angle = (patch.south - patch.north) * cells * grid.row_step_rad() +
+                         (patch.east - patch.west) * cells * grid.column_step_rad();
+    double south_deg = 90.0, north_deg = -90.0, first_deg = 0.0, west_deg = 0.0, east_deg = 0.0;
+    for (const auto& [row, column] : {std::pair{patch.north, patch.west},
+                                      {patch.north, patch.east},
+                                      {patch.south, patch.west},
+                                      {patch.south, patch.east}}) {
+        const PostPlace place =
+            place_of_normal(corners.normals[static_cast<std::size_t>(row * corners.columns + column)]);
+        if (south_deg > north_deg) first_deg = place.lon_deg;
+        const double turned_deg = std::remainder(place.lon_deg - first_deg, 360.0);
+        south_deg = std::min(south_deg, place.lat_deg);
+        north_deg = std::max(north_deg, place.lat_deg);
+        west_deg = std::min(west_deg, turned_deg);
+        east_deg = std::max(east_deg, turned_deg);
+    }
+    const double highest_deg = std::max(north_deg, -south_deg) + deg_from_radians(Radians(angle));
+    constexpr double near_pole_deg = 80.0;
+    const bool any_meridian = !(highest_deg < near_pole_deg);
+    const SineCosine highest = sine_cosine_deg(std::min(highest_deg, near_pole_deg));
+    const double stray_deg = deg_from_radians(
+        Radians(grid.net->bend() * angle * angle / 8.0 * 1.1 * (1.0 + highest.sine / highest.cosine)));
+    const double lat_pad_deg = any_meridian ? deg_from_radians(Radians(angle)) : stray_deg;
+    const double lon_pad_deg = stray_deg / highest.cosine;
+    const double from_eye_deg = std::remainder(first_deg - sight.place.lon_deg, 360.0);
+    west_deg += from_eye_deg - lon_pad_deg;
+    east_deg += from_eye_deg + lon_pad_deg;
+    if (any_meridian || west_deg < -180.0 || east_deg > 180.0) {
+        west_deg = -180.0;
+        east_deg = 180.0;
+    }
+    const double along_m = meridian_radius_m(sight.place.lat_deg);
+    const double across_m =
+        prime_vertical_radius_m(sight.place.lat_deg) * sine_cosine_deg(sight.place.lat_deg).cosine;
+    const auto north_m = [&](double lat_deg) {
+        return along_m * radians_from_deg(std::clamp(lat_deg, -90.0, 90.0) - sight.place.lat_deg).rad;
+    };
+    return {across_m * radians_from_deg(west_deg).rad, north_m(south_deg - lat_pad_deg),
+            across_m * radians_from_deg(east_deg).rad, north_m(north_deg + lat_pad_deg)};
+}
+
+Oracle::Scenery::PlaneBox Oracle::Scenery::on_plane(const Patch& patch) const {
+    if (surface.field().grid.net) return net_on_plane(patch);
     double west_m = columns_east_m[static_cast<std::size_t>(patch.west)];
     double east_m = columns_east_m[static_cast<std::size_t>(patch.east)];
     const double half_turn_m = std::numbers::pi * prime_vertical_radius_m(sight.place.lat_deg) *
@@ -74,8 +117,14 @@ void Oracle::Scenery::flat_box(const Patch& patch, const TrueSurface::Layer& lay
         east_m = half_turn_m;
         west_m = -east_m;
     }
-    const double south_m = rows_north_m[static_cast<std::size_t>(patch.south)];
-    const double north_m = rows_north_m[static_cast<std::size_t>(patch.north)];
+    return {west_m, rows_north_m[static_cast<std::size_t>(patch.south)], east_m,
+            rows_north_m[static_cast<std::size_t>(patch.north)]};
+}
+
+// The frame is the plane's own; sight lines that bend lift it by the square of the distance across it.
+void Oracle::Scenery::flat_box(const Patch& patch, const TrueSurface::Layer& layer, glm::dvec3& low,
+                               glm::dvec3& high) const {
+    const auto [west_m, south_m, east_m, north_m] = on_plane(patch);
     const double near_m = std::hypot(std::max({west_m, -east_m, 0.0}), std::max({south_m, -north_m, 0.0}));
     const double far_m = std::hypot(std::max(-west_m, east_m), std::max(-south_m, north_m));
     const double half_c = 0.5 * sight.refraction.curvature_per_m();
@@ -89,6 +138,9 @@ glm::dvec3 Oracle::Scenery::seen(int row, int column, double h_m) const {
     const TrueSurface::Corners& corners = surface.corners();
     if (!corners.normals.empty()) {
         const glm::dvec3& normal = corners.normals[static_cast<std::size_t>(row * corners.columns + column)];
+        if (sight.earth == Earth::sphere)
+            return frame_from_ecef *
+                   sight.refraction.apparent_m((mean_radius_m + h_m) * normal - sight.eye.m);
         return frame_from_ecef * sight.refraction.apparent_m(ecef_along(normal, h_m).m - sight.eye.m);
     }
     const RowTerms& terms = rows[static_cast<std::size_t>(row)];

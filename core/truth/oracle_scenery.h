@@ -38,6 +38,12 @@ class Oracle::Scenery {
     struct Patch {
         int north, south, west, east;
     };
+    // What holds a block on the flat Earth, metres east and north of the eye.
+    struct PlaneBox {
+        double west_m, south_m, east_m, north_m;
+    };
+    [[nodiscard]] PlaneBox on_plane(const Patch& patch) const;
+    [[nodiscard]] PlaneBox net_on_plane(const Patch& patch) const;
     // Corners of a box around a block on the flat Earth.
     void flat_box(const Patch& patch, const TrueSurface::Layer& layer, glm::dvec3& low,
                   glm::dvec3& high) const;

@@ -9,6 +9,7 @@
 #include "core/terrain/ground.h"
 #include "core/truth/oracle.h"
 #include "tests/core/truth/world_field.h"
+#include "tests/support/net_terrain.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {
@@ -53,6 +54,53 @@ TEST_P(OracleOfModels, HitsLieOnTheRayAndNothingIsNearer) {
     EXPECT_GT(hits, 150);
     EXPECT_EQ(earlier, 0);
     EXPECT_LT(farthest_m, 1.0e-6) << "m";
+}
+
+// The same of posts on a net: turned, over the antimeridian, over a pole.
+TEST_P(OracleOfModels, MeetsPostsOnANetAsMarchingAlongTheRayDoes) {
+    constexpr unsigned seed = 8;
+    std::printf("seed %u\n", seed);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (const test::PlaneOfPosts& plane : {test::PlaneOfPosts{400, 500, {46.5, 8.0}, 90.0, 33.0},
+                                            test::PlaneOfPosts{300, 400, {-17.0, 179.98}, 120.0, -70.0},
+                                            test::PlaneOfPosts{300, 300, {89.95, 20.0}, 100.0, 10.0}}) {
+        const HeightField field = test::net_field(plane, test::patchy_H_m);
+        const TrueSurface surface(field, 1.0, 2);
+        // Degrees at a pole are no longer than they are at the eye: a plane there is no ground to look at.
+        if (GetParam() == Earth::flat && plane.middle.lat_deg > 80.0) continue;
+        int hits = 0, earlier = 0;
+        double farthest_m = 0.0;
+        for (int i = 0; i < 200; ++i) {
+            const PostPlace under =
+                plane.place_of(unit(random) * (plane.rows - 1), unit(random) * (plane.columns - 1));
+            Geodetic eye{under.lat_deg, under.lon_deg, 0.0};
+            eye.h_m = surface.h_m(eye.lat_deg, eye.lon_deg).value() + std::pow(10.0, 4.0 * unit(random));
+            const WorldModel model{GetParam(), Air{i % 2 == 0 ? 0.0 : 0.13}, Precision::relative};
+            const Sight sight = sight_of(model, eye);
+            const double turn = 6.2831853 * unit(random), fall = 0.6 * unit(random) * unit(random);
+            const glm::dvec3 direction =
+                ecef_from_enu(eye.lat_deg, eye.lon_deg) *
+                glm::dvec3(std::cos(fall) * std::sin(turn), std::cos(fall) * std::cos(turn), -std::sin(fall));
+            const auto hit = first_hit(surface, sight, direction, 1.0e6);
+            const double until_m = hit ? hit->distance_m - 1.0 : 60000.0;
+            for (double t_m = 0.0; t_m < until_m; t_m += 20.0) {
+                const auto at = model_point(GetParam(), eye, sight.refraction.true_m(t_m * direction));
+                ASSERT_TRUE(at);
+                const auto ground_m = surface.h_m(at->lat_deg, at->lon_deg);
+                if (ground_m && at->h_m < *ground_m - 1.0e-6) ++earlier;
+            }
+            if (!hit) continue;
+            ++hits;
+            const glm::dvec3 seen_m = model_offset_m(model, eye, hit->point);
+            farthest_m = std::max(farthest_m, glm::length(seen_m - hit->distance_m * direction));
+            EXPECT_NEAR(surface.h_m(hit->point.lat_deg, hit->point.lon_deg).value(), hit->point.h_m, 1.0e-5)
+                << "m";
+        }
+        EXPECT_GT(hits, 80);
+        EXPECT_EQ(earlier, 0);
+        EXPECT_LT(farthest_m, 1.0e-5) << "m";
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Earths, OracleOfModels,
