@@ -15,6 +15,11 @@ double angle_deg(const GridAxis& axis, double post) {
     return axis.phase_deg + (static_cast<double>(axis.first) + axis.step * post) / axis.posts_per_deg;
 }
 
+PostPlace place_at(const PostGrid& grid, double row, double column) {
+    if (grid.net) return grid.net->place_at(row, column);
+    return {std::clamp(angle_deg(grid.lat, row), -90.0, 90.0), angle_deg(grid.lon, column)};
+}
+
 PixelPlace pixel_of(const ImageSource& image, double x, double y) {
     const auto& m = image.pixel_from_crs;
     return {m[0] + m[1] * x + m[2] * y, m[3] + m[4] * x + m[5] * y};
@@ -88,13 +93,15 @@ std::vector<PixelPlace> TilePlacing::places(const std::vector<double>& u, const 
                  first_column = post_of_texel(tile_.level, tile_.column, 0);
     for (const double row : v) {
         for (const double column : u) {
-            const double lat = angle_deg(grid_->lat, first_row + posts_per_texel * row);
-            lat_deg.push_back(std::clamp(lat, -90.0, 90.0));
-            lon_deg.push_back(angle_deg(grid_->lon, first_column + posts_per_texel * column));
+            const PostPlace place =
+                place_at(*grid_, first_row + posts_per_texel * row, first_column + posts_per_texel * column);
+            lat_deg.push_back(place.lat_deg);
+            lon_deg.push_back(place.lon_deg);
         }
     }
     std::vector<PixelPlace> found;
-    const double middle_deg = angle_deg(grid_->lon, first_column + posts_per_texel * 0.5 * texels_across);
+    const double half = posts_per_texel * 0.5 * texels_across;
+    const double middle_deg = place_at(*grid_, first_row + half, first_column + half).lon_deg;
     placing.place(lon_deg, lat_deg, middle_deg, found);
     return found;
 }

@@ -152,6 +152,20 @@ std::uint32_t packed(const Colour& colour) {
     return byte(colour[0]) | byte(colour[1]) << 8U | byte(colour[2]) << 16U | byte(255.0F * colour[3]) << 24U;
 }
 
+// Rows or columns, whichever are more; nothing where that is not known.
+double posts_between(const PostGrid& grid, const ImagePlacing::Spot& here, const ImagePlacing::Spot& there) {
+    if (grid.net) {
+        const PostNumber one = grid.net->post_at(here.lat_deg, here.lon_deg),
+                         other = grid.net->post_at(there.lat_deg, there.lon_deg);
+        // Far from the grid its rows and columns say nothing.
+        const double far = 2.0 * std::max(grid.rows(), grid.columns());
+        if (std::max(std::abs(one.row), std::abs(one.column)) > far) return 0.0;
+        return std::max(std::abs(other.row - one.row), std::abs(other.column - one.column));
+    }
+    return std::max(std::abs((there.lat_deg - here.lat_deg) * grid.lat.posts_per_deg),
+                    std::abs(std::remainder(there.lon_deg - here.lon_deg, 360.0) * grid.lon.posts_per_deg));
+}
+
 // The finest level that shows more of an image than the one above it: a pixel is at least two texels.
 // Interpolated twice, edges are then where they are interpolated once.
 int finest_level_of(const ImageSource& image, const ImagePlacing& placing, const PostGrid& grid) {
@@ -164,10 +178,7 @@ int finest_level_of(const ImageSource& image, const ImagePlacing& placing, const
         for (const PixelPlace& next : {PixelPlace{column + 1.0, row}, PixelPlace{column, row + 1.0}}) {
             const auto there = placing.spot(next);
             if (!here || !there) continue;
-            const double rows = (there->lat_deg - here->lat_deg) * grid.lat.posts_per_deg;
-            const double columns =
-                std::remainder(there->lon_deg - here->lon_deg, 360.0) * grid.lon.posts_per_deg;
-            const double posts = std::max(std::abs(rows), std::abs(columns));
+            const double posts = posts_between(grid, *here, *there);
             if (posts > 0.0) least_posts = std::min(least_posts, posts);
         }
     }
