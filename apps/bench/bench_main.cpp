@@ -167,12 +167,31 @@ void print_times(const std::string& name, const ordered_json& json) {
     std::printf("\n");
 }
 
-Result<std::vector<BenchEye>> eyes_of(const BenchOptions& options, const RegionPages& pages,
-                                      const HeightField& made) {
-    if (options.region.empty())
-        return std::vector<BenchEye>{{"above", eye_above(made, options.width_px, options.height_px)}};
+// A region file, or one that is made.
+struct BenchRegion {
+    HeightField made;
+    std::shared_ptr<const RegionFile> file;
+    std::unique_ptr<RegionPages> pages;
+};
+Result<BenchRegion> open_bench_region(const BenchOptions& options) {
+    BenchRegion region;
+    if (options.region.empty()) {
+        region.made = made_region(options.patches);
+        region.pages = pages_in_memory(region.made, 1.0, thread_count());
+        return region;
+    }
+    ORO_TRY(RegionFile opened, RegionFile::open(options.region));
+    region.file = std::make_shared<const RegionFile>(std::move(opened));
+    region.pages = pages_of_file(region.file);
+    return region;
+}
+
+Result<std::vector<BenchEye>> eyes_of(const BenchOptions& options, const BenchRegion& region) {
+    if (!region.file)
+        return std::vector<BenchEye>{{"above", eye_above(region.made, options.width_px, options.height_px)}};
     if (options.path.empty()) return Error{ErrorKind::usage, "--path", "is missing: name a file with eyes"};
-    return read_bench_path(options.path, pages.facts().undulation, options.width_px, options.height_px);
+    return read_bench_path(options.path, region.file->outline().undulation, options.width_px,
+                           options.height_px);
 }
 
 Result<void> run_bench(const BenchOptions& options) {
@@ -183,18 +202,10 @@ Result<void> run_bench(const BenchOptions& options) {
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(const RasterPath path, raster_path_for(options.pipeline, gpu->report()));
     const auto opening = Clock::now();
-    HeightField made;
-    std::unique_ptr<RegionPages> pages;
-    if (options.region.empty()) {
-        made = made_region(options.patches);
-        pages = pages_in_memory(made, 1.0, thread_count());
-    } else {
-        ORO_TRY(RegionFile file, RegionFile::open(options.region));
-        pages = pages_of_file(std::make_shared<const RegionFile>(std::move(file)));
-    }
+    ORO_TRY(BenchRegion region, open_bench_region(options));
     const double open_s = seconds_since(opening);
-    ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, *pages, made));
-    ORO_TRY(Scene scene, Scene::create(*gpu, std::move(pages),
+    ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, region));
+    ORO_TRY(Scene scene, Scene::create(*gpu, std::move(region.pages),
                                        {static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0},
                                        HeightStorage::f32, asks_for_means(options.style)));
     if (asks_for_means(options.style) && !scene.pages().knows_means())

@@ -90,10 +90,11 @@ Result<std::vector<KeptPixel>> read_kept(std::ifstream& file, const std::string&
 Result<void> run(const PicturesOptions& options) {
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(const RasterPath path, raster_path_for(options.pipeline, gpu->report()));
-    ORO_TRY(RegionFile file, RegionFile::open(options.region));
-    auto pages = pages_of_file(std::make_shared<const RegionFile>(std::move(file)));
+    ORO_TRY(RegionFile opened, RegionFile::open(options.region));
+    const auto file = std::make_shared<const RegionFile>(std::move(opened));
+    auto pages = pages_of_file(file);
     ORO_TRY(const std::vector<BenchEye> eyes,
-            read_bench_path(options.path, pages->facts().undulation, options.width_px, options.height_px));
+            read_bench_path(options.path, file->outline().undulation, options.width_px, options.height_px));
     ORO_TRY(Scene scene, Scene::create(*gpu, std::move(pages)));
     const gpu::FrameStyle style = bench_style();
     DepthPainter painter(*gpu, path);

@@ -61,6 +61,8 @@ HeightField repeated(HeightField tile, int down, int across, int every) {
 Result<void> run(const std::string& from, int down, int across, int every, const std::string& to) {
     ORO_TRY(const RegionFile file, RegionFile::open(from));
     ORO_TRY(HeightField tile, field_in_memory(file));
+    if (tile.grid.net)
+        return Error{ErrorKind::usage, from, "has posts in a CRS of their own; a tile of degrees is needed"};
     tile.undulation = {};
     if (file.outline().voids > 0)
         return Error{ErrorKind::failed, from, "has voids; a tile without any is needed"};

@@ -92,6 +92,9 @@ Result<TrianglesReport> count_triangles(const TrianglesOptions& options) {
     ORO_TRY(const RegionFile file, RegionFile::open(options.region));
     ORO_CHECK(check_region(options.region, file.outline()));
     ORO_TRY(const HeightField field, field_in_memory(file));
+    if (field.grid.net)
+        return Error{ErrorKind::usage, options.region,
+                     "has posts in a CRS of their own; this counts triangles over latitudes and longitudes"};
     const int threads = thread_count();
     const DrawnHeights heights = drawn_heights(field, 1.0, threads);
     const LevelPyramid pyramid = build_pyramid(field.grid, file.outline().shape, heights, threads);
