@@ -130,7 +130,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     add_region_options(command, options.region);
     command.get_option("PATH")->description("The picture's elevation data, where they have moved.");
     hide(command, {"--bbox", "--tile", "--height-unit", "--source-crs", "--source-vertical", "--strict-datum",
-                   "--fill-voids", "--own-posts"});
+                   "--fill-voids", "--resample"});
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the table and errors");
@@ -176,8 +176,7 @@ void add_plan(CLI::App& app, PlanOptions& options) {
     hide(command, {"--style",        "--drape",          "--drape-opacity", "--names",        "--names-field",
                    "--overlay",      "--overlay-colour", "--overlay-width", "--overlay-fill", "--sun",
                    "--sun-time",     "--visibility",     "--sea",           "--rim",          "--shadows",
-                   "--sky-openness", "--labels",         "--edges",         "--samples",      "--pipeline",
-                   "--own-posts"});
+                   "--sky-openness", "--labels",         "--edges",         "--samples",      "--pipeline"});
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
@@ -202,10 +201,9 @@ void add_trade(CLI::App& app, TradeOptions& options) {
     add_region_options(command, options.region);
     add_view_options(command, options.view);
     command.get_option("--size")->description("Size of the pictures in pixels (default 640x360).");
-    hide(command,
-         {"--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width", "--overlay-fill",
-          "--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
-          "--tolerance", "--labels", "--edges", "--samples", "--own-posts"});
+    hide(command, {"--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width",
+                   "--overlay-fill", "--tau", "--earth", "--refraction", "--air", "--precision", "--geoid",
+                   "--heights", "--accuracy", "--tolerance", "--labels", "--edges", "--samples"});
     add_memory_options(command, options.memory);
     add_quiet(command, options.quiet, "the table and errors");
     set_help(command,

@@ -8,7 +8,6 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
-#include "apps/drawing/own_posts_limits.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
@@ -116,7 +115,6 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
 }  // namespace
 
 Result<void> run_bake(const BakingOptions& options) {
-    ORO_CHECK(refuse_own_posts(options.region.own_posts, "bake"));
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ORO_CHECK(check_out(options));
     ProgressBar bar(options.quiet);

@@ -246,7 +246,8 @@ std::string baked_text(const RegionFile& file) {
         detail += ", and " + counted(static_cast<std::uint64_t>(levels - 1), "coarser one", "coarser ones") +
                   " for ground that is far away";
     std::string text = one_line(file.path()) + "\n";
-    text += line("format", "baked region (.oro), version " + std::to_string(region_format::version));
+    text += line("format", "baked region (.oro), version " +
+                               std::to_string(region_format::version_of(file.outline().grid)));
     text += line("levels", detail);
     return text +
            line("size", counted(file.bytes(), "byte", "bytes") +

@@ -207,11 +207,10 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
               "Stop where heights cannot be converted from a file's vertical datum (what they are heights "
               "above), or where PROJ lacks a grid or a way for its horizontal datum. Without this they count "
               "as heights above sea level (EGM96), places are as good as they can be, and a note says so.");
-    data.flag(
-        "--own-posts", options.own_posts,
-        "Draw the points of files where their own CRS has them (a projected one, say). Without this such "
-        "files are resampled onto latitudes and longitudes, which rounds off summits. Of several files the "
-        "points must lie on one lattice. Not with images or other models of the Earth.");
+    data.flag("--resample", options.resample,
+              "Bring the points of files in a CRS of their own (a projected one, say) onto latitudes and "
+              "longitudes. Without this they stay where that CRS has them, with the heights of their file; "
+              "resampled, summits lose some metres. For --earth, --precision, and to compare.");
     data.flag(
         "--fill-voids", options.fill_voids,
         "Give void posts (points that a file leaves empty) a height from their neighbours. Without this "

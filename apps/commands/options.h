@@ -21,7 +21,7 @@ struct RegionOptions {
     std::string source_vertical;  // likewise, what heights refer to
     bool strict_datum{false};
     bool fill_voids{false};
-    bool own_posts{false};
+    bool resample{false};
     bool grids_apart{false};  // of a command that draws several: RegionRequest.grids_apart
 };
 

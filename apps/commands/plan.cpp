@@ -4,7 +4,6 @@
 #include "apps/accuracy/accuracy.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/plan_text.h"
-#include "apps/drawing/own_posts_limits.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
@@ -137,7 +136,6 @@ Result<void> run_plan(const PlanOptions& options) {
     }
     ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
     // Here a tolerance judges what is asked for, and chooses nothing.
-    ORO_CHECK(refuse_own_posts(options.region.own_posts, "plan"));
     ViewOptions view_options = options.view;
     view_options.tolerance.reset();
     ProgressBar bar(options.quiet);

@@ -117,7 +117,7 @@ Result<void> leave_terrain_out(const SunOptions& options) {
                                            {"--source-crs", !region.source_crs.empty()},
                                            {"--source-vertical", !region.source_vertical.empty()},
                                            {"--strict-datum", region.strict_datum},
-                                           {"--own-posts", region.own_posts},
+                                           {"--resample", region.resample},
                                            {"--fill-voids", region.fill_voids}}) {
         if (is_given) return refused(option, "", "says nothing without elevation data: name them, too");
     }

@@ -10,7 +10,6 @@
 #include "apps/accuracy/accuracy.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
-#include "apps/drawing/own_posts_limits.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/output/overwrite_guard.h"
@@ -79,7 +78,7 @@ void describe(const TradeOptions& options, const View& view, const Gpu& gpu, Ras
     report.time = time_text(view.time_utc_s);
     report.width_px = view.camera.width_px;
     report.height_px = view.camera.height_px;
-    for (const TradeCase& one : trade_cases()) {
+    for (const TradeCase& one : trade_cases(view.own_posts)) {
         TradeSetting setting;
         setting.key = one.key;
         setting.options = one.options;
@@ -159,7 +158,6 @@ Result<void> run_trade(const TradeOptions& options) {
     const std::string csv = (fs::path(options.out) / "trade.csv").string();
     const std::string html = (fs::path(options.out) / "trade.html").string();
     ORO_CHECK(check_options(options, csv, html));
-    ORO_CHECK(refuse_own_posts(options.region.own_posts, "trade"));
     ViewOptions view_options = options.view;
     if (!view_options.size && options.view_file.empty()) view_options.size = "640x360";
     ProgressBar bar(options.quiet);
@@ -195,6 +193,11 @@ Result<void> run_trade(const TradeOptions& options) {
     ORO_CHECK(write_report(report, csv, html, options.overwrite));
     bar.clear();
     std::fputs(trade_text(report).c_str(), stdout);
+    if (view.own_posts)
+        std::fputs(
+            "left out: --earth and --precision, which posts in a CRS of their own are not drawn with "
+            "(--resample)\n",
+            stdout);
     std::fflush(stdout);
     say(options.quiet, "wrote " + csv + " and " + html);
     return {};

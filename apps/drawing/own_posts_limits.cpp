@@ -9,17 +9,15 @@ namespace oro {
 Result<void> check_own_posts(const View& view, const Region& region) {
     for (const Region& other : region.beside) ORO_CHECK(check_own_posts(view, other));
     if (!region.field.grid.net) return {};
-    if (view.model.earth != Earth::ellipsoid)
-        return refused("--earth", "", "not together with --own-posts: they lie on the ellipsoid alone");
-    if (view.model.precision != Precision::relative)
-        return refused("--precision", "", "not together with --own-posts");
-    if (!view.drape.empty()) return refused("--drape", "", "not together with --own-posts yet");
-    return {};
-}
-
-Result<void> refuse_own_posts(bool asked, const char* command) {
-    if (!asked) return {};
-    return refused("--own-posts", "", std::string("not with orograph ") + command + " yet");
+    const char* const option = view.model.earth != Earth::ellipsoid          ? "--earth"
+                               : view.model.precision != Precision::relative ? "--precision"
+                                                                             : nullptr;
+    if (option == nullptr) return {};
+    return refused(
+        option, "",
+        std::string("needs posts on latitudes and longitudes, and these lie where their own CRS has "
+                    "them: ") +
+            (region.file ? "bake their files with --resample" : "add --resample"));
 }
 
 }  // namespace oro

@@ -1,4 +1,4 @@
-// What regions of a file's own posts (--own-posts) cannot do yet.
+// What regions whose posts lie where their own CRS has them cannot do.
 #pragma once
 
 #include "apps/view/view.h"
@@ -8,10 +8,7 @@
 namespace oro {
 
 // A usage error where a view of such a region asks for what only regions of latitudes and longitudes have:
-// another model of the Earth or of placing, images over the ground.
+// another model of the Earth or of placing.
 Result<void> check_own_posts(const View& view, const Region& region);
-
-// A usage error where a command that cannot do with them is asked for own posts.
-Result<void> refuse_own_posts(bool asked, const char* command);
 
 }  // namespace oro

@@ -91,7 +91,7 @@ ordered_json file_json(const Region& region) {
     ordered_json json = ordered_json::object();
     json["path"] = file.path();
     json["format"] = "baked region";
-    json["version"] = region_format::version;
+    json["version"] = region_format::version_of(file.outline().grid);
     json["levels"] = file.order().levels();
     json["pages"] = file.order().count();
     json["triangles"] = file.outline().triangles;

@@ -28,7 +28,8 @@ class Trade {
           style_(style),
           repeats_(repeats),
           memory_(memory),
-          painter_(gpu, path) {}
+          painter_(gpu, path),
+          cases_(trade_cases(region.field.grid.net != nullptr)) {}
 
     // Reads the truth. Errors: damage in a baked region; nothing to draw.
     Result<void> prepare();
@@ -53,7 +54,7 @@ class Trade {
     int repeats_;
     MemoryOptions memory_;
     DepthPainter painter_;
-    std::vector<TradeCase> cases_{trade_cases()};
+    std::vector<TradeCase> cases_;
     std::optional<Region> without_geoid_;
     std::unique_ptr<TrueScene> truth_;
     std::unique_ptr<RegionPages> pages_;  // for predictions

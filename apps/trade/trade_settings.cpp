@@ -35,7 +35,7 @@ void add_models(std::vector<TradeCase>& cases) {
 
 }  // namespace
 
-std::vector<TradeCase> trade_cases() {
+std::vector<TradeCase> trade_cases(bool own_posts) {
     std::vector<TradeCase> cases{{{}, "--tau 0 --air standard", 0.0, true_air}};
     cases.front().keeps_tau = true;
     add_levels(cases);
@@ -49,6 +49,10 @@ std::vector<TradeCase> trade_cases() {
         if (bundle.heights == HeightStorage::f32 && bundle.air == standard_air) one.keeps_tau = true;
         cases.push_back(one);
     }
+    if (own_posts)
+        std::erase_if(cases, [](const TradeCase& one) {
+            return one.world.earth != Earth::ellipsoid || one.world.precision != Precision::relative;
+        });
     return cases;
 }
 

@@ -21,7 +21,8 @@ struct TradeCase {
 };
 
 // Full detail first, then levels, then one thing left out or rounded at a time, then bundles. All but those
-// that leave it out have standard air.
-std::vector<TradeCase> trade_cases();
+// that leave it out have standard air. Posts in a CRS of their own (`own_posts`) are not drawn on another
+// Earth, nor placed in float32.
+std::vector<TradeCase> trade_cases(bool own_posts);
 
 }  // namespace oro

@@ -54,6 +54,7 @@ enum class PictureKind { plane, panorama };
 
 struct View {
     RegionRequest region;
+    bool own_posts{};             // its region keeps the posts of files in a CRS of their own
     Camera camera;                // the eye's h is above the ellipsoid
     std::optional<MapFrame> map;  // a map from straight above; the camera then only says about where
     std::optional<PanoramaFrame> panorama;  // nothing: a picture on a plane

@@ -200,7 +200,6 @@ void read_region(const nlohmann::json& json, RegionRequest& region) {
     if (const auto fault = fault_of_source_vertical(region.source_vertical))
         throw JsonFault{"'source_vertical' " + *fault};
     region.fill_voids = json_flag(json, "fill_voids");
-    region.own_posts = json.contains("own_posts") && json_flag(json, "own_posts");
     region.strict_datum = json_flag(json, "strict_datum");
 }
 
@@ -209,6 +208,9 @@ View read_fields(const nlohmann::json& json) {
     View view;
     read_sources(json, view);
     read_region(json, view.region);
+    // Views of before posts were kept say nothing of it, and were drawn from resampled ones.
+    view.own_posts = json.contains("own_posts") && json_flag(json, "own_posts");
+    view.region.resample = !view.own_posts;
     read_camera(json, view.camera);
     read_map(json, view);
     if (json.contains("legend_px")) {
@@ -281,7 +283,7 @@ std::string view_to_json(const View& view, bool pretty) {
     if (!view.region.source_crs.empty()) json["source_crs"] = view.region.source_crs;
     if (!view.region.source_vertical.empty()) json["source_vertical"] = view.region.source_vertical;
     json["fill_voids"] = view.region.fill_voids;
-    if (view.region.own_posts) json["own_posts"] = true;
+    if (view.own_posts) json["own_posts"] = true;
     json["strict_datum"] = view.region.strict_datum;
     const Camera& camera = view.camera;
     json["eye"] =

@@ -128,6 +128,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         if (!region.beside.empty() && !region_options.grids_apart)
             return Error{ErrorKind::usage, view_file,
                          "shows files that lie far apart: shot draws it again, and does not measure it yet"};
+        view.own_posts = region.field.grid.net != nullptr;
         view.prints = prints_of(region);
         begin_with_region_at(view.camera.eye, region);
         ORO_CHECK(check_own_posts(view, region));
@@ -142,6 +143,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     view.region.grids_apart = region_options.grids_apart && draws_grids_apart(view);
     ORO_TRY(region, open_region(view.region, progress));
+    view.own_posts = region.field.grid.net != nullptr;
     view.prints = prints_of(region);
     ORO_CHECK(check_own_posts(view, region));
     ORO_CHECK(open_files(view));

@@ -180,7 +180,7 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
     request.paths = options.paths;
     request.strict_datum = options.strict_datum;
     request.fill_voids = options.fill_voids;
-    request.own_posts = options.own_posts;
+    request.resample = options.resample;
     request.grids_apart = options.grids_apart;
     request.height_unit = options.height_unit;
     request.source_crs = options.source_crs;
@@ -258,7 +258,7 @@ Result<void> change_region(View& view, const RegionOptions& options) {
                                            {"--source-crs", !options.source_crs.empty()},
                                            {"--source-vertical", !options.source_vertical.empty()},
                                            {"--strict-datum", options.strict_datum},
-                                           {"--own-posts", options.own_posts},
+                                           {"--resample", options.resample},
                                            {"--fill-voids", options.fill_voids}}) {
         if (is_given) return refused(option, "", "not together with a picture's view, which says it itself");
     }

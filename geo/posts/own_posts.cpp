@@ -74,21 +74,69 @@ Result<bool> runs_northwards(const SourcePlaces& source, const LatticeWindow& wi
     return glm::dot(glm::cross(at[1] - at[0], at[2] - at[0]), at[0]) > 0.0;
 }
 
-Result<std::shared_ptr<const GridNet>> net_of(const Source& source, const SourcePlaces& places,
-                                              const LatticeWindow& window, bool upside_down) {
-    auto net = GridNet::fit(window.rows, window.columns,
-                            [&](std::span<const PostNumber> posts, std::span<PostPlace> there) {
-                                return places.places(window, upside_down, posts, there);
-                            });
-    if (!net.ok() && net.error().where == "grid of posts")
-        return Error{net.error().kind, source.report.path,
-                     net.error().what + ". Leave --own-posts out: it is then resampled"};
-    return net;
+Result<std::shared_ptr<const GridNet>> net_of(const SourcePlaces& places, const LatticeWindow& window,
+                                              bool upside_down) {
+    return GridNet::fit(window.rows, window.columns,
+                        [&](std::span<const PostNumber> posts, std::span<PostPlace> there) {
+                            return places.places(window, upside_down, posts, there);
+                        });
 }
 
-// Rows and columns of a net that a box touches, one post more on each side; none of those where it touches
-// none.
-PostWindow window_in(const GridNet& net, const BoundingBox& box) {
+// Where a source's first post lies on the lattice of another; nothing where it is not on it.
+struct LatticePlace {
+    std::int64_t row{}, column{};
+};
+std::optional<LatticePlace> place_on_lattice(const Source& source, const Source& first) {
+    if (source.on_degrees || first.on_degrees) return std::nullopt;
+    const SpatialReference one = spatial_reference(source.crs_wkt), other = spatial_reference(first.crs_wkt);
+    if (!one || !other || !OSRIsSame(one.get(), other.get())) return std::nullopt;
+    const auto &m = source.crs_from_post, &to = first.crs_from_post;
+    const double determinant = to[1] * to[5] - to[2] * to[4];
+    const double x = m[0] - to[0], y = m[3] - to[3];
+    const double column = (x * to[5] - y * to[2]) / determinant, row = (y * to[1] - x * to[4]) / determinant;
+    // At the far end of the source, too.
+    constexpr double same_post = 0.01;
+    const double far = std::max(source.report.rows, source.report.columns);
+    const double post = std::sqrt(std::abs(determinant));
+    double off = std::max(std::abs(row - std::round(row)), std::abs(column - std::round(column)));
+    for (const std::size_t i : {1U, 2U, 4U, 5U}) off = std::max(off, std::abs(m[i] - to[i]) * far / post);
+    if (!(off < same_post)) return std::nullopt;
+    return LatticePlace{std::llround(row), std::llround(column)};
+}
+
+// The rectangle of all sources; the places of each.
+Result<LatticeWindow> window_of_all(std::span<const Source> sources, std::span<const LatticePlace> places) {
+    std::int64_t north = 0, west = 0, south = 0, east = 0;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        north = std::min(north, places[i].row);
+        west = std::min(west, places[i].column);
+        south = std::max(south, places[i].row + sources[i].report.rows);
+        east = std::max(east, places[i].column + sources[i].report.columns);
+    }
+    const BoundingBox box = sources.front().report.box;
+    ORO_CHECK(check_size(static_cast<double>(south - north), static_cast<double>(east - west), box, sources));
+    return LatticeWindow{north, west, static_cast<int>(south - north), static_cast<int>(east - west)};
+}
+
+// Where the posts of a window lie in the CRS.
+PostsCrs crs_of(const Source& source, const LatticeWindow& window, bool upside_down) {
+    const auto& m = source.crs_from_post;
+    const double row = static_cast<double>(window.row + (upside_down ? window.rows - 1 : 0)),
+                 column = static_cast<double>(window.column), down = upside_down ? -1.0 : 1.0;
+    return {source.crs_wkt,
+            {m[0] + m[1] * column + m[2] * row, m[1], down * m[2], m[3] + m[4] * column + m[5] * row, m[4],
+             down * m[5]}};
+}
+
+OwnPosts not_kept(const std::string& why) {
+    OwnPosts none;
+    none.why_not = why;
+    return none;
+}
+
+}  // namespace
+
+PostWindow posts_in_box(const GridNet& net, const BoundingBox& box) {
     constexpr int steps = 64;
     double north = net.rows(), south = -1.0, west = net.columns(), east = -1.0;
     for (int i = 0; i <= steps; ++i) {
@@ -111,110 +159,53 @@ PostWindow window_in(const GridNet& net, const BoundingBox& box) {
     return {first_row, first_column, last_row - first_row + 1, last_column - first_column + 1};
 }
 
-PostGrid grid_of(std::shared_ptr<const GridNet> net) {
-    // Its axes count, and say nothing else: what asks them for an angle gets no number.
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    PostGrid grid;
-    grid.lat = {nothing, nothing, 0, -1, net->rows()};
-    grid.lon = {nothing, nothing, 0, +1, net->columns()};
-    grid.net = std::move(net);
-    return grid;
-}
-
-// Where a source's first post lies on the lattice of another; an error where it is not on it.
-struct LatticePlace {
-    std::int64_t row{}, column{};
-};
-Result<LatticePlace> place_on_lattice(const Source& source, const Source& first) {
-    const Error apart{
-        ErrorKind::usage, "--own-posts",
-        "needs files whose posts lie on one lattice: " + source.report.path + " and " + first.report.path +
-            " differ in their CRS, spacing, turn or by parts of a post. Open them one by one, or leave "
-            "--own-posts out: they are then resampled onto one grid"};
-    const SpatialReference one = spatial_reference(source.crs_wkt), other = spatial_reference(first.crs_wkt);
-    if (!one || !other || !OSRIsSame(one.get(), other.get())) return apart;
-    const auto &m = source.crs_from_post, &to = first.crs_from_post;
-    const double determinant = to[1] * to[5] - to[2] * to[4];
-    const double x = m[0] - to[0], y = m[3] - to[3];
-    const double column = (x * to[5] - y * to[2]) / determinant, row = (y * to[1] - x * to[4]) / determinant;
-    // At the far end of the source, too.
-    constexpr double same_post = 0.01;
-    const double far = std::max(source.report.rows, source.report.columns);
-    const double post = std::sqrt(std::abs(determinant));
-    double off = std::max(std::abs(row - std::round(row)), std::abs(column - std::round(column)));
-    for (const std::size_t i : {1U, 2U, 4U, 5U}) off = std::max(off, std::abs(m[i] - to[i]) * far / post);
-    if (!(off < same_post)) return apart;
-    return LatticePlace{std::llround(row), std::llround(column)};
-}
-
-// The rectangle of all sources; the places of each.
-Result<LatticeWindow> window_of_all(std::span<const Source> sources, std::vector<LatticePlace>& places) {
-    std::int64_t north = 0, west = 0, south = 0, east = 0;
-    for (const Source& source : sources) {
-        ORO_TRY(const LatticePlace place, place_on_lattice(source, sources.front()));
-        places.push_back(place);
-        north = std::min(north, place.row);
-        west = std::min(west, place.column);
-        south = std::max(south, place.row + source.report.rows);
-        east = std::max(east, place.column + source.report.columns);
-    }
-    const BoundingBox box = sources.front().report.box;
-    ORO_CHECK(check_size(static_cast<double>(south - north), static_cast<double>(east - west), box, sources));
-    return LatticeWindow{north, west, static_cast<int>(south - north), static_cast<int>(east - west)};
-}
-
-}  // namespace
-
 Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<BoundingBox>& box) {
     const Source& first = sources.front();
-    const SourcePlaces places(first);
-    if (!places.usable())
-        return Error{ErrorKind::failed, first.report.path,
-                     "cannot be placed on the Earth: PROJ knows no way"};
     std::vector<LatticePlace> starts;
+    for (const Source& source : sources) {
+        const auto place = place_on_lattice(source, first);
+        if (!place)
+            return not_kept(
+                "the posts of " + source.report.path + " and " + first.report.path +
+                " lie on no common lattice (CRS, spacing, turn, whole posts apart); opened one by "
+                "one, files keep their own posts");
+        starts.push_back(*place);
+    }
+    const SourcePlaces places(first);
+    if (!places.usable()) return not_kept("PROJ knows no way from the CRS of " + first.report.path);
     ORO_TRY(LatticeWindow window, window_of_all(sources, starts));
     if (window.rows < 2 || window.columns < 2)
         return Error{ErrorKind::no_data, first.report.path,
                      "its posts lie on a line or a point, and cover no area"};
     OwnPosts own;
-    ORO_TRY(own.upside_down, runs_northwards(places, window));
-    ORO_TRY(auto net, net_of(first, places, window, own.upside_down));
+    const auto northwards = runs_northwards(places, window);
+    if (!northwards.ok()) return not_kept(northwards.error().line());
+    own.upside_down = *northwards;
+    auto fitted = net_of(places, window, own.upside_down);
+    if (!fitted.ok())
+        return not_kept(fitted.error().where == "grid of posts"
+                            ? "the posts of " + first.report.path + ": " + fitted.error().what
+                            : fitted.error().line());
+    std::shared_ptr<const GridNet> net = std::move(*fitted);
     if (box) {
-        const PostWindow part = window_in(*net, unwrapped(*box));
+        const PostWindow part = posts_in_box(*net, unwrapped(*box));
         if (part.rows < 2 || part.columns < 2)
             return Error{ErrorKind::no_data, first.report.path, "has no posts in the box that was asked for"};
         window.column += part.column;
         window.row += own.upside_down ? window.rows - part.row - part.rows : part.row;
         window.columns = part.columns;
         window.rows = part.rows;
-        ORO_TRY(net, net_of(first, places, window, own.upside_down));
+        ORO_TRY(net, net->part(part.row, part.column, part.rows, part.columns));
     }
     for (const LatticePlace& start : starts)
         own.parts.push_back(
             {static_cast<int>(start.row - window.row), static_cast<int>(start.column - window.column)});
-    own.grid = grid_of(std::move(net));
+    own.crs = crs_of(first, window, own.upside_down);
+    own.grid = grid_on_net(std::move(net));
     return own;
 }
 
 namespace {
-
-// N of all posts.
-std::vector<float> N_of_all_m(const PostGrid& grid, const UndulationField& undulation) {
-    std::vector<float> N_m;
-    if (undulation.N_m.empty()) return N_m;
-    N_m.resize(grid.post_count());
-    const auto columns = static_cast<std::size_t>(grid.columns());
-    in_parallel(grid.rows(), thread_count(), [&](int row) {
-        std::vector<glm::dvec3> normals(columns);
-        grid.net->normals_of_row(row, 0, normals);
-        for (std::size_t c = 0; c < columns; ++c) {
-            const PostPlace place = place_of_normal(normals[c]);
-            N_m[static_cast<std::size_t>(row) * columns + c] =
-                static_cast<float>(undulation.at_m(place.lat_deg, place.lon_deg));
-        }
-    });
-    return N_m;
-}
 
 // Heights of a stretch of one of the region's rows.
 Result<void> shift_row(GeoidOfRegion::Shift& shift, const OwnLaying& laying, int row, int first_column,
@@ -303,7 +294,7 @@ Result<void> lay_one(Source& source, const OwnPart& part, const OwnLaying& layin
 Result<void> lay_own_posts(std::vector<Source>& sources, const OwnLaying& laying, JoinedSurface& surface,
                            std::vector<float>& N_of_posts_m, std::vector<std::string>& notes,
                            const Progress& progress) {
-    N_of_posts_m = N_of_all_m(laying.posts.grid, laying.undulation);
+    N_of_posts_m = N_of_net_m(*laying.posts.grid.net, laying.undulation, thread_count());
     std::size_t done = 0;
     for (const std::size_t i : by_precedence(sources)) {
         if (progress)

@@ -10,6 +10,7 @@
 #include "core/terrain/post_grid.h"
 #include "geo/datum/vertical_datum.h"
 #include "geo/posts/seams.h"
+#include "geo/region/region.h"
 #include "geo/sources/source.h"
 
 namespace oro {
@@ -23,16 +24,22 @@ struct OwnPart {
 // The posts that a region is made of, and where they lie.
 struct OwnPosts {
     PostGrid grid;
+    PostsCrs crs;
     bool upside_down{};          // rows of the sources run northwards, and the region's the other way
     std::vector<OwnPart> parts;  // of each source; by the source's own rows, the region's are counted from
                                  // below where they are upside down
+    std::string why_not;         // where it is not "", they cannot be kept, and all else is empty
 };
 
 // All posts of sources that share one lattice (CRS, spacing, turn, and places a whole number of posts apart),
-// or those around a box (whole rows and columns). Places are PROJ's to 0.02 mm (core/net/grid_net.h). Errors:
-// sources that do not (usage, naming two of them); a CRS that PROJ cannot turn into WGS84; places that do not
-// follow smoothly from row and column; more posts than memory holds; nothing in the box (no_data).
+// or those around a box (whole rows and columns). Places are PROJ's to 0.02 mm (core/net/grid_net.h). They
+// cannot be kept where sources share none, where PROJ cannot turn the CRS into WGS84, and where places do not
+// follow smoothly from row and column. Errors: more posts than memory holds; nothing in the box (no_data).
 Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<BoundingBox>& box);
+
+// Rows and columns of a net that a box (unwrapped) touches, and a post more on each side where it has one;
+// none of those where it touches none.
+PostWindow posts_in_box(const GridNet& net, const BoundingBox& box);
 
 // Reads them and lays them into the surface, in order of precedence, as lay_sources() does. Puts N of each
 // post into `N_of_posts_m`, unless N is 0 everywhere.

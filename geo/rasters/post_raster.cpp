@@ -12,18 +12,28 @@
 namespace oro {
 namespace {
 
+// GDAL's transform: of corners of cells, whose middles are the posts.
+std::array<double, 6> corners_of(const PostRaster& raster) {
+    if (raster.crs) {
+        const auto& m = raster.crs->crs_from_post;
+        const double column = raster.first_column - 0.5, row = raster.first_row - 0.5;
+        return {m[0] + m[1] * column + m[2] * row, m[1], m[2], m[3] + m[4] * column + m[5] * row, m[4], m[5]};
+    }
+    const PostGrid& grid = raster.grid;
+    const double wide_deg = grid.lon.spacing_deg(), tall_deg = grid.lat.spacing_deg();
+    return {grid.lon.at_deg(raster.first_column) - 0.5 * wide_deg, wide_deg, 0.0,
+            grid.lat.at_deg(raster.first_row) + 0.5 * tall_deg,    0.0,      -tall_deg};
+}
+
 Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMessages& messages,
                   const std::string& path) {
     const auto failed = [&] {
         return Error{ErrorKind::failed, path, "cannot be written: " + messages.last("GDAL says no more")};
     };
-    const PostGrid& grid = raster.grid;
-    const double wide_deg = grid.lon.spacing_deg(), tall_deg = grid.lat.spacing_deg();
-    std::array<double, 6> corners{grid.lon.at_deg(raster.first_column) - 0.5 * wide_deg, wide_deg, 0.0,
-                                  grid.lat.at_deg(raster.first_row) + 0.5 * tall_deg,    0.0,      -tall_deg};
+    std::array<double, 6> corners = corners_of(raster);
     if (GDALSetGeoTransform(dataset, corners.data()) != CE_None) return failed();
-    const SpatialReference crs = wgs84_degrees();
-    if (GDALSetSpatialRef(dataset, crs.get()) != CE_None) return failed();
+    const SpatialReference crs = raster.crs ? spatial_reference(raster.crs->wkt) : wgs84_degrees();
+    if (!crs || GDALSetSpatialRef(dataset, crs.get()) != CE_None) return failed();
     for (const auto& [name, value] : raster.tags)
         GDALSetMetadataItem(dataset, name.c_str(), value.c_str(), nullptr);
     GDALSetMetadataItem(dataset, "AREA_OR_POINT", "Point", nullptr);

@@ -1,12 +1,15 @@
-// Values at the posts of a region as a GeoTIFF on the region's own grid of latitudes and longitudes.
+// Values at the posts of a region as a GeoTIFF on the region's own grid: of latitudes and longitudes, or in
+// the CRS of its sources.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
+#include "geo/region/region.h"
 
 namespace oro {
 
@@ -16,6 +19,7 @@ struct PostRaster {
         std::vector<float> values;  // row by row, from the north-west
     };
     PostGrid grid;
+    std::optional<PostsCrs> crs;  // where its posts lie in it; of a grid on a net
     // The part of the grid that it has; columns may run past its last, and longitudes past 180.
     int first_row{}, rows{};
     int first_column{}, columns{};
@@ -24,8 +28,8 @@ struct PostRaster {
     std::vector<std::pair<std::string, std::string>> tags;  // of the file, for people: names in capitals
 };
 
-// Written whole or not at all: Float32, compressed (DEFLATE), EPSG:4326; each post is the middle of a cell.
-// Errors: those of WholeFile; what GDAL cannot write (a full disk).
+// Written whole or not at all: Float32, compressed (DEFLATE), in EPSG:4326 or the posts' CRS; each post is
+// the middle of a cell. Errors: those of WholeFile; what GDAL cannot write (a full disk).
 Result<void> write_post_raster(const std::string& path, bool overwrite, const PostRaster& raster);
 
 }  // namespace oro

@@ -6,8 +6,10 @@
 #include <memory>
 
 #include "core/baked/file_pages.h"
+#include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
 #include "geo/posts/holes.h"
+#include "geo/posts/own_posts.h"
 #include "geo/region/region_description.h"
 #include "geo/region/region_grid.h"
 #include "geo/region/region_prints.h"
@@ -60,11 +62,41 @@ int page_of(int post, int pages) {
     return std::min(post / static_cast<int>(gpu::page_quads), pages - 1);
 }
 
-std::vector<Run> runs_of(const PostGrid& whole, const PostGrid& cut, int page_columns) {
+// A part of the file's grid, and its first post there; of a grid on latitudes and longitudes its columns are
+// found by their angles, for it may go on round the Earth.
+struct Cut {
+    PostGrid grid;
+    int first_row{};
+    int first_column{};  // on a net
+};
+
+Result<Cut> cut_of(const RegionFile& file, const BoundingBox& box) {
+    const PostGrid& whole = file.outline().grid;
+    const Error nothing{ErrorKind::no_data, file.path(), "no elevation data in the box that was asked for"};
+    if (whole.net) {
+        const PostWindow part = posts_in_box(*whole.net, unwrapped(box));
+        if (part.rows < 2 || part.columns < 2) return nothing;
+        ORO_TRY(auto net, whole.net->part(part.row, part.column, part.rows, part.columns));
+        return Cut{grid_on_net(std::move(net)), part.row, part.column};
+    }
+    const Source source = source_of(whole);
+    const auto extent = region_extent({&source, 1}, box);
+    if (!extent) return nothing;
+    ORO_TRY(PostGrid cut, region_grid({&source, 1}, *extent));
+    const auto first_row = static_cast<int>(std::lround(whole.lat.index_at(cut.north_deg())));
+    if (first_row < 0 || first_row > whole.rows() - cut.rows())
+        return Error{ErrorKind::failed, file.path(), "has no rows of posts where its box says"};
+    return Cut{std::move(cut), first_row, 0};
+}
+
+std::vector<Run> runs_of(const PostGrid& whole, const Cut& of, int page_columns) {
+    const PostGrid& cut = of.grid;
     std::vector<Run> runs;
     for (int c = 0; c < cut.columns(); ++c) {
-        const auto column = std::clamp(static_cast<int>(std::lround(whole.column_at(cut.lon.at_deg(c)))), 0,
-                                       whole.columns() - 1);
+        const auto column =
+            cut.net ? of.first_column + c
+                    : std::clamp(static_cast<int>(std::lround(whole.column_at(cut.lon.at_deg(c)))), 0,
+                                 whole.columns() - 1);
         const int page = page_of(column, page_columns);
         const int in_page = column - page * static_cast<int>(gpu::page_quads);
         if (!runs.empty() && runs.back().page_column == page &&
@@ -78,14 +110,12 @@ std::vector<Run> runs_of(const PostGrid& whole, const PostGrid& cut, int page_co
 }
 
 // The file's posts on a grid that is a part of its own.
-Result<std::vector<float>> posts_of(const RegionFile& file, const PostGrid& cut, const Progress& progress) {
+Result<std::vector<float>> posts_of(const RegionFile& file, const Cut& of, const Progress& progress) {
     constexpr int quads = static_cast<int>(gpu::page_quads), stride = static_cast<int>(gpu::height_stride);
-    const PostGrid& whole = file.outline().grid;
+    const PostGrid& cut = of.grid;
+    const int first_row = of.first_row;
     const PageLayout layout = file.order().layout(0);
-    const std::vector<Run> runs = runs_of(whole, cut, layout.columns);
-    const auto first_row = static_cast<int>(std::lround(whole.lat.index_at(cut.north_deg())));
-    if (first_row < 0 || first_row > whole.rows() - cut.rows())
-        return Error{ErrorKind::failed, file.path(), "has no rows of posts where its box says"};
+    const std::vector<Run> runs = runs_of(file.outline().grid, of, layout.columns);
     const int first_page = page_of(first_row, layout.rows);
     const int last_page = page_of(first_row + cut.rows() - 1, layout.rows);
     // Memory is taken for pages that are there, not for what the header says.
@@ -157,15 +187,17 @@ bool touches(const std::string& cell, const PostGrid& grid) {
 
 Result<void> cut_out(Region& region, const RegionFile& file, const BoundingBox& box,
                      const Progress& progress) {
-    const PostGrid& whole = file.outline().grid;
-    const Source source = source_of(whole);
-    const auto extent = region_extent({&source, 1}, box);
-    if (!extent)
-        return Error{ErrorKind::no_data, file.path(), "no elevation data in the box that was asked for"};
-    ORO_TRY(PostGrid cut, region_grid({&source, 1}, *extent));
-    ORO_TRY(region.field.H_m, posts_of(file, cut, progress));
+    ORO_TRY(const Cut part, cut_of(file, box));
+    const PostGrid& cut = part.grid;
+    ORO_TRY(region.field.H_m, posts_of(file, part, progress));
     region.field.grid = cut;
     region.field.undulation = undulation_of(file.outline().undulation, cut);
+    if (region.posts_crs) {
+        auto& m = region.posts_crs->crs_from_post;
+        m[0] += m[1] * part.first_column + m[2] * part.first_row;
+        m[3] += m[4] * part.first_column + m[5] * part.first_row;
+    }
+    if (cut.net) region.field.N_of_posts_m = N_of_net_m(*cut.net, region.field.undulation, thread_count());
     region.posts_print = posts_print(region.field);
     const std::uint64_t region_voids = region.voids;
     region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
@@ -208,6 +240,14 @@ Result<Region> open_baked_region(const RegionRequest& request, const Progress& p
         return Error{ErrorKind::failed, path,
                      "its description tells of " + std::to_string(region.voids) +
                          " void posts, its header of " + std::to_string(file->outline().voids)};
+    const bool on_net = file->outline().grid.net != nullptr;
+    if (on_net != region.posts_crs.has_value())
+        return Error{ErrorKind::failed, path,
+                     on_net ? "its description does not tell the CRS of its posts"
+                            : "its description tells a CRS of posts that lie on latitudes and longitudes"};
+    if (on_net && request.resample)
+        return Error{ErrorKind::usage, path,
+                     "keeps the posts of its files where their CRS has them: bake the files with --resample"};
     if (file->outline().triangles == 0)
         return Error{ErrorKind::no_data, path, "no triangle in it has a height at each corner"};
     if (request.box) {

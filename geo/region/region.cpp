@@ -69,18 +69,16 @@ void add_doubts(const RegionRequest& request, std::span<const Source> sources, c
                             ": that crosses the antimeridian, and most of the way round the Earth");
 }
 
-// The posts that a region is to keep where they are, if that is asked for; nothing where they lie on
-// latitudes and longitudes anyway.
-Result<std::optional<OwnPosts>> own_posts_of(std::span<const Source> sources, const RegionRequest& request) {
-    if (!request.own_posts || std::ranges::all_of(sources, &Source::on_degrees))
+// The posts that a region is to keep where they are; nothing where they lie on latitudes and longitudes
+// anyway, are to be resampled, or cannot be kept: then a note says why.
+Result<std::optional<OwnPosts>> own_posts_of(std::span<const Source> sources, const RegionRequest& request,
+                                             std::vector<std::string>& notes) {
+    if (request.resample || std::ranges::all_of(sources, &Source::on_degrees))
         return std::optional<OwnPosts>();
-    const auto on_degrees = std::ranges::find_if(sources, &Source::on_degrees);
-    if (on_degrees != sources.end())
-        return Error{ErrorKind::usage, "--own-posts",
-                     "needs files whose posts lie on one lattice: " + on_degrees->report.path +
-                         " is on latitudes and longitudes, another is not"};
     ORO_TRY(OwnPosts own, own_posts(sources, request.box));
-    return std::optional<OwnPosts>(std::move(own));
+    if (own.why_not.empty()) return std::optional<OwnPosts>(std::move(own));
+    add_note(notes, "resampled onto one grid of latitudes and longitudes: " + own.why_not);
+    return std::optional<OwnPosts>();
 }
 
 // Of large rasters, whether their last row is there: a file that says more than it holds is told before
@@ -125,11 +123,12 @@ Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent
     Region region;
     region.notes = std::move(notes);
     ORO_TRY(const GeoidOfRegion geoid, GeoidOfRegion::open(request.strict_datum));
-    ORO_TRY(const std::optional<OwnPosts> own, own_posts_of(sources, request));
+    ORO_TRY(const std::optional<OwnPosts> own, own_posts_of(sources, request, region.notes));
     Result<PostGrid> chosen = own ? Result<PostGrid>(own->grid) : region_grid(sources, extent);
     ORO_TRY(const PostGrid grid, std::move(chosen));
     const BoundingBox posts{grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()};
     region.field.grid = grid;
+    if (own) region.posts_crs = own->crs;
     ORO_TRY(region.field.undulation, geoid.undulation(posts));
     region.geoid = geoid.name();
     add_note(region.notes, geoid.note());

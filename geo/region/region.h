@@ -2,6 +2,7 @@
 // height field that they make together.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,9 +29,9 @@ struct RegionRequest {
     std::optional<BoundingBox> box;  // nothing: all that the sources cover
     bool strict_datum{false};        // refuse instead of letting another geoid stand in
     bool fill_voids{
-        false};  // fill void posts from their neighbours (GDALFillNodata) instead of leaving holes
-    bool own_posts{
-        false};  // draw the posts of a file in a CRS of its own where they are: nothing is resampled
+        false};            // fill void posts from their neighbours (GDALFillNodata) instead of leaving holes
+    bool resample{false};  // bring the posts of files in a CRS of their own onto latitudes and longitudes,
+                           // instead of keeping them where they are
     std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
     // For files that do not say themselves: where they lie ("EPSG:2056", or whatever PROJ knows), and what
     // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). ""
@@ -44,8 +45,16 @@ struct RegionRequest {
 // What becomes of void posts: they are left out of the terrain, or filled from their neighbours.
 enum class VoidMethod { holes, filled };
 
+// Where the posts of a region on a net lie in the CRS of their sources: x = m[0] + m[1] column + m[2] row,
+// y = m[3] + m[4] column + m[5] row.
+struct PostsCrs {
+    std::string wkt;
+    std::array<double, 6> crs_from_post{};
+};
+
 struct Region {
     HeightField field;
+    std::optional<PostsCrs> posts_crs;  // of a grid on a net
     // The baked region that the field is, whole; null when it comes from other sources or is a part of one.
     std::shared_ptr<const RegionFile> file;
     std::vector<SourceReport> sources;  // those that the region uses

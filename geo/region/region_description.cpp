@@ -141,6 +141,17 @@ BoundingBox box_of(const Field& field) {
     return {corners[0].number(), corners[1].number(), corners[2].number(), corners[3].number()};
 }
 
+// Of regions on a net alone.
+PostsCrs posts_crs_of(const Field& field) {
+    PostsCrs crs{field["wkt"].text(), {}};
+    const std::vector<Field> numbers = field["crs_from_post"].elements();
+    if (numbers.size() != crs.crs_from_post.size())
+        throw Fault{field.name() + ".crs_from_post must have 6 numbers, and has " +
+                    std::to_string(numbers.size())};
+    for (std::size_t i = 0; i < numbers.size(); ++i) crs.crs_from_post[i] = numbers[i].number();
+    return crs;
+}
+
 SeamReport seams_of(const Field& field) {
     return {field["shared_posts"].count(), field["disagreeing_posts"].count(),
             field["largest_difference_m"].number()};
@@ -247,6 +258,7 @@ Region region_of(const Field& field) {
     for (const Field& source : field["sources"].elements()) region.sources.push_back(source_of(source));
     region.seams = seams_of(field["seams"]);
     region.geoid = field["geoid"].text();
+    if (field.has("posts_crs")) region.posts_crs = posts_crs_of(field["posts_crs"]);
     region.missing_cells = field["missing_cells"].texts();
     region.voids = field["voids"].count();
     // Regions baked earlier do not tell these apart from voids.
@@ -271,6 +283,10 @@ std::string region_description(const Region& region) {
     for (const SourceReport& source : region.sources) all["sources"].push_back(source_text(source));
     all["seams"] = seam_fields<ordered_json>(region.seams);
     all["geoid"] = region.geoid;
+    if (region.posts_crs) {
+        all["posts_crs"]["wkt"] = region.posts_crs->wkt;
+        all["posts_crs"]["crs_from_post"] = region.posts_crs->crs_from_post;
+    }
     all["missing_cells"] = region.missing_cells;
     all["voids"] = region.voids;
     if (region.tells_voids_apart) all["outside"] = region.outside;

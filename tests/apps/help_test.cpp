@@ -101,7 +101,7 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
 TEST(Help, ExplainsEachOption) {
     const Words flags{"--verify",       "--layers",       "--ortho",    "--legend",    "--no-paths",
                       "--data-changed", "--overwrite",    "--json",     "-q, --quiet", "--check",
-                      "--fill-voids",   "--strict-datum", "-h, --help", "--own-posts"};
+                      "--fill-voids",   "--strict-datum", "-h, --help", "--resample"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;
@@ -121,17 +121,17 @@ TEST(Help, HidesWhatDoesNothing) {
         {"trade",
          {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid", "--heights", "--accuracy",
           "--tolerance", "--labels", "--edges", "--samples", "--names", "--names-field", "--overlay",
-          "--overlay-colour", "--overlay-width", "--overlay-fill", "--own-posts"}},
+          "--overlay-colour", "--overlay-width", "--overlay-fill"}},
         {"panorama",
          {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--tolerance"}},
         {"plan",
          {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--edges", "--samples",
           "--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width", "--overlay-fill",
-          "--pipeline", "--time", "--own-posts"}},
+          "--pipeline", "--time"}},
         {"view", {"--tolerance", "--time"}},
         {"compare",
          {"--bbox", "--tile", "--height-unit", "--source-crs", "--source-vertical", "--strict-datum",
-          "--fill-voids", "--own-posts"}}};
+          "--fill-voids", "--resample"}}};
     const std::string shot = help_of({"shot"});
     for (const auto& [command, options] : hidden) {
         const std::string help = help_of({command});

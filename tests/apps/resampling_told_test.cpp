@@ -40,7 +40,13 @@ class ResamplingTold : public testing::Test {
     void SetUp() override { oro::test::write_bytes(file, hills()); }
 
     [[nodiscard]] Words with_crs(Words words) const {
-        words.insert(words.begin() + 1, {file.string(), "--source-crs", "EPSG:2056"});
+        words.insert(words.begin() + 1, {file.string(), "--source-crs", "EPSG:2056", "--resample"});
+        return words;
+    }
+    // As it is opened without being asked to resample.
+    [[nodiscard]] Words kept(Words words) const {
+        words = with_crs(std::move(words));
+        std::erase(words, "--resample");
         return words;
     }
 };
@@ -75,6 +81,22 @@ TEST_F(ResamplingTold, InfoTellsTheFilesOwnRangeAndWhatTheRegionShows) {
     EXPECT_LT(found.at("highest").at("shown_H_m").get<double>(), 1450.0);
     EXPECT_EQ(info.at("region").at("resampling").at("files"), 1);
     EXPECT_EQ(info.at("region").at("resampling").at("rms_m"), found.at("rms_m"));
+}
+
+// Unless it is asked for nothing is resampled, and nothing is told of it.
+TEST_F(ResamplingTold, WithoutBeingAskedForThereIsNone) {
+    const Outcome outcome = run_orograph(kept({"info"}));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_words(outcome.out, {"\n  posts       100 x 80, the file's own, every 49.9996",
+                               "\n  H           640.0 to 1500.0 m"});
+    EXPECT_EQ(outcome.out.find("esampl"), std::string::npos) << outcome.out;
+    const json info = object_said_by(kept({"info", "--json"}));
+    EXPECT_TRUE(info.at("region").at("resampling").is_null());
+    EXPECT_EQ(info.at("region").at("own_posts"), true);
+    EXPECT_NEAR(info.at("region").at("H_m").at("highest").get<double>(), 1500.0, 5e-4);
+    EXPECT_EQ(info.at("region").at("voids"), 1);
+    const json plan = object_said_by(kept({"plan", "--json", "-q"}));
+    EXPECT_FALSE(plan.contains("resampling"));
 }
 
 TEST_F(ResamplingTold, PlanHasARowForIt) {

@@ -103,6 +103,27 @@ TEST(ViewFile, ViewsThatDoNotNameTheirAirHaveThatOfBefore) {
     EXPECT_NE(read.error().line().find("'air' is 'thick'"), std::string::npos) << read.error().line();
 }
 
+// Pictures of before posts were kept where their files have them were drawn from resampled ones.
+TEST(ViewFile, ViewsThatSayNothingOfOwnPostsAreDrawnResampled) {
+    oro::View view = unusual_view();
+    view.own_posts = true;
+    const std::string text = oro::view_to_json(view, false);
+    const auto own = oro::view_from_json(text, "test");
+    ASSERT_TRUE(own.ok()) << own.error().line();
+    EXPECT_TRUE(own->own_posts);
+    EXPECT_FALSE(own->region.resample);
+    EXPECT_EQ(oro::view_to_json(*own, false), text);
+    std::string before = text;
+    const std::string field = "\"own_posts\":true,";
+    ASSERT_NE(before.find(field), std::string::npos) << text;
+    before.erase(before.find(field), field.size());
+    const auto old = oro::view_from_json(before, "test");
+    ASSERT_TRUE(old.ok()) << old.error().line();
+    EXPECT_FALSE(old->own_posts);
+    EXPECT_TRUE(old->region.resample);
+    EXPECT_EQ(oro::view_to_json(*old, false), before);
+}
+
 TEST(ViewFile, ViewsOfBeforeThereWereLabelsHaveNone) {
     oro::View view = unusual_view();
     const auto labels_of = [&](const std::string& field, const std::string& instead) {

@@ -114,6 +114,13 @@ inline RegionRequest request_for(std::vector<std::string> paths) {
     return request;
 }
 
+// The same, with posts in a CRS of their own brought onto latitudes and longitudes.
+inline RegionRequest resampled_from(std::vector<std::string> paths) {
+    RegionRequest request = request_for(std::move(paths));
+    request.resample = true;
+    return request;
+}
+
 // The region, or a test failure with the reason.
 inline std::optional<Region> opened(const RegionRequest& request, std::string* reason = nullptr) {
     auto region = open_region(request);

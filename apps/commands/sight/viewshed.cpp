@@ -8,7 +8,6 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/sight_ground.h"
-#include "apps/drawing/own_posts_limits.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -131,6 +130,7 @@ std::string eye_text(const Geodetic& eye, const SightGround& ground) {
 PostRaster raster_of(ViewshedReport& report, const SightGround& ground) {
     PostRaster raster;
     raster.grid = ground.region.field.grid;
+    raster.crs = ground.region.posts_crs;
     raster.first_row = report.window.first_row;
     raster.rows = report.window.rows;
     raster.first_column = report.window.first_column;
@@ -190,6 +190,15 @@ std::string sides_beyond(const ViewshedReport& report, const PostGrid& grid) {
         const auto rim = [&](double bearing_deg) {
             return geodesic_towards(eye.lat_deg, eye.lon_deg, bearing_deg, report.radius_km * 1000.0);
         };
+        if (grid.net) {
+            for (std::size_t side = 0; side < names.size(); ++side) {
+                const auto there = rim(90.0 * static_cast<double>(side));
+                const PostNumber post = grid.post_at(there.lat_deg, there.lon_deg);
+                beyond[side] |= !(post.row >= 0.0 && post.row <= grid.rows() - 1.0 && post.column >= 0.0 &&
+                                  post.column <= grid.columns() - 1.0);
+            }
+            continue;
+        }
         beyond[0] |= rim(0.0).lat_deg > grid.north_deg();
         beyond[2] |= rim(180.0).lat_deg < grid.south_deg();
         if (grid.goes_round()) continue;
@@ -217,7 +226,6 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_CHECK(check_words(options));
     ViewshedReport report;
     report.target_m = options.target_m.value_or(0.0);
-    ORO_CHECK(refuse_own_posts(options.region.own_posts, "viewshed"));
     report.radius_km = options.radius_km.value_or(usual_radius_km);
     ORO_TRY(report.air, air_asked_for(options.air.refraction_k, options.air.air, standard_air));
     ProgressBar bar(options.quiet);

@@ -137,7 +137,8 @@ TEST(FoundViews, FarGroundOverAPlane) {
                      "--fov",
                      "41.4",
                      "--earth",
-                     "flat"};
+                     "flat",
+                     "--resample"};
     const json bound = planned(view, "128x80");
     const json error = verified(view, "128x80");
     EXPECT_LE(error.at("largest_px").get<double>(), bound.at("worst_px").get<double>());

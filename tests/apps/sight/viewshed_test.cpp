@@ -1,6 +1,7 @@
 // orograph viewshed as people and programs use it.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -76,6 +77,55 @@ TEST(ViewshedCommand, IsAGeoTiffThatSaysWhatSightSays) {
         ++compared;
     }
     EXPECT_EQ(compared, 12);
+}
+
+// Of a projected file: on its own grid, in its own CRS, and what sight says of the same places.
+TEST(ViewshedCommand, OfAProjectedFileLiesOnItsOwnPosts) {
+    const fs::path folder = oro::test::scratch_folder();
+    const std::string utm = folder / "utm.tif";
+    const auto warped = run_program({"gdalwarp", "-q", "-t_srs", "EPSG:32616", "-tr", "80", "80", "-r",
+                                     "bilinear", "-dstnodata", "-9999", bundled(), utm});
+    if (warped.exit_code == 127) GTEST_SKIP() << "needs gdalwarp";
+    const fs::path out = folder / "v.tif";
+    const auto told = object_said_by({"viewshed", utm, "-q", "--json", "--at", "36.55,-84.25", "--above",
+                                      "30", "--target", "2", "--radius", "6", "--out", out.string()});
+    EXPECT_GT(told["seen"].get<int>(), 100);
+    EXPECT_LT(told["seen"].get<int>(), told["cells"].get<int>());
+    const auto raster = oro::test::one_object(run_program({"gdalinfo", "-json", out.string()}).out);
+    const auto source = oro::test::one_object(run_program({"gdalinfo", "-json", utm}).out);
+    EXPECT_EQ(raster["coordinateSystem"]["wkt"], source["coordinateSystem"]["wkt"]);
+    const auto is = raster["geoTransform"], was = source["geoTransform"];
+    for (const std::size_t i : {1U, 2U, 4U, 5U}) EXPECT_EQ(is[i], was[i]);
+    for (const std::size_t i : {0U, 3U}) {
+        const double posts = (is[i].get<double>() - was[i].get<double>()) / 80.0;
+        EXPECT_NEAR(posts, std::round(posts), 1e-9) << "a whole number of posts apart";
+    }
+    int compared = 0;
+    for (int step = -6; step <= 6; ++step) {
+        if (step == 0) continue;
+        const double column = told["columns"].get<int>() / 2 + step * 9,
+                     row = told["rows"].get<int>() / 2 + step * 5;
+        char x[40], y[40];
+        std::snprintf(x, sizeof x, "%.3f", is[0].get<double>() + (column + 0.5) * 80.0);
+        std::snprintf(y, sizeof y, "%.3f", is[3].get<double>() - (row + 0.5) * 80.0);
+        const auto at = run_program({"gdallocationinfo", "-valonly", "-geoloc", out.string(), x, y});
+        double lon = 0.0, lat = 0.0;
+        const auto piped = run_program(
+            {"sh", "-c",
+             std::string("echo ") + x + " " + y + " | gdaltransform -s_srs EPSG:32616 -t_srs EPSG:4326"});
+        ASSERT_EQ(std::sscanf(piped.out.c_str(), "%lf %lf", &lon, &lat), 2) << piped.out << piped.err;
+        char to[80];
+        std::snprintf(to, sizeof to, "%.12f,%.12f", lat, lon);
+        double seen = 0.0, missed_m = 0.0;
+        ASSERT_EQ(std::sscanf(at.out.c_str(), "%lf %lf", &seen, &missed_m), 2) << at.out;
+        if (seen == -9999.0) continue;
+        const auto sight = object_said_by({"sight", utm, "-q", "--json", "--from", "36.55,-84.25", "--above",
+                                           "30", "--to", to, "--target", "2"});
+        EXPECT_EQ(seen == 1.0, sight["visible"].get<bool>()) << to;
+        EXPECT_NEAR(missed_m, sight["target_missed_by_m"].get<double>(), 0.02) << to;
+        ++compared;
+    }
+    EXPECT_GE(compared, 10);
 }
 
 TEST(ViewshedCommand, SeveralObserversAreCounted) {

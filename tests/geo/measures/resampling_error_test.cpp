@@ -121,7 +121,7 @@ const Resampling& only_one(const Region& region) {
 TEST(ResamplingError, RealTileInSwissCoordinates) {
     const auto file = real_data("geotiff/N46E008_EPSG2056_f32_cog.tif");
     if (!file) GTEST_SKIP() << "needs geotiff";
-    const auto region = opened(request_for({file->string()}));
+    const auto region = opened(resampled_from({file->string()}));
     ASSERT_TRUE(region);
     const Resampling& said = only_one(*region);
     expect_as_by_brute_force(said, brute_force(file->string(), region->field), region->field);
@@ -143,7 +143,7 @@ TEST(ResamplingError, RotatedInFeetAndAnotherProjection) {
                                      {"vavilov_EPSG3413_f32.tif", 1.0},
                                      {"alpinemaps_at_mgi.tif", 1.0}}) {
         SCOPED_TRACE(name);
-        const auto region = opened(request_for({(*folder / name).string()}));
+        const auto region = opened(resampled_from({(*folder / name).string()}));
         ASSERT_TRUE(region);
         expect_as_by_brute_force(only_one(*region),
                                  brute_force((*folder / name).string(), region->field, to_m), region->field);
@@ -172,7 +172,7 @@ TEST(ResamplingError, VoidsAndRims) {
     const unsigned seed = std::random_device{}();
     std::printf("seed %u\n", seed);
     const std::string file = made_raster(scratch_folder() / "rough.tif", 150, seed);
-    const auto region = opened(request_for({file}));
+    const auto region = opened(resampled_from({file}));
     ASSERT_TRUE(region);
     const Resampling& said = only_one(*region);
     expect_as_by_brute_force(said, brute_force(file, region->field), region->field);
@@ -182,7 +182,7 @@ TEST(ResamplingError, VoidsAndRims) {
 
 TEST(ResamplingError, PartOfAFile) {
     const std::string file = made_raster(scratch_folder() / "rough.tif", 150, 3);
-    RegionRequest request = request_for({file});
+    RegionRequest request = resampled_from({file});
     request.box = BoundingBox{7.75, 45.97, 7.82, 46.02};
     const auto region = opened(request);
     ASSERT_TRUE(region);
@@ -200,7 +200,7 @@ TEST(ResamplingError, PartOfAFile) {
 // Heights above the ellipsoid: N is taken off both.
 TEST(ResamplingError, AnotherVerticalDatum) {
     const std::string file = made_raster(scratch_folder() / "rough.tif", 60, 4);
-    RegionRequest request = request_for({file});
+    RegionRequest request = resampled_from({file});
     request.source_vertical = "EPSG:4979";
     const auto region = opened(request);
     ASSERT_TRUE(region);
@@ -211,7 +211,7 @@ TEST(ResamplingError, AnotherVerticalDatum) {
 // More than four million posts: every second of each row and column, and the highest whichever it is.
 TEST(ResamplingError, TheHighestPostOfManyIsAlwaysThere) {
     const std::string file = made_raster(scratch_folder() / "wide.tif", 2020, 5, 400000.0, 30.0, 3000.0);
-    const auto region = opened(request_for({file}));
+    const auto region = opened(resampled_from({file}));
     ASSERT_TRUE(region);
     const Resampling& said = only_one(*region);
     EXPECT_LT(said.compared, said.posts / 3);
@@ -233,7 +233,7 @@ TEST(ResamplingError, AnotherSourcesGroundDoesNotCount) {
     raster.crs = "EPSG:32632";
     raster.cell_corners = {403000.0, 50.0, 0.0, 5097000.0, 0.0, -50.0};
     const std::string fine = write_raster(folder / "fine.tif", raster, [](int, int) { return 8000.0; });
-    const auto region = opened(request_for({coarse, fine}));
+    const auto region = opened(resampled_from({coarse, fine}));
     ASSERT_TRUE(region);
     for (const SourceReport& source : region->sources) {
         ASSERT_TRUE(source.resampling && source.resampling->worst) << source.path;
@@ -245,8 +245,8 @@ TEST(ResamplingError, AnotherSourcesGroundDoesNotCount) {
 
 TEST(ResamplingError, PostsThatAreTheRegionsAreNotMeasured) {
     const auto folder = scratch_folder();
-    const auto region = opened(
-        request_for({write_hgt(folder / "N46E008.hgt", 1201, [](int r, int c) { return (r * c) % 900; })}));
+    const auto region = opened(resampled_from(
+        {write_hgt(folder / "N46E008.hgt", 1201, [](int r, int c) { return (r * c) % 900; })}));
     ASSERT_TRUE(region);
     EXPECT_FALSE(region->sources[0].resampling);
     EXPECT_FALSE(region_resampling(*region));
@@ -262,7 +262,7 @@ TEST(ResamplingError, InterpolatedPostsAreKept) {
     raster.cell_corners = posts_from(10.2, 50.0, 200.0);
     const std::string coarse =
         write_raster(folder / "coarse.tif", raster, [](int r, int c) { return (r * 7 + c * 13) % 50; });
-    const auto region = opened(request_for({fine, coarse}));
+    const auto region = opened(resampled_from({fine, coarse}));
     ASSERT_TRUE(region);
     int measured = 0;
     for (const SourceReport& source : region->sources) {

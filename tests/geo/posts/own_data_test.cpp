@@ -46,9 +46,9 @@ TEST_P(OwnDataOf, KeepsItsHeightsAndItsRange) {
     const std::string file = *folder / GetParam();
     RegionRequest request;
     request.paths = {file};
-    const auto resampled = open_region(request);
-    request.own_posts = true;
     const auto region = open_region(request);
+    request.resample = true;
+    const auto resampled = open_region(request);
     ASSERT_TRUE(region.ok() && resampled.ok()) << region.error().line();
     const HeightField& field = region->field;
     ASSERT_TRUE(field.grid.net);

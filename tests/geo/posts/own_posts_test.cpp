@@ -79,7 +79,6 @@ TEST_P(OwnPostsOf, LieWhereProjAndGeographicLibPutThem) {
     const auto folder = scratch_folder();
     RegionRequest request;
     request.paths = {written(folder / "own.tif", of)};
-    request.own_posts = true;
     const auto region = open_region(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
     const HeightField& field = region->field;
@@ -134,7 +133,6 @@ TEST(OwnPosts, OfABoxAreThoseOfTheWhole) {
     const Case& of = cases[0];
     RegionRequest request;
     request.paths = {written(folder / "own.tif", of)};
-    request.own_posts = true;
     const auto whole = open_region(request);
     ASSERT_TRUE(whole.ok()) << whole.error().line();
     const auto& net = *whole->field.grid.net;
@@ -155,9 +153,8 @@ TEST(OwnPosts, OfABoxAreThoseOfTheWhole) {
         for (int c = 0; c < grid.columns(); ++c) {
             ASSERT_EQ(part->field.H_at_post_m(r, c), whole->field.H_at_post_m(row + r, column + c));
             const PostPlace one = grid.place_at(r, c), other = net.place_at(row + r, column + c);
-            ASSERT_LT(glm::length(ecef_from_geodetic({one.lat_deg, one.lon_deg, 0.0}).m -
-                                  ecef_from_geodetic({other.lat_deg, other.lon_deg, 0.0}).m),
-                      4.0e-5);
+            ASSERT_EQ(one.lat_deg, other.lat_deg);
+            ASSERT_EQ(one.lon_deg, other.lon_deg);
         }
     }
     request.box = BoundingBox{10.0, 50.0, 11.0, 51.0};
@@ -172,7 +169,6 @@ TEST(OwnPosts, OfTilesAreThoseOfOneFile) {
         const auto folder = scratch_folder();
         RegionRequest request;
         request.paths = {written(folder / "whole.tif", of)};
-        request.own_posts = true;
         const auto whole = open_region(request);
         ASSERT_TRUE(whole.ok()) << whole.error().line();
         // 2 x 2 tiles that share a row and a column of posts; then without the last.
@@ -211,8 +207,8 @@ TEST(OwnPosts, OfTilesAreThoseOfOneFile) {
     }
 }
 
-// What is not on one lattice is told so, and which two it is.
-TEST(OwnPosts, OfOtherLatticesAreRefused) {
+// What is not on one lattice is resampled, and a note says so and which two it is.
+TEST(OwnPosts, OfSeveralLatticesAreResampled) {
     const auto folder = scratch_folder();
     const Case& of = cases[0];
     const std::string one = written(folder / "one.tif", of);
@@ -223,16 +219,39 @@ TEST(OwnPosts, OfOtherLatticesAreRefused) {
     for (const Case& other : {half, turned, elsewhere}) {
         RegionRequest request;
         request.paths = {one, written(folder / "other.tif", other)};
-        request.own_posts = true;
         const auto region = open_region(request);
-        ASSERT_FALSE(region.ok());
-        EXPECT_EQ(region.error().kind, ErrorKind::usage);
-        EXPECT_NE(region.error().line().find("other.tif and"), std::string::npos) << region.error().line();
-        request.own_posts = false;
-        if (std::string(other.crs) == of.crs) {
-            EXPECT_TRUE(open_region(request).ok());
-        }
+        const bool near_each_other = std::string(other.crs) == of.crs;
+        ASSERT_EQ(region.ok(), near_each_other) << "far apart they need too many posts";
+        if (!near_each_other) continue;
+        EXPECT_FALSE(region->field.grid.net);
+        EXPECT_FALSE(region->posts_crs);
+        ASSERT_FALSE(region->notes.empty());
+        EXPECT_NE(
+            region->notes.front().find("resampled onto one grid of latitudes and longitudes: the posts of "),
+            std::string::npos)
+            << region->notes.front();
+        EXPECT_NE(region->notes.front().find("other.tif and"), std::string::npos) << region->notes.front();
+        request.resample = true;
+        const auto asked = open_region(request);
+        ASSERT_TRUE(asked.ok());
+        EXPECT_EQ(asked->posts_print, region->posts_print);
+        EXPECT_EQ(asked->notes.size() + 1, region->notes.size()) << "what is asked for needs no note";
     }
+}
+
+// Where PROJ's places are not smooth, too.
+TEST(OwnPosts, OfWhatIsNotSmoothAreResampled) {
+    const auto file = real_data("geotiff/alpinemaps_at_mgi.tif");
+    if (!file) GTEST_SKIP() << "needs geotiff/alpinemaps_at_mgi.tif";
+    RegionRequest request;
+    request.paths = {file->string()};
+    const auto region = open_region(request);
+    ASSERT_TRUE(region.ok()) << region.error().line();
+    EXPECT_FALSE(region->field.grid.net);
+    ASSERT_FALSE(region->notes.empty());
+    EXPECT_NE(region->notes.front().find("do not follow smoothly from row and column"), std::string::npos)
+        << region->notes.front();
+    EXPECT_TRUE(region->sources[0].resampling);
 }
 
 // Files on latitudes and longitudes of WGS84 are read as ever.
@@ -242,7 +261,7 @@ TEST(OwnPosts, OfDegreesAreAsEver) {
     RegionRequest request;
     request.paths = {written(folder / "degrees.tif", degrees)};
     const auto usual = open_region(request);
-    request.own_posts = true;
+    request.resample = true;
     const auto asked = open_region(request);
     ASSERT_TRUE(usual.ok() && asked.ok());
     EXPECT_FALSE(asked->field.grid.net);

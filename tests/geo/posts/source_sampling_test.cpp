@@ -101,7 +101,7 @@ TEST(Resampling, TouchingProjectedRastersJoin) {
             return surface(west + 50.0 + 100.0 * c, 5103950.0 - 100.0 * r);
         });
     };
-    const auto region = opened(request_for({write("a.tif", 400000.0), write("b.tif", 404000.0)}));
+    const auto region = opened(resampled_from({write("a.tif", 400000.0), write("b.tif", 404000.0)}));
     ASSERT_TRUE(region);
     // Voids only around the (slightly turned) outline: between the first and last height of each row there is
     // none.
@@ -141,7 +141,7 @@ TEST(Resampling, RealTileInThreeOtherSystems) {
                 "most m");
     for (const char* name : {"N46E008_EPSG2056_f32_cog.tif", "N46E008_EPSG21781_i16_rotated_nodata_edges.tif",
                              "N46E008_UTM32_feet_f32.tif"}) {
-        const auto other = opened(request_for({real_data(std::string("geotiff/") + name)->string()}));
+        const auto other = opened(resampled_from({real_data(std::string("geotiff/") + name)->string()}));
         ASSERT_TRUE(other) << name;
         double sum = 0.0, squares = 0.0, most = 0.0;
         int count = 0;

@@ -189,6 +189,62 @@ TEST(BakedRegion, BoxesOutOfARegionRoundTheEarth) {
     }
 }
 
+// Of a projected file, which is baked post by post: whole, a part, and a part baked again.
+TEST(BakedRegion, OfPostsInTheirOwnCrsIsThatOfItsSource) {
+    const fs::path folder = scratch_folder();
+    Raster raster;
+    raster.rows = 500;
+    raster.columns = 400;
+    raster.crs = "EPSG:25832";
+    // Rows northwards, turned.
+    raster.cell_corners = {600000.0, 25.0, -6.0, 5300000.0, 6.0, 25.0};
+    const auto hills = [](int r, int c) { return 800.0 + 300.0 * std::sin(0.03 * r) * std::cos(0.05 * c); };
+    const auto source = opened(request_for({write_raster(folder / "own.tif", raster, hills)}));
+    ASSERT_TRUE(source && source->field.grid.net && source->posts_crs);
+    const auto whole = opened(request_for({baked(*source, folder / "own.oro")}));
+    ASSERT_TRUE(whole && whole->field.grid.net);
+    EXPECT_EQ(whole->posts_crs->wkt, source->posts_crs->wkt);
+    EXPECT_EQ(whole->posts_crs->crs_from_post, source->posts_crs->crs_from_post);
+    EXPECT_EQ(whole->posts_print, source->posts_print);
+    const PostPlace middle = source->field.grid.place_at(250, 200);
+    RegionRequest of_source = request_for({(folder / "own.tif").string()}),
+                  of_file = request_for({(folder / "own.oro").string()});
+    of_source.box = of_file.box = BoundingBox{middle.lon_deg - 0.02, middle.lat_deg - 0.015,
+                                              middle.lon_deg + 0.02, middle.lat_deg + 0.015};
+    const auto expected = opened(of_source), cut = opened(of_file);
+    ASSERT_TRUE(expected && cut && cut->field.grid.net);
+    const auto again = opened(request_for({baked(*cut, folder / "cut.oro")}));
+    ASSERT_TRUE(again);
+    const PostGrid& grid = expected->field.grid;
+    EXPECT_LT(grid.rows(), 250);
+    for (const auto& one : {cut, again}) {
+        ASSERT_EQ(one->field.grid.rows(), grid.rows());
+        ASSERT_EQ(one->field.grid.columns(), grid.columns());
+        for (std::size_t i = 0; i < 6; ++i)
+            EXPECT_NEAR(one->posts_crs->crs_from_post[i], expected->posts_crs->crs_from_post[i], 1e-8);
+        for (int row = 0; row < grid.rows(); ++row) {
+            for (int column = 0; column < grid.columns(); ++column) {
+                ASSERT_EQ(one->field.H_at_post_m(row, column), expected->field.H_at_post_m(row, column));
+                ASSERT_EQ(one->field.N_at_post_m(row, column), expected->field.N_at_post_m(row, column));
+                ASSERT_EQ(one->field.grid.place_at(row, column).lat_deg, grid.place_at(row, column).lat_deg);
+                ASSERT_EQ(one->field.grid.place_at(row, column).lon_deg, grid.place_at(row, column).lon_deg);
+            }
+        }
+        EXPECT_EQ(one->posts_print.value_or(1), expected->posts_print.value_or(2));
+    }
+    RegionRequest resampled = request_for({(folder / "own.oro").string()});
+    resampled.resample = true;
+    const auto refused = open_region(resampled);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().kind, ErrorKind::usage);
+    // One whose description does not tell it.
+    Region without = *source;
+    without.posts_crs.reset();
+    const auto damaged = open_region(request_for({baked(without, folder / "without.oro")}));
+    ASSERT_FALSE(damaged.ok());
+    EXPECT_NE(damaged.error().what.find("does not tell the CRS"), std::string::npos);
+}
+
 class BakedRegionErrors : public testing::Test {
   protected:
     void SetUp() override {

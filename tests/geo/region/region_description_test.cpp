@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "geo/region/source_words.h"
 
@@ -212,6 +213,29 @@ TEST(RegionDescription, EveryFieldIsNeededAndOfItsKind) {
                                "/sources/1/stored", "/sources/1/resampling", "/sources/1/resampling/highest"})
         check_all(json::json_pointer(object));
     EXPECT_EQ(fields, 11 + 3 + 22 + 3 + 10 + 3 + 8 + 4);
+}
+
+// Where posts lie in the CRS of their sources: of regions on a net alone.
+TEST(RegionDescription, TheCrsOfPostsComesBackAndIsWhole) {
+    Region region = unusual_region();
+    EXPECT_EQ(region_description(region).find("posts_crs"), std::string::npos);
+    region.posts_crs = PostsCrs{"PROJCRS[\"x\"]", {2600000.25, 25.0, 1e-17, 1200000.0, 0.5, -25.0}};
+    const std::string text = region_description(region);
+    const auto read = region_from_description(text, "region.oro");
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    ASSERT_TRUE(read->posts_crs);
+    EXPECT_EQ(read->posts_crs->wkt, region.posts_crs->wkt);
+    EXPECT_EQ(read->posts_crs->crs_from_post, region.posts_crs->crs_from_post);
+    const json whole = json::parse(text);
+    for (const auto& [field, value, says] :
+         {std::tuple{"/posts_crs", json(1), "posts_crs"},
+          {"/posts_crs/wkt", json(1), "posts_crs.wkt must be text"},
+          {"/posts_crs/crs_from_post", json::array({1, 2, 3}), "must have 6 numbers, and has 3"},
+          {"/posts_crs/crs_from_post/4", json("x"), "crs_from_post[4] must be a number"}}) {
+        json changed = whole;
+        changed[json::json_pointer(field)] = value;
+        EXPECT_NE(refusal(changed.dump()).find(says), std::string::npos) << refusal(changed.dump());
+    }
 }
 
 TEST(RegionDescription, NumbersOutOfRangeAreRefused) {

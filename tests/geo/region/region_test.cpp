@@ -284,7 +284,7 @@ TEST(Region, RealFijiOverTheAntimeridian) {
 TEST(Region, RealPolesHaveHeightsAllRound) {
     const auto file = real_data("geotiff/antarctica_etopo1_EPSG3031_20km.tif");
     if (!file) GTEST_SKIP() << "needs geotiff";
-    RegionRequest request = request_for({file->string()});
+    RegionRequest request = resampled_from({file->string()});
     request.box = *parse_bounding_box("-180,-90,180,-85");
     const auto region = opened(request);
     ASSERT_TRUE(region);

@@ -108,7 +108,7 @@ TEST(Raster, AreaAndPointAgreeToTheHalfPost) {
             OSRDestroySpatialReference(wgs84);
             OSRDestroySpatialReference(utm);
             std::string reason;
-            const auto region = opened(request_for({file}), &reason);
+            const auto region = opened(resampled_from({file}), &reason);
             ASSERT_TRUE(region) << file << ": " << reason;
             EXPECT_EQ(region->sources[0].posts_are, points ? PostsAre::points : PostsAre::cell_centres);
             const PostGrid& grid = region->field.grid;
