@@ -37,6 +37,10 @@ void begin_with_region_at(const Geodetic& eye, Region& region) {
     region = std::move(first);
 }
 
+bool keeps_own_posts(const Region& region) {
+    return region.field.grid.net != nullptr || std::ranges::any_of(region.beside, keeps_own_posts);
+}
+
 // Names, lines, images, maps and legends are of one grid yet.
 bool draws_grids_apart(const View& view) {
     return !view.map && !view.panorama && !view.legend && view.drape.empty() && !view.vectors.any();
@@ -128,7 +132,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         if (!region.beside.empty() && !region_options.grids_apart)
             return Error{ErrorKind::usage, view_file,
                          "shows files that lie far apart: shot draws it again, and does not measure it yet"};
-        view.own_posts = region.field.grid.net != nullptr;
+        view.own_posts = keeps_own_posts(region);
         view.prints = prints_of(region);
         begin_with_region_at(view.camera.eye, region);
         ORO_CHECK(check_own_posts(view, region));
@@ -143,7 +147,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     view.region.grids_apart = region_options.grids_apart && draws_grids_apart(view);
     ORO_TRY(region, open_region(view.region, progress));
-    view.own_posts = region.field.grid.net != nullptr;
+    view.own_posts = keeps_own_posts(region);
     view.prints = prints_of(region);
     ORO_CHECK(check_own_posts(view, region));
     ORO_CHECK(open_files(view));

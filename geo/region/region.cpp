@@ -118,8 +118,9 @@ std::string all_without_height(const Region& region) {
 }
 
 // Chooses the grid of some sources, lays them into it, and describes what has become of them.
-Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent, const RegionRequest& request,
-                         std::vector<std::string> notes, const Progress& progress) {
+Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent,
+                         const RegionRequest& request, std::vector<std::string> notes,
+                         const Progress& progress) {
     Region region;
     region.notes = std::move(notes);
     ORO_TRY(const GeoidOfRegion geoid, GeoidOfRegion::open(request.strict_datum));
@@ -191,8 +192,10 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
         return Error{ErrorKind::no_data, list_of(request.paths),
                      "its posts lie on a line or a point, and cover no area"};
     std::vector<std::vector<Source>> groups;
-    if (request.grids_apart) groups = lying_apart(std::move(found.sources), request.box);
-    else groups.push_back(std::move(found.sources));
+    if (request.grids_apart)
+        groups = lying_apart(std::move(found.sources), request.box);
+    else
+        groups.push_back(std::move(found.sources));
     std::vector<Region> regions;
     for (std::vector<Source>& group : groups) {
         const auto own = groups.size() == 1 ? extent : region_extent(group, request.box);
