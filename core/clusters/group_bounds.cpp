@@ -13,24 +13,47 @@ namespace {
 // Above the rounding of places and distances.
 constexpr double growth = 1.0 + 1.0e-9;
 constexpr double rounding_m = 1.0e-6;
+constexpr int sphere_steps = 24;
 
 struct Sphere {
     glm::dvec3 centre_m;
     double radius_m;
 };
 
-// Around the middle of the box that holds them all.
+// How far the farthest place of some spheres is from another, and where it is.
+struct Farthest {
+    double distance_m{-1.0};
+    glm::dvec3 place_m{0.0};
+};
+Farthest farthest_from(const glm::dvec3& from_m, std::span<const Sphere> spheres) {
+    Farthest farthest;
+    for (const Sphere& sphere : spheres) {
+        const double apart_m = glm::distance(from_m, sphere.centre_m);
+        if (apart_m + sphere.radius_m <= farthest.distance_m) continue;
+        const double beyond = apart_m > 0.0 ? sphere.radius_m / apart_m : 0.0;
+        farthest = {apart_m + sphere.radius_m, sphere.centre_m + beyond * (sphere.centre_m - from_m)};
+    }
+    return farthest;
+}
+
+// A sphere around all of them, and nearly the smallest: from the middle of the box that holds them, its
+// centre goes towards what is farthest, by smaller and smaller steps. Source: M. Badoiu, K. Clarkson, Smaller
+// core-sets for balls, SODA 2003.
 Sphere around(std::span<const Sphere> spheres) {
     glm::dvec3 lowest = spheres.front().centre_m, highest = lowest;
     for (const Sphere& sphere : spheres) {
         lowest = glm::min(lowest, sphere.centre_m - sphere.radius_m);
         highest = glm::max(highest, sphere.centre_m + sphere.radius_m);
     }
-    Sphere all{0.5 * (lowest + highest), 0.0};
-    for (const Sphere& sphere : spheres)
-        all.radius_m = std::max(all.radius_m, glm::distance(all.centre_m, sphere.centre_m) + sphere.radius_m);
-    all.radius_m = all.radius_m * growth + rounding_m;
-    return all;
+    glm::dvec3 centre_m = 0.5 * (lowest + highest);
+    Sphere best{centre_m, OriginalSurface::no_limit};
+    for (int step = 1; step <= sphere_steps; ++step) {
+        const Farthest farthest = farthest_from(centre_m, spheres);
+        if (farthest.distance_m < best.radius_m) best = {centre_m, farthest.distance_m};
+        centre_m += (farthest.place_m - centre_m) / (step + 1.0);
+    }
+    best.radius_m = best.radius_m * growth + rounding_m;
+    return best;
 }
 
 // A box in the plane and in height.
