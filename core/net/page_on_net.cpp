@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/parallel.h"
 #include "core/terrain/drawn_heights.h"
 
 namespace oro {
@@ -64,8 +65,10 @@ double N_beyond_m(const HeightField& field, int row, int column) {
     const int last_row = field.grid.rows() - 1, last_column = field.grid.columns() - 1;
     const int r = std::min(row, last_row), c = std::min(column, last_column);
     const double here_m = field.N_at_post_m(r, c);
-    return here_m + (row - r) * (here_m - field.N_at_post_m(std::max(r - 1, 0), c)) +
-           (column - c) * (here_m - field.N_at_post_m(r, std::max(c - 1, 0)));
+    double there_m = here_m;
+    if (row > r) there_m += (row - r) * (here_m - field.N_at_post_m(std::max(r - 1, 0), c));
+    if (column > c) there_m += (column - c) * (here_m - field.N_at_post_m(r, std::max(c - 1, 0)));
+    return there_m;
 }
 
 }  // namespace
@@ -77,10 +80,13 @@ UndulationField drawn_undulation(const HeightField& field) {
     const int step = undulation_step(grid);
     nodes.lat.count = (grid.rows() + step - 2) / step + 1;
     nodes.lon.count = (grid.columns() + step - 2) / step + 1;
-    for (int i = 0; i < nodes.lat.count; ++i) {
-        for (int j = 0; j < nodes.lon.count; ++j)
-            nodes.N_m.push_back(static_cast<float>(N_beyond_m(field, i * step, j * step)));
-    }
+    const auto columns = static_cast<std::size_t>(nodes.lon.count);
+    nodes.N_m.resize(static_cast<std::size_t>(nodes.lat.count) * columns);
+    in_parallel(nodes.lat.count, thread_count(), [&](int i) {
+        for (std::size_t j = 0; j < columns; ++j)
+            nodes.N_m[static_cast<std::size_t>(i) * columns + j] =
+                static_cast<float>(N_beyond_m(field, i * step, static_cast<int>(j) * step));
+    });
     return nodes;
 }
 
