@@ -165,7 +165,7 @@ TEST(FoundViews, AtTheFootOfAWall) {
     if (!folder) GTEST_SKIP() << "needs drape";
     const json error = verified({*folder / "S2B_T32TLS_20220618_R60m_B01.jp2", "--exaggeration", "2", "--at",
                                  "45.9590879,6.6841606", "--above", "2.27", "--heading", "225", "--pitch",
-                                 "-21", "--fov", "83.5", "--refraction", "0.13", "--tau", "0"},
+                                 "-21", "--fov", "83.5", "--refraction", "0.13", "--tau", "0", "--resample"},
                                 "80x128");
     EXPECT_GT(error.at("displacement_px").at("max").get<double>(), 0.5);
     EXPECT_LE(error.at("largest_px").get<double>(), error.at("slack_px").get<double>());
