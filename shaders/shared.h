@@ -209,7 +209,7 @@ struct LargeTask {
 };
 ORO_CONST uint no_triangle = 0xffffffffu;  // a task whose triangle found no room and was drawn at once
 ORO_CONST uint large_square_px = 32u;
-ORO_CONST uint clips_max = 1048576u;
+ORO_CONST uint clips_max = 4194304u;
 ORO_CONST uint large_max = 262144u;
 ORO_CONST uint tasks_max = 1048576u;
 
@@ -296,8 +296,8 @@ struct EyePost {
 };
 #include "shaders/shared_drape.h"
 
-// From places to posts of a grid on a net (core/net/grid_net.h, GridNet::Inverse): row and column as a polynomial of
-// (u, v), the ellipsoid's normal along two axes.
+// From places to posts of a grid on a net (core/net/grid_net.h, GridNet::Inverse): row and column as a
+// polynomial of (u, v), the ellipsoid's normal along two axes.
 struct NetMap {
     vec3 along_u;  // in the eye's meridian frame
     vec3 along_v;
@@ -305,7 +305,7 @@ struct NetMap {
     vec2 scale;     // (dot products - middle) * scale is in -1 .. 1
     vec2 beyond_u;  // rows and columns a step outwards, beyond the grid
     vec2 beyond_v;
-    vec2 turn;      // of rows in the grid's middle, from east towards north: cosine, sine
+    vec2 turn;              // of rows in the grid's middle, from east towards north: cosine, sine
     vec2 coefficients[28];  // of u^i v^j: i from 0, and of each j from 0 to 6 - i
 };
 
