@@ -249,17 +249,21 @@ TEST_F(Slopes, AreThoseOfGdaldemOnTheBundledRegion) {
          [](const DrawnPoint& point) { return glm::dvec2(point.row, point.column); });
 }
 
-// A raster in metres, which the program lays onto its own grid of latitudes and longitudes.
-TEST_F(Slopes, AreThoseOfGdaldemOnAProjectedRaster) {
-    constexpr double post_m = 40.0;
-    constexpr int posts = 200;
-    const std::string crs = "+proj=tmerc +lat_0=46.5 +lon_0=8 +k=1 +datum=WGS84 +units=m +type=crs";
+// A raster in metres, 200 x 200 posts of waves.
+constexpr double projected_m = 40.0;
+constexpr int projected_posts = 200;
+constexpr const char* projected_crs = "+proj=tmerc +lat_0=46.5 +lon_0=8 +k=1 +datum=WGS84 +units=m +type=crs";
+test::Raster projected_raster() {
+    constexpr double half_m = 0.5 * projected_posts * projected_m;
     test::Raster raster;
-    raster.rows = raster.columns = posts;
-    raster.cell_corners = {-0.5 * posts * post_m, post_m, 0.0, 0.5 * posts * post_m, 0.0, -post_m};
-    raster.crs = crs;
+    raster.rows = raster.columns = projected_posts;
+    raster.cell_corners = {-half_m, projected_m, 0.0, half_m, 0.0, -projected_m};
+    raster.crs = projected_crs;
+    return raster;
+}
+std::filesystem::path projected_file(const test::Raster& raster) {
     const std::filesystem::path file = test::scratch_folder() / "projected.tif";
-    ASSERT_NE(test::write_raster(file, raster,
+    EXPECT_NE(test::write_raster(file, raster,
                                  [](int row, int column) {
                                      const double x = column * 2.0 * std::numbers::pi,
                                                   y = row * 2.0 * std::numbers::pi;
@@ -267,8 +271,30 @@ TEST_F(Slopes, AreThoseOfGdaldemOnAProjectedRaster) {
                                             300.0 * std::cos((y - 0.3 * x) / 110.0);
                                  }),
               "");
+    return file;
+}
+
+// Its posts are the region's.
+TEST_F(Slopes, AreThoseOfGdaldemOnARastersOwnPosts) {
+    const std::filesystem::path file = projected_file(projected_raster());
     std::string reason;
     const auto region = test::opened(test::request_for({file.string()}), &reason);
+    ASSERT_TRUE(region) << reason;
+    ASSERT_TRUE(region->field.grid.net);
+    look("a raster's own posts", *region, test::straight_down(region->field, projected_m, 180.0, 1000),
+         GdalSlopes(file), [](const DrawnPoint& point) { return glm::dvec2(point.row, point.column); });
+}
+
+// The same, laid onto a grid of latitudes and longitudes.
+TEST_F(Slopes, AreThoseOfGdaldemOnAProjectedRaster) {
+    constexpr double post_m = projected_m;
+    const std::string crs = projected_crs;
+    const test::Raster raster = projected_raster();
+    const std::filesystem::path file = projected_file(raster);
+    std::string reason;
+    RegionRequest request = test::request_for({file.string()});
+    request.resample = true;
+    const auto region = test::opened(request, &reason);
     ASSERT_TRUE(region) << reason;
     const OGRSpatialReferenceH to = OSRNewSpatialReference(nullptr), from = OSRNewSpatialReference(nullptr);
     OSRSetFromUserInput(to, crs.c_str());
