@@ -49,8 +49,8 @@ Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, c
     const auto bytes = [](const std::optional<int>& mb) {
         return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
     };
-    return Scene::create(gpu, std::move(pages), {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares},
-                         heights, means);
+    return Scene::create(gpu, std::move(pages),
+                         {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares}, heights, means);
 }
 
 Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, double exaggeration,

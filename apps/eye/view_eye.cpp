@@ -22,9 +22,8 @@ Result<void> stand_at(View& view, const ViewOptions& options, const Region& regi
 
 Result<void> turn_to(View& view, const std::string& text, const Region& region) {
     ORO_TRY(const Place place, place_at("--look-at", text));
-    const std::optional<double> ground =
-        ground_h_m(region_at(region, place.lat_deg, place.lon_deg).field, place.lat_deg, place.lon_deg,
-                   view.exaggeration);
+    const std::optional<double> ground = ground_h_m(region_at(region, place.lat_deg, place.lon_deg).field,
+                                                    place.lat_deg, place.lon_deg, view.exaggeration);
     if (!ground && !place.height_m)
         return Error{ErrorKind::no_data, "--look-at " + place_name(place.lat_deg, place.lon_deg),
                      "no elevation data there; give a heading and pitch, or geo:LAT,LON,HEIGHT" +

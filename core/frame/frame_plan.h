@@ -38,9 +38,8 @@ struct FramePlan {
     std::vector<FramePlan> beside;
     // Whether nothing is missing, of any grid.
     [[nodiscard]] bool is_settled() const {
-        return missing.empty() && std::ranges::all_of(beside, [](const FramePlan& other) {
-                   return other.missing.empty();
-               });
+        return missing.empty() &&
+               std::ranges::all_of(beside, [](const FramePlan& other) { return other.missing.empty(); });
     }
 };
 

@@ -65,10 +65,10 @@ void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan
     if (first) {
         vkCmdFillBuffer(commands, visibility_.handle.get(), 0, used, 0);
     } else {
-        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                       VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
-                       VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        memory_barrier(
+            commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
     }
     // One group along y and z even where there are none along x: an indirect dispatch of nothing.
     gpu::RasterLists empty{};

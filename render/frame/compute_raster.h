@@ -22,8 +22,8 @@ class ComputeRaster {
     // Records all steps for a grid of the frame, with its constants already bound; `choice` holds its
     // LivePages. The first grid clears the visibility buffer, the others draw into what is there. Leaves the
     // buffer ready for compute reads.
-    void record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan,
-                VkBuffer choice, bool first) const;
+    void record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan, VkBuffer choice,
+                bool first) const;
 
     // Depth << 32 | id for each pixel of the last frame, row by row, `width` to a row.
     [[nodiscard]] const Buffer& visibility() const { return visibility_; }

@@ -132,7 +132,8 @@ Result<std::vector<gpu::DrawnTriangle>> FrameRenderer::read_triangles(std::uint3
 }
 
 Result<std::vector<std::uint32_t>> FrameRenderer::read_accepted(std::size_t pages) {
-    return read_words(grids_[0].choice(), live_pages_words + live_words * grids_[0].page_capacity(), pages * gpu::accepted_words);
+    return read_words(grids_[0].choice(), live_pages_words + live_words * grids_[0].page_capacity(),
+                      pages * gpu::accepted_words);
 }
 
 Result<std::vector<std::uint32_t>> FrameRenderer::read_edges(std::size_t pages) {

@@ -98,7 +98,8 @@ Result<void> FrameRenderer::create_images() {
 
 Result<void> FrameRenderer::create_sets() {
     for (GridFrame& grid : grids_)
-        ORO_CHECK(grid.create_set(*gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get()}));
+        ORO_CHECK(
+            grid.create_set(*gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get()}));
     return {};
 }
 
@@ -109,7 +110,8 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     if (compute_) ORO_CHECK(compute_->reserve_pages(most_pages));
     while (grids_.size() < 1 + plan.beside.size()) {
         GridFrame& grid = grids_.emplace_back();
-        ORO_CHECK(grid.create_set(*gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get()}));
+        ORO_CHECK(
+            grid.create_set(*gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get()}));
     }
     const VkDeviceSize pixels = VkDeviceSize{4} * options_.extent.width * options_.extent.height;
     if (needs_depths() && depths_.size < pixels) {
@@ -138,7 +140,8 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     return {};
 }
 
-// All that a grid's programs read of a frame. `first`: of the frame's grids; only it has images over the ground.
+// All that a grid's programs read of a frame. `first`: of the frame's grids; only it has images over the
+// ground.
 Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first, const FrameAsked& asked) {
     ORO_CHECK(grid.reserve(*gpu_, plan));
     gpu::FrameConstants& constants = plan.constants;
@@ -177,7 +180,8 @@ void FrameRenderer::record_upload(VkCommandBuffer commands, std::size_t grids) c
 }
 
 // Levels: which nodes of which pages, for whichever way of drawing follows.
-void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& grid, const FramePlan& plan) const {
+void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& grid,
+                                  const FramePlan& plan) const {
     grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     const auto count = static_cast<std::uint32_t>(plan.pages.size());
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->accept.get());

@@ -1,5 +1,5 @@
-// What one grid of a frame has on the device: its constants, pages and tables, what is chosen of them, and what
-// shades its pixels. A frame has one for each grid that it draws.
+// What one grid of a frame has on the device: its constants, pages and tables, what is chosen of them, and
+// what shades its pixels. A frame has one for each grid that it draws.
 #pragma once
 
 #include <array>

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 #include <utility>
+#include <vector>
 
 #include "core/frame/frame_plan.h"
 #include "core/frame/region_pages.h"
@@ -48,9 +48,9 @@ class Scene {
     // What a frame draws with the pages that are on the GPU now.
     Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px,
                            const WorldModel& model = {});
-    // Lets the background read what a plan misses (those beside it know what theirs missed), and sends what is
-    // ready: true when the next plan may be better. Does not wait for pages that are not ready; asks for none once the frame's own fill the GPU.
-    // Errors: a page that cannot be read, the device.
+    // Lets the background read what a plan misses (those beside it know what theirs missed), and sends what
+    // is ready: true when the next plan may be better. Does not wait for pages that are not ready; asks for
+    // none once the frame's own fill the GPU. Errors: a page that cannot be read, the device.
     Result<bool> advance(std::span<const PageIndex> missing);
     // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
     // hold, `missing` names the rest.

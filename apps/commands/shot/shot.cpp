@@ -130,9 +130,9 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
         ORO_TRY(const FramePlan first,
                 scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, shot.view.tau_px,
                            shot.view.model));
-        const bool any = first.pages_wanted > 0 || std::ranges::any_of(first.beside, [](const FramePlan& plan) {
-                             return plan.pages_wanted > 0;
-                         });
+        const bool any =
+            first.pages_wanted > 0 ||
+            std::ranges::any_of(first.beside, [](const FramePlan& plan) { return plan.pages_wanted > 0; });
         if (!any && !nothing.ok()) return nothing.error();
     }
     ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
@@ -199,9 +199,9 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
     if (!shot.view.map) {
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
-    ORO_TRY(Scene scene, create_scene(gpu, std::move(pages), memory_of_pages(shot.view, options.memory),
-                                      shot.view.heights, asks_for_means(style.frame),
-                                      1U + static_cast<unsigned>(shot.region.beside.size())));
+    ORO_TRY(Scene scene,
+            create_scene(gpu, std::move(pages), memory_of_pages(shot.view, options.memory), shot.view.heights,
+                         asks_for_means(style.frame), 1U + static_cast<unsigned>(shot.region.beside.size())));
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
     shot.has_means = asks_for_means(style.frame) && scene.pages().knows_means();
@@ -268,7 +268,8 @@ Result<void> run_shot(const ShotOptions& asked) {
     ORO_TRY(const PictureFiles files, shot_files(options));
     options.view.takes_maps = true;
     // What these measure is measured on one grid.
-    options.region.grids_apart = !options.verify && !options.layers && !options.view.tolerance && !options.ortho;
+    options.region.grids_apart =
+        !options.verify && !options.layers && !options.view.tolerance && !options.ortho;
     if (!options.view_file.empty()) {
         ORO_TRY(const View told, read_view(options.view_file));
         options.ortho = told.map.has_value();

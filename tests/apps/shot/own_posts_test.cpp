@@ -100,7 +100,8 @@ TEST(OwnPostsOfShots, AreWhatInfoTells) {
     const std::string file = utm(folder);
     const Outcome info = run_orograph({"info", file});
     ASSERT_EQ(info.exit_code, 0) << info.err;
-    // 80 m of UTM's plane are 79.98 m of the ellipsoid where its scale is 1.00025 (2.6 degrees from its middle).
+    // 80 m of UTM's plane are 79.98 m of the ellipsoid where its scale is 1.00025 (2.6 degrees from its
+    // middle).
     EXPECT_NE(info.out.find("the file's own, every 79.99"), std::string::npos) << info.out;
     const json region = object_said_by({"info", file, "--json"})["region"];
     EXPECT_EQ(region["own_posts"], true);
