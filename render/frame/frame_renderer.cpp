@@ -27,9 +27,12 @@ Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
 
 // Ids of triangles go on from one grid to the next.
 Result<void> number_pages(FramePlan& plan) {
+    const auto beside = static_cast<gpu::uint>(plan.beside.size());
+    plan.constants.grids_beside = beside;
     std::size_t first = plan.pages.size();
     for (FramePlan& other : plan.beside) {
         other.constants.first_page = static_cast<gpu::uint>(first);
+        other.constants.grids_beside = beside;
         first += other.pages.size();
     }
     if (first > gpu::pages_max)

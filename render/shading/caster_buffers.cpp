@@ -94,9 +94,10 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& 
     const bool there = !plan.pages.empty();
     casts_ = there && style.shadows != 0 && plan.for_shadows;
     opens_ = there && style.sky_openness != 0 && plan.for_openness;
+    on_net_ = constants.has_net != 0;
     constants.casters = {};
     if (!any()) return {};
-    ORO_CHECK(add_cast_pipelines(gpu, path, pipelines));
+    ORO_CHECK(add_cast_pipelines(gpu, path, on_net_, pipelines));
     ORO_CHECK(reserve(gpu, frame, constants));
     const CasterLayout layout = layout_of(plan);
     gpu::Casters casters = plan.frame;
@@ -135,9 +136,10 @@ void CasterBuffers::record(VkCommandBuffer commands, const Pipelines& pipelines)
         made_.swap(wanted_);
     }
     if (!casts_) return;
-    for (std::uint32_t turn = 0; turn < pipelines.sun_shares.size(); ++turn) {
+    const std::array<OwnedPipeline, 2>& sun_shares = pipelines.sun_shares[on_net_ ? 1 : 0];
+    for (std::uint32_t turn = 0; turn < sun_shares.size(); ++turn) {
         const std::uint32_t side_px = 16U >> turn;  // of a workgroup's square
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.sun_shares[turn].get());
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, sun_shares[turn].get());
         vkCmdDispatch(commands, (width_px_ + side_px - 1) / side_px, (height_px_ + side_px - 1) / side_px, 1);
         written();
     }

@@ -38,6 +38,7 @@ class CasterBuffers {
     std::vector<std::byte> wanted_, made_;  // what nodes_ and openness_ follow from: of this frame, and made
     VkDeviceSize size_{};
     bool casts_{}, opens_{}, is_new_{};
+    bool on_net_{};  // the frame's posts lie on a net
     std::uint32_t width_px_{}, height_px_{};
     std::uint32_t pages_{};        // that cast
     std::uint32_t frame_pages_{};  // that are drawn

@@ -9,9 +9,13 @@
 #include "spirv/edges_comp.h"
 #include "spirv/openness_comp.h"
 #include "spirv/shade_air_comp.h"
+#include "spirv/shade_air_net_comp.h"
 #include "spirv/shade_comp.h"
 #include "spirv/shade_map_comp.h"
+#include "spirv/shade_map_net_comp.h"
+#include "spirv/shade_net_comp.h"
 #include "spirv/shares_comp.h"
+#include "spirv/shares_net_comp.h"
 #include "spirv/tops_comp.h"
 
 namespace oro {
@@ -22,9 +26,10 @@ VkBool32 flag(bool on) {
 }
 
 std::span<const std::uint32_t> shade_words(const ShadingKind& kind) {
-    if (kind.in_air) return shade_air_comp_spirv;
-    if (kind.as_map) return shade_map_comp_spirv;
-    return shade_comp_spirv;
+    using Words = std::span<const std::uint32_t>;
+    if (kind.in_air) return kind.on_net ? Words(shade_air_net_comp_spirv) : Words(shade_air_comp_spirv);
+    if (kind.as_map) return kind.on_net ? Words(shade_map_net_comp_spirv) : Words(shade_map_comp_spirv);
+    return kind.on_net ? Words(shade_net_comp_spirv) : Words(shade_comp_spirv);
 }
 
 }  // namespace
@@ -43,15 +48,14 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
     OwnedPipeline& shade = pipelines.shades[kind];
     if (shade) return shade.get();
     // By constant_id of shade.comp.
-    const std::array<VkBool32, 9> values{flag(path == RasterPath::compute),
+    const std::array<VkBool32, 8> values{flag(path == RasterPath::compute),
                                          flag(kind.casts),
                                          flag(kind.opens),
                                          flag(kind.draped),
                                          flag(kind.by_means),
                                          flag(kind.edges_follow),
                                          flag(kind.parts_follow),
-                                         flag(kind.parts_alone),
-                                         flag(kind.on_net)};
+                                         flag(kind.parts_alone)};
     std::array<VkSpecializationMapEntry, values.size()> entries{};
     for (std::uint32_t i = 0; i < entries.size(); ++i)
         entries[i] = {i, i * std::uint32_t{sizeof(VkBool32)}, sizeof(VkBool32)};
@@ -83,7 +87,7 @@ Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
-Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
+Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, Pipelines& pipelines) {
     if (!pipelines.caster_tops) {
         ORO_TRY(pipelines.caster_tops,
                 create_compute_pipeline(gpu, pipelines, tops_comp_spirv, "caster tops"));
@@ -92,14 +96,16 @@ Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipe
         ORO_TRY(pipelines.openness,
                 create_compute_pipeline(gpu, pipelines, openness_comp_spirv, "sky openness"));
     }
-    for (std::uint32_t turn = 0; turn < pipelines.sun_shares.size(); ++turn) {
-        if (pipelines.sun_shares[turn]) continue;
+    const std::span<const std::uint32_t> words =
+        on_net ? std::span<const std::uint32_t>(shares_net_comp_spirv) : shares_comp_spirv;
+    std::array<OwnedPipeline, 2>& sun_shares = pipelines.sun_shares[on_net ? 1 : 0];
+    for (std::uint32_t turn = 0; turn < sun_shares.size(); ++turn) {
+        if (sun_shares[turn]) continue;
         const std::array<std::uint32_t, 2> values{flag(path == RasterPath::compute), 2U >> turn};
         const std::array<VkSpecializationMapEntry, 2> entries{
             {{0, 0, sizeof(values[0])}, {1, sizeof(values[0]), sizeof(values[1])}}};
         const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
-        ORO_TRY(pipelines.sun_shares[turn],
-                create_compute_pipeline(gpu, pipelines, shares_comp_spirv, "sun shares", &constants));
+        ORO_TRY(sun_shares[turn], create_compute_pipeline(gpu, pipelines, words, "sun shares", &constants));
     }
     return {};
 }

@@ -36,9 +36,11 @@ uint triangle_id(uint frame_page, uint meshlet, uint triangle) {
 // The inverse, of this grid: its triangle, whose page is number / 32768 and so on.
 uint triangle_of_id(uint id) { return id - 1u - FRAME.first_page * (meshlets_per_page * meshlet_triangles); }
 // Whether an id is a triangle of this grid.
-bool is_of_grid(uint id) { return id != 0u && triangle_of_id(id) < FRAME.page_count * (meshlets_per_page * meshlet_triangles); }
-// Whether a pixel is this grid's to colour: what shows no ground at all is the first's.
-bool colours(uint id) { return id == 0u ? FRAME.first_page == 0u : is_of_grid(id); }
+bool is_of_grid(uint id) {
+    return id != 0u && (FRAME.grids_beside == 0u || triangle_of_id(id) < FRAME.page_count * (meshlets_per_page * meshlet_triangles));
+}
+// Whether a pixel is left to another grid of the frame: what shows no ground at all is the first's to colour.
+bool is_left_to_others(uint id) { return id == 0u ? FRAME.first_page != 0u : !is_of_grid(id); }
 
 // The edges (levels.glsl) of a drawn node, by its number in the frame: page * 256 + meshlet.
 uint edges_of(uint node) { return Words(FRAME.edges).at[node / 8u] >> (node % 8u * 4u) & 15u; }

@@ -81,7 +81,7 @@ void main() {
     for (uint i = gl_LocalInvocationIndex; i < listed_count; i += uint(lanes)) shares_of_pairs[listed[i]] = shares_of(pair_of(int(listed[i])));
     barrier();
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), within_square = ivec2(gl_LocalInvocationID.xy);
-    if (!within(pixel) || !colours(id_at(pixel))) return;
+    if (!within(pixel) || (FRAME.grids_beside != 0u && is_left_to_others(id_at(pixel)))) return;
     vec4 own = imageLoad(shaded, pixel), colour = own;
     const ivec2 steps[4] = {ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1)};
     int before = within_square.y * (side_px + 1) + within_square.x;

@@ -1,7 +1,7 @@
 #version 460
 // Colours each pixel once: turns its triangle id back into a place on the surface, and that into light.
 #extension GL_GOOGLE_include_directive : require
-// Three programs, by what is defined: the drivers that compile for processors join all that a program names before they leave out what its
+// Six programs, by what is defined (HAS_NET too, frame.glsl): the drivers that compile for processors join all that a program names before they leave out what its
 // constants never ask for, and that takes them longer than to draw.
 #ifdef AS_MAP
 const bool as_map = true;  // any FrameStyle that is not tints by height, as light, in the sun and in air
@@ -20,8 +20,6 @@ layout(constant_id = 4) const bool by_means = false;  // FrameStyle.footprint
 // Two programs share the pixels of a style in air: near ground and what is no ground, in small code, then footprints of several parts.
 layout(constant_id = 6) const bool parts_follow = false;
 layout(constant_id = 7) const bool parts_alone = false;
-layout(constant_id = 8) const bool on_net = false;  // FrameConstants.has_net
-#define HAS_NET on_net
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
@@ -82,7 +80,7 @@ bool shade(ivec2 pixel) {
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
     uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
                            : imageLoad(ids, pixel).x;
-    if (!colours(id)) return true;
+    if (FRAME.grids_beside != 0u && is_left_to_others(id)) return true;
     if (id == 0u && parts_alone) return false;
     float depth = 0.0;
     vec3 colour;

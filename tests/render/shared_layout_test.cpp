@@ -22,6 +22,7 @@
 #include "spirv/shade_air_comp.h"
 #include "spirv/shade_comp.h"
 #include "spirv/shade_map_comp.h"
+#include "spirv/shade_net_comp.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_task.h"
 #include "spirv/tops_comp.h"
@@ -63,6 +64,7 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
           std::span<const std::uint32_t>(raster_comp_spirv),
           std::span<const std::uint32_t>(raster_large_comp_spirv),
           std::span<const std::uint32_t>(shade_comp_spirv),
+          std::span<const std::uint32_t>(shade_net_comp_spirv),
           std::span<const std::uint32_t>(shade_map_comp_spirv),
           std::span<const std::uint32_t>(shade_air_comp_spirv),
           std::span<const std::uint32_t>(drape_wants_comp_spirv),
