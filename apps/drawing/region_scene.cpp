@@ -1,11 +1,13 @@
 #include "apps/drawing/region_scene.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "apps/report/figures.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
+#include "core/seam/seam_pages.h"
 
 namespace oro {
 namespace {
@@ -37,6 +39,17 @@ Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double e
     return pages;
 }
 
+Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, const CutOut& cut,
+                                                  double exaggeration, const RenderProgress& progress) {
+    if (std::ranges::find(cut.left_out, 1) == cut.left_out.end())
+        return region_pages(region, exaggeration, progress);
+    HeightField rest = region.field;
+    for (std::size_t post = 0; post < cut.left_out.size(); ++post)
+        if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
+    std::unique_ptr<RegionPages> pages = pages_in_memory(rest, exaggeration, thread_count(), progress);
+    return pages;
+}
+
 Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
                            const MemoryOptions& memory, const RenderProgress& progress, HeightStorage heights,
                            bool means) {
@@ -53,16 +66,26 @@ Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, c
                          {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares}, heights, means);
 }
 
-Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, double exaggeration,
-                                  const MemoryOptions& memory, HeightStorage heights, bool means,
-                                  Scene& scene) {
+Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, const std::vector<CutOut>& cuts,
+                                  double exaggeration, const MemoryOptions& memory, HeightStorage heights,
+                                  bool means, Scene& scene) {
     std::uint64_t triangles = 0;
-    for (const Region& other : region.beside) {
-        ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(other, exaggeration));
+    for (std::size_t i = 0; i < region.beside.size(); ++i) {
+        ORO_TRY(std::unique_ptr<RegionPages> pages,
+                region_pages(region.beside[i], cuts[i + 1], exaggeration));
         triangles += pages->facts().triangles;
         ORO_TRY(Scene more, create_scene(gpu, std::move(pages), memory, heights, means,
                                          1U + static_cast<unsigned>(region.beside.size())));
         scene.draw_beside(std::move(more));
+    }
+    if (const Seam seam = seam_between(region, cuts, exaggeration); !seam.empty()) {
+        ORO_TRY(std::unique_ptr<RegionPages> pages,
+                seam_pages(seam, region.field.undulation, region_shape(region.field, exaggeration)));
+        triangles += pages->facts().triangles;
+        // Small beside the rest: not of the share of any.
+        ORO_TRY(Scene between,
+                create_scene(gpu, std::move(pages), MemoryOptions{}, HeightStorage::f32, false, 4));
+        scene.draw_beside(std::move(between));
     }
     return triangles;
 }

@@ -6,6 +6,7 @@
 
 #include "apps/commands/options.h"
 #include "geo/region/region.h"
+#include "geo/together/cut_regions.h"
 #include "render/scene/scene.h"
 
 namespace oro {
@@ -20,11 +21,15 @@ Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double e
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
                            HeightStorage heights = HeightStorage::f32, bool means = false,
                            unsigned shares = 1);
-// The regions beside one whose scene has 1 / (1 + their number) of the memory, into its frames. Gives the
-// triangles that they have at full resolution.
-Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, double exaggeration,
-                                  const MemoryOptions& memory, HeightStorage heights, bool means,
-                                  Scene& scene);
+// The same of a region with a part cut out (geo/together).
+Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, const CutOut& cut,
+                                                  double exaggeration, const RenderProgress& progress = {});
+// The regions beside one whose scene has 1 / (1 + their number) of the memory, and what is between them all,
+// into its frames. cuts: of all of them (cut_regions()). Gives the triangles that they have at full
+// resolution.
+Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, const std::vector<CutOut>& cuts,
+                                  double exaggeration, const MemoryOptions& memory, HeightStorage heights,
+                                  bool means, Scene& scene);
 
 // What to tell of a style that asks for means of the ground over pages that have none, being of too many
 // posts: each pixel then has the colour of the ground in its middle. "" where nothing of that is so.

@@ -29,6 +29,16 @@ std::string where_data_are(const PostGrid& grid, double lat_deg, double lon_deg)
 }
 
 const Region& region_at(const Region& region, double lat_deg, double lon_deg) {
+    const Region* there = nullptr;
+    const auto look_at = [&](const Region& one, bool has) {
+        if (has && (there == nullptr || one.rank < there->rank)) there = &one;
+    };
+    const auto has_ground = [&](const Region& one) {
+        return one.field.surface_H_m(lat_deg, lon_deg).has_value();
+    };
+    look_at(region, has_ground(region));
+    for (const Region& other : region.beside) look_at(other, has_ground(other));
+    if (there != nullptr) return *there;
     if (holds(region.field.grid, lat_deg, lon_deg)) return region;
     for (const Region& other : region.beside)
         if (holds(other.field.grid, lat_deg, lon_deg)) return other;

@@ -62,6 +62,9 @@ class PageChoice {
     }
     [[nodiscard]] bool good_enough(const PageSummary& page, const PageQuarter& quarter) const;
     [[nodiscard]] bool fine_enough_to_shade(const PageSummary& page, const PageQuarter& quarter) const;
+    [[nodiscard]] double gap_reach_m(double distance_m) const {
+        return 2.0 * std::max(view_.tau_px, gpu::least_gap_px) / view_.pixels_per_tangent * distance_m;
+    }
     bool hidden(const PageRecord& page, const ViewSphere& seen);
     Result<void> want(const PageIndex& index);
     Result<void> descend(WantedPage& page);
@@ -122,7 +125,9 @@ bool PageChoice::hidden(const PageRecord& page, const ViewSphere& seen) {
 Result<void> PageChoice::want(const PageIndex& index) {
     ORO_TRY(PageRecord record, pages_.record(index));
     if (record.reach_m < 0.0) return {};
-    const ViewSphere seen = model_.seen_page(pages_.facts().grid, record);
+    ViewSphere seen = model_.seen_page(pages_.facts().grid, record);
+    // What closes gaps reaches out by pixels.
+    if (pages_.is_seam()) seen.radius_m += gap_reach_m(glm::length(seen.centre_m) + seen.radius_m);
     if (hidden(record, seen)) return {};
     WantedPage page;
     page.distance_m = std::max(0.0, glm::length(seen.centre_m) - seen.radius_m);
@@ -192,8 +197,9 @@ void PageChoice::open_level(int number) {
 
 Result<void> PageChoice::choose() {
     const int top = pages_.levels() - 1;
-    if (pages_.layout(top).rows == 0 || pages_.layout(top).columns == 0) return {};
-    ORO_CHECK(want({0, 0, top}));
+    const PageLayout layout = pages_.layout(top);
+    for (int row = 0; row < layout.rows; ++row)
+        for (int column = 0; column < layout.columns; ++column) ORO_CHECK(want({row, column, top}));
     for (int number = top; number >= 0; --number) {
         open_level(number);
         for (auto& [coord, page] : level(number)) ORO_CHECK(descend(page));
@@ -290,7 +296,8 @@ gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
     frame.horizon_direction = gpu::vec3(horizon_.eye.direction - summary.horizon.direction);
     frame.cull = (inside_all ? 0U : gpu::cull_by_frustum) |
                  (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
-    if (!model_.culls_nodes()) frame.cull = 0;
+    if (!model_.culls_nodes() || pages_.is_seam()) frame.cull = 0;
+    if (pages_.closes_gaps(summary.index)) frame.cull |= gpu::closes_gaps;
     if (!model_.may_stand(page.record)) frame.cull |= gpu::stands_never;
     frame.block = {static_cast<gpu::uint>(page.address), static_cast<gpu::uint>(page.address >> 32U)};
     frame.level = static_cast<gpu::uint>(summary.index.level);

@@ -289,6 +289,7 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.undulation = undulation_table(region.grid, region.undulation);
     constants.eye_post = eye_post(region.grid, camera.eye, model.earth);
     if (region.grid.net) constants.net = net_map(*region.grid.net, lon);
+    constants.is_seam = pages.is_seam() ? 1U : 0U;
     return constants;
 }
 

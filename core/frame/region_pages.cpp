@@ -56,6 +56,9 @@ class PagesInMemory : public RegionPages {
 RegionPages::RegionPages(RegionFacts facts)
     : facts_(std::move(facts)), levels_(level_count(facts_.grid)), goes_round_(facts_.grid.goes_round()) {}
 
+RegionPages::RegionPages(RegionFacts facts, int levels)
+    : facts_(std::move(facts)), levels_(levels), goes_round_(facts_.grid.goes_round()) {}
+
 Result<void> RegionPages::load_means(const PageIndex&, gpu::PageMeans&) const {
     return Error{ErrorKind::failed, "pages", "no means are known of these"};
 }

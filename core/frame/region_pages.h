@@ -26,6 +26,8 @@ struct RegionFacts {
 class RegionPages {
   public:
     explicit RegionPages(RegionFacts facts);
+    // Of so many levels, the last of which may have several pages.
+    RegionPages(RegionFacts facts, int levels);
     virtual ~RegionPages() = default;
     RegionPages(const RegionPages&) = delete;
     RegionPages& operator=(const RegionPages&) = delete;
@@ -47,8 +49,11 @@ class RegionPages {
     virtual Result<void> load_means(const PageIndex& page, gpu::PageMeans& means) const;
     // Where the page's posts are, of a grid on a net (core/net). Errors: as load(); a page that reaches too
     // far.
-    Result<void> load_places(const PageIndex& page, const gpu::PageBlock& block,
-                             gpu::PagePlaces& places) const;
+    virtual Result<void> load_places(const PageIndex& page, const gpu::PageBlock& block,
+                                     gpu::PagePlaces& places) const;
+    // Whether these are what lies between grids (core/seam), and whether a page of them closes gaps.
+    [[nodiscard]] virtual bool is_seam() const { return false; }
+    [[nodiscard]] virtual bool closes_gaps(const PageIndex&) const { return false; }
 
   private:
     RegionFacts facts_;

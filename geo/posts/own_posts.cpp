@@ -317,6 +317,10 @@ Result<void> lay_one(Source& source, const OwnPart& part, const OwnLaying& layin
 
 }  // namespace
 
+bool is_on_lattice(const Source& source, const Source& other) {
+    return place_on_lattice(source, other).has_value();
+}
+
 Result<void> lay_own_posts(std::vector<Source>& sources, const OwnLaying& laying, JoinedSurface& surface,
                            std::vector<float>& N_of_posts_m, std::vector<std::string>& notes,
                            const Progress& progress) {

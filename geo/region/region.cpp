@@ -1,7 +1,9 @@
 #include "geo/region/region.h"
 
 #include <algorithm>
+#include <iterator>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -19,6 +21,7 @@
 #include "geo/region/region_sources.h"
 #include "geo/sources/library_faults.h"
 #include "geo/sources/raster_library.h"
+#include "geo/together/lattices.h"
 
 namespace oro {
 namespace {
@@ -181,6 +184,39 @@ Region joined(std::vector<Region> regions) {
     return first;
 }
 
+// Sources that are to be a grid each: those that lie far apart, and of those that lie together those whose
+// posts are not each other's.
+std::vector<std::vector<Source>> grids_of(std::vector<Source> sources, const RegionRequest& request) {
+    std::vector<std::vector<Source>> grids;
+    for (std::vector<Source>& near : lying_apart(std::move(sources), request.box)) {
+        if (request.resample) {
+            grids.push_back(std::move(near));
+            continue;
+        }
+        for (std::vector<Source>& lattice : by_lattice(std::move(near), request.box))
+            for (std::vector<Source>& grid : lying_apart(std::move(lattice), request.box))
+                grids.push_back(std::move(grid));
+    }
+    if (grids.size() <= groups_max) return grids;
+    std::vector<Source> all;
+    for (std::vector<Source>& grid : grids) std::ranges::move(grid, std::back_inserter(all));
+    return {std::move(all)};
+}
+
+// Which of the groups wins where several have ground: the finest first, among equals the one named first.
+std::vector<std::size_t> ranks_of(const std::vector<std::vector<Source>>& groups) {
+    std::vector<std::size_t> order(groups.size()), ranks(groups.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto spacing_deg = [&](std::size_t group) {
+        return groups[group][finest_of(groups[group])].lat_spacing_deg;
+    };
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+        return spacing_deg(a) < spacing_deg(b) * (1.0 - 1.0e-6);
+    });
+    for (std::size_t i = 0; i < order.size(); ++i) ranks[order[i]] = i;
+    return ranks;
+}
+
 // Looks at the sources, and reads them as one region, or as several that lie apart.
 Result<Region> read_region(const RegionRequest& request, const Progress& progress) {
     if (request.paths.empty()) return Error{ErrorKind::no_data, "", "no path to elevation data was given"};
@@ -193,11 +229,13 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
                      "its posts lie on a line or a point, and cover no area"};
     std::vector<std::vector<Source>> groups;
     if (request.grids_apart)
-        groups = lying_apart(std::move(found.sources), request.box);
+        groups = grids_of(std::move(found.sources), request);
     else
         groups.push_back(std::move(found.sources));
     std::vector<Region> regions;
-    for (std::vector<Source>& group : groups) {
+    const std::vector<std::size_t> rank_of = ranks_of(groups);
+    for (std::size_t number = 0; number < groups.size(); ++number) {
+        std::vector<Source>& group = groups[number];
         const auto own = groups.size() == 1 ? extent : region_extent(group, request.box);
         if (!own) continue;  // on a line or a point
         const double before = static_cast<double>(regions.size()) / static_cast<double>(groups.size());
@@ -206,6 +244,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
         };
         ORO_TRY(Region region, region_of(std::move(group), *own, request,
                                          regions.empty() ? found.notes : std::vector<std::string>(), part));
+        region.rank = static_cast<int>(rank_of[number]);
         regions.push_back(std::move(region));
     }
     if (regions.empty())

@@ -79,9 +79,13 @@ struct Region {
     // Void in the source that covers them: what --fill-voids is for.
     [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }
     std::vector<std::string> notes;  // what a user must know, one line each (a geoid that stands in, ...)
-    // Regions of other files that lie far from this one's; only where RegionRequest.grids_apart. None of them
-    // has any in turn; this is the one of most posts, and the notes are those of all.
+    // Regions of other files, that lie far from this one's, or over it or beside it with posts of their own;
+    // only where RegionRequest.grids_apart. None of them has any in turn; this is the one of most posts, and
+    // the notes are those of all.
     std::vector<Region> beside;
+    // Where several have ground for a place, that with the smallest rank is the ground (geo/together): the
+    // finest.
+    int rank{};
 };
 
 // Told how far reading is, 0..1, from the calling thread.

@@ -50,7 +50,8 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, 
 }
 
 void Scene::cast(const CastRequest& request) {
-    cast_ = request;
+    // What lies between grids casts nothing: they do.
+    if (!pages_->is_seam()) cast_ = request;
     for (Scene& other : beside_) other.cast(request);
 }
 

@@ -2,6 +2,7 @@
 // Every expression is `precise`: the same post gives the same bits in every workgroup and shader that asks for it, and from every
 // page and level that has it.
 #include "shaders/place/bend.glsl"
+#include "shaders/place/seam.glsl"
 
 // A height of a page by its place among page_heights, in steps of height_step_m; void_height where there is none.
 int stored_height(PageBlocks block, uint place) {
@@ -30,6 +31,7 @@ vec3 place_on_net(FramePage page, uvec2 post) {
     precise vec3 position;
     for (uint axis = 0u; axis < 3u; ++axis)
         position[axis] = lattice_m(page.from_eye_low[axis], page.from_eye_high[axis], places.at[0].steps[first + axis]) - FRAME.eye_remainder[axis];
+    if ((page.cull & closes_gaps) != 0u) position += gap_reach_m(page, post, position);
     return position;
 }
 

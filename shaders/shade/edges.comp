@@ -13,6 +13,7 @@ const bool parts_alone = false;
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
+#include "shaders/place/net.glsl"
 #include "shaders/shade/surface.glsl"
 #include "shaders/shade/rims.glsl"
 #include "shaders/shade/srgb.glsl"

@@ -197,6 +197,26 @@ vec2 met_shares(vec3 ray, vec3 at[3], out float scale) {
     return within ? shares : rim_shares(ray, at[0], edge_b, edge_c);
 }
 
+// Of a seam: what stands in the page is no place in the region, and its normals are those of its corners.
+vec2 region_place(FramePage page, vec2 post, vec3 view) {
+    if (HAS_NET && FRAME.is_seam != 0u) return post_on_net(net_uv(angles_from_eye(view)));
+    return region_post(page, post);
+}
+vec3 normal_of_seam(FramePage page, uvec2 posts[3], vec3 shares, float heights_m[3], vec3 at[3]) {
+    vec3 normal = shares.x * seam_normal(page, posts[0]) + shares.y * seam_normal(page, posts[1]) + shares.z * seam_normal(page, posts[2]);
+    vec3 view = shares.x * at[0] + shares.y * at[1] + shares.z * at[2];
+    normal = FRAME.view_from_ecef * normal;
+    float lowest_m = min(heights_m[0], min(heights_m[1], heights_m[2])), highest_m = max(heights_m[0], max(heights_m[1], heights_m[2]));
+    float reach_m = FRAME.tau_px / FRAME.pixels_per_tangent * length(view);
+    // A step that is more than a line.
+    if ((page.cull & closes_gaps) != 0u && highest_m - lowest_m > 2.0 * reach_m) {
+        vec3 upright = cross(at[1] - at[0], at[2] - at[0]);
+        normal = dot(upright, view) > 0.0 ? -upright : upright;
+    }
+    vec3 on_ground = normalize(normal) * axes_at(view);
+    return normalize(vec3(on_ground.xy, max(on_ground.z, 1.0e-3)));
+}
+
 SurfacePoint surface_at(uint id, vec3 ray) {
     uvec2 posts[3];
     vec3 at[3];
@@ -211,12 +231,13 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     point.view = share_a * at[0] + share_b * at[1] + share_c * at[2];
     point.post = share_a * vec2(posts[0]) + share_b * vec2(posts[1]) + share_c * vec2(posts[2]);
     point.h_m = share_a * heights_m[0] + share_b * heights_m[1] + share_c * heights_m[2];
-    point.H_m = (point.h_m - undulation_at(region_post(page, point.post))) / FRAME.exaggeration;
+    vec2 region = region_place(page, point.post, point.view);
+    point.H_m = (point.h_m - undulation_at(region)) / FRAME.exaggeration;
     if (draped) drape_place(page, point.post, point.drape_post, point.drape_part);
     point.mean_H_m = point.H_m;
     point.parts = 0;
     point.is_left = false;
-    if (by_means) average_over_pixel(id / (meshlet_triangles * meshlets_per_page), region_post(page, point.post), point);
+    if (by_means) average_over_pixel(id / (meshlet_triangles * meshlets_per_page), region, point);
     if (point.is_left) return point;
     vec2 post = point.post;
     if (!by_means || in_air || draped) descend(page, post, length(point.view));
@@ -224,15 +245,17 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     if (draped || (!by_means && !shows_angle)) point.smooth_normal = normal_at(PageBlocks(page.block), page, post);
     if (!by_means && shows_angle) point.normal = horn_normal_at(PageBlocks(page.block), page, post);
     else if (!by_means) point.normal = point.smooth_normal;
+    if (HAS_NET && FRAME.is_seam != 0u) point.normal = point.smooth_normal = normal_of_seam(page, posts, vec3(share_a, share_b, share_c), heights_m, at);
     point.lat_deg = point.snow_line_m = 0.0;
     point.wide_level = 1.0;
     if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
         RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + uint(clamp(post.x, 0.0, float(page_quads)))];
         point.lat_deg = degrees(atan(row.S, row.C));
+        if (HAS_NET && FRAME.is_seam != 0u) point.lat_deg = degrees(atan(FRAME.eye_post.latitude.y, FRAME.eye_post.latitude.x) + angles_from_eye(point.view).x);
     }
     point.water = 0.0;
 #ifdef IN_AIR
-    if (FRAME.style.water.on == 1u) point.water = water_share(page, post);
+    if (FRAME.style.water.on == 1u && !(HAS_NET && FRAME.is_seam != 0u)) point.water = water_share(page, post);
 #endif
     if (draped) {
         PageBlocks block = PageBlocks(page.block);

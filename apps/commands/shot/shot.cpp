@@ -192,8 +192,9 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
 Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
                        ProgressBar& bar, ShotResult& shot) {
     const auto start = Clock::now();
+    ORO_TRY(const std::vector<CutOut> cuts, cut_regions(shot.region));
     ORO_TRY(std::unique_ptr<RegionPages> pages,
-            region_pages(shot.region, shot.view.exaggeration,
+            region_pages(shot.region, cuts.front(), shot.view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
     if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
     if (!shot.view.map) {
@@ -208,9 +209,9 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
     ORO_CHECK(lay_images(shot.view, shot.region, options.memory, gpu, scene, options.quiet));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
-    ORO_TRY(const std::uint64_t beside,
-            draw_beside(gpu, shot.region, shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
-                        shot.view.heights, asks_for_means(style.frame), scene));
+    ORO_TRY(const std::uint64_t beside, draw_beside(gpu, shot.region, cuts, shot.view.exaggeration,
+                                                    memory_of_pages(shot.view, options.memory),
+                                                    shot.view.heights, asks_for_means(style.frame), scene));
     shot.triangles_at_full_resolution = scene.pages().facts().triangles + beside;
     shot.times.pages_s = seconds_since(start);
     return scene;

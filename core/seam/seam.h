@@ -1,0 +1,41 @@
+// What is drawn between grids that lie over each other: ground that is left of cut triangles, and what closes
+// gaps along rims.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/earth/ellipsoid.h"
+
+namespace oro {
+
+struct SeamCorner {
+    Ecef at;
+    double h_m{};         // above the ellipsoid, as drawn
+    glm::dvec3 normal{};  // unit, of the smooth ground there, ECEF
+};
+
+// Anticlockwise, seen from above.
+struct SeamPiece {
+    std::array<SeamCorner, 3> corners;
+};
+
+// Upright ground along a piece of a rim, from one surface to the other; no higher than a line where the two
+// meet. Where it is drawn it reaches out by as many pixels as the levels of both sides may be off
+// (FrameConstants.tau_px): upwards at its top, and at its foot downwards and sidewards, under what lies
+// there.
+struct SeamCloser {
+    std::array<SeamCorner, 2> top;
+    std::array<SeamCorner, 2> foot;
+    glm::dvec3 up{};    // unit, ECEF
+    glm::dvec3 side{};  // unit, level
+};
+
+struct Seam {
+    std::vector<SeamPiece> pieces;
+    std::vector<SeamCloser> closers;
+    [[nodiscard]] bool empty() const { return pieces.empty() && closers.empty(); }
+};
+
+}  // namespace oro

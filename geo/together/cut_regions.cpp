@@ -1,0 +1,177 @@
+#include "geo/together/cut_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <map>
+#include <utility>
+
+#include "core/terrain/drawn_heights.h"
+
+namespace oro {
+namespace {
+
+// The grids that cut a part out of one, by what CutOut counts from 1.
+std::vector<const Region*> over(const Region& region, const Region& one) {
+    std::vector<const Region*> finer;
+    for (const Region* other : all_grids(region))
+        if (other->rank < one.rank) finer.push_back(other);
+    return finer;
+}
+
+// Posts of one grid as they are drawn.
+class DrawnPosts {
+  public:
+    DrawnPosts(const HeightField& field, double exaggeration) : field_(field), exaggeration_(exaggeration) {}
+
+    [[nodiscard]] glm::dvec3 at(GridPost post) const {
+        return post_ecef(field_, post.row, post.column, exaggeration_).m;
+    }
+    [[nodiscard]] double h_m(GridPost post) const {
+        return drawn_h_m(field_, post.row, post.column, exaggeration_);
+    }
+    // Of the smooth ground: from the posts around, on the sides where there are any.
+    [[nodiscard]] glm::dvec3 normal(GridPost post) const {
+        const glm::dvec3 here = at(post), up = glm::normalize(here);
+        const auto way = [&](int down, int right) {
+            const GridPost before{post.row - down, post.column - right},
+                after{post.row + down, post.column + right};
+            return (is_there(after) ? at(after) : here) - (is_there(before) ? at(before) : here);
+        };
+        const glm::dvec3 normal = glm::cross(way(1, 0), way(0, 1));
+        const double length = glm::length(normal);
+        return length > 0.0 && glm::dot(normal, up) > 0.0 ? normal / length : up;
+    }
+
+  private:
+    [[nodiscard]] bool is_there(GridPost post) const {
+        return post.row >= 0 && post.column >= 0 && post.row < field_.grid.rows() &&
+               post.column < field_.grid.columns() && !is_void(field_.H_at_post_m(post.row, post.column));
+    }
+    const HeightField& field_;
+    double exaggeration_;
+};
+
+// The corners of one grid's cut as they are drawn.
+class SeamBuilder {
+  public:
+    SeamBuilder(const Region& region, const Region& one, double exaggeration) {
+        posts_.emplace_back(one.field, exaggeration);
+        for (const Region* finer : over(region, one)) posts_.emplace_back(finer->field, exaggeration);
+    }
+    void add(const CutOut& cut, Seam& seam);
+
+  private:
+    [[nodiscard]] SeamCorner corner(const SeamPoint& point) const;
+    // Where two points of the cut grid are the same.
+    using Key = std::pair<std::int64_t, std::int64_t>;
+    static Key key(const SeamPoint& point);
+    void close_outer_sides(const CutOut& cut, Seam& seam) const;
+    void add_closer(std::array<SeamCorner, 2> one, std::array<SeamCorner, 2> other, Seam& seam) const;
+
+    std::vector<DrawnPosts> posts_;
+};
+
+SeamCorner SeamBuilder::corner(const SeamPoint& point) const {
+    const DrawnPosts& grid = posts_[point.grid];
+    SeamCorner corner;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (point.shares[i] == 0.0) continue;
+        corner.at.m += point.shares[i] * grid.at(point.posts[i]);
+        corner.h_m += point.shares[i] * grid.h_m(point.posts[i]);
+        corner.normal += point.shares[i] * grid.normal(point.posts[i]);
+    }
+    corner.normal = glm::normalize(corner.normal);
+    return corner;
+}
+
+SeamBuilder::Key SeamBuilder::key(const SeamPoint& point) {
+    double row = 0.0, column = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        row += point.shares[i] * point.posts[i].row;
+        column += point.shares[i] * point.posts[i].column;
+    }
+    constexpr double steps = 0.2 / seam_slack_posts;
+    return {std::llround(row * steps), std::llround(column * steps)};
+}
+
+// The ground that `one` bounds lies on the right hand; the closer's foot goes to the left.
+void SeamBuilder::add_closer(std::array<SeamCorner, 2> one, std::array<SeamCorner, 2> other,
+                             Seam& seam) const {
+    SeamCloser closer;
+    for (std::size_t end = 0; end < 2; ++end) {
+        const bool higher = one[end].h_m >= other[end].h_m;
+        closer.top[end] = higher ? one[end] : other[end];
+        closer.foot[end] = higher ? other[end] : one[end];
+    }
+    const glm::dvec3 along = one[1].at.m - one[0].at.m;
+    closer.up = glm::normalize(one[0].at.m / glm::dvec3(1.0, 1.0, 1.0 - wgs84_e2));
+    const glm::dvec3 left = glm::cross(closer.up, along);
+    closer.side = glm::length(left) > 0.0 ? glm::normalize(left) : glm::dvec3(0.0);
+    seam.closers.push_back(closer);
+}
+
+// Sides of pieces that neither another piece nor a wall shares: there the grid's own triangles go on, as
+// placed by another program.
+void SeamBuilder::close_outer_sides(const CutOut& cut, Seam& seam) const {
+    std::map<std::pair<Key, Key>, int> shared;
+    for (const SeamTriangle& piece : cut.ground)
+        for (std::size_t i = 0; i < 3; ++i) ++shared[{key(piece.points[i]), key(piece.points[(i + 1) % 3])}];
+    for (const SeamWall& wall : cut.walls) {
+        ++shared[{key(wall.cut[0]), key(wall.cut[1])}];
+        ++shared[{key(wall.cut[1]), key(wall.cut[0])}];
+    }
+    for (const SeamTriangle& piece : cut.ground) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const SeamPoint &from = piece.points[i], &to = piece.points[(i + 1) % 3];
+            if (shared.contains({key(to), key(from)})) continue;
+            // Anticlockwise: the piece lies on the left hand.
+            const std::array<SeamCorner, 2> side{corner(to), corner(from)};
+            add_closer(side, side, seam);
+        }
+    }
+}
+
+void SeamBuilder::add(const CutOut& cut, Seam& seam) {
+    for (const SeamTriangle& piece : cut.ground)
+        seam.pieces.push_back({{corner(piece.points[0]), corner(piece.points[1]), corner(piece.points[2])}});
+    for (const SeamWall& wall : cut.walls)
+        add_closer({corner(wall.cut[0]), corner(wall.cut[1])}, {corner(wall.over[0]), corner(wall.over[1])},
+                   seam);
+    close_outer_sides(cut, seam);
+}
+
+}  // namespace
+
+std::vector<const Region*> all_grids(const Region& region) {
+    std::vector<const Region*> grids{&region};
+    for (const Region& other : region.beside) grids.push_back(&other);
+    return grids;
+}
+
+Result<std::vector<CutOut>> cut_regions(const Region& region) {
+    std::vector<CutOut> cuts;
+    for (const Region* one : all_grids(region)) {
+        std::vector<const HeightField*> finer;
+        for (const Region* other : over(region, *one)) finer.push_back(&other->field);
+        CutOut none;
+        if (finer.empty()) {
+            cuts.push_back(std::move(none));
+            continue;
+        }
+        ORO_TRY(CutOut cut, cut_out(one->field, finer));
+        cuts.push_back(std::move(cut));
+    }
+    return cuts;
+}
+
+Seam seam_between(const Region& region, const std::vector<CutOut>& cuts, double exaggeration) {
+    Seam seam;
+    const std::vector<const Region*> grids = all_grids(region);
+    for (std::size_t i = 0; i < grids.size(); ++i)
+        SeamBuilder(region, *grids[i], exaggeration).add(cuts[i], seam);
+    return seam;
+}
+
+}  // namespace oro

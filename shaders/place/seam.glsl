@@ -1,0 +1,28 @@
+// What a page of a seam (core/seam) holds beside the places of its quads' posts: in the row and the column after each quad, unit vectors
+// along the axes of ECEF. Needs frame.glsl.
+
+uvec2 quad_of_post(uvec2 post) { return post / seam_stride * seam_stride; }
+
+vec3 beside_quad(FramePage page, uvec2 post) {
+    PlacesOfPages places = PlacesOfPages(page.places);
+    uint first = 3u * (post.x * page_posts + post.y);
+    return vec3(places.at[0].steps[first], places.at[0].steps[first + 1u], places.at[0].steps[first + 2u]) / seam_unit;
+}
+
+// How far what closes gaps reaches beyond its own posts: by as many pixels as what lies on both sides may be off. A top goes up, a foot
+// down and sidewards. position: from the eye, along the axes of ECEF, metres.
+vec3 gap_reach_m(FramePage page, uvec2 post, vec3 position) {
+    uvec2 quad = quad_of_post(post);
+    precise float reach_m = max(FRAME.tau_px, least_gap_px) / FRAME.pixels_per_tangent * length(position);
+    vec3 up = beside_quad(page, quad + uvec2(2u, 1u));
+    if (post.x == quad.x) return reach_m * up;
+    return reach_m * (0.5 * beside_quad(page, quad + uvec2(2u, 2u)) - up);
+}
+
+// The smooth ground's normal at a post of a quad, along the axes of ECEF.
+vec3 seam_normal(FramePage page, uvec2 post) {
+    uvec2 quad = quad_of_post(post), in_quad = post - quad;
+    bool second = (page.cull & closes_gaps) != 0u ? in_quad.y == 1u : in_quad.x == 1u;
+    if ((page.cull & closes_gaps) == 0u && in_quad == uvec2(1u, 1u)) return beside_quad(page, quad + uvec2(2u, 0u));
+    return beside_quad(page, quad + uvec2(second ? 1u : 0u, 2u));
+}
