@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -40,10 +41,15 @@ SeamQuad quad_of(const SeamPiece& piece) {
     }
     return quad;
 }
-SeamQuad quad_of(const SeamCloser& closer) {
-    return {{closer.top[0], closer.foot[0], closer.foot[1], closer.top[1]},
-            4,
-            {closer.top[0].normal, closer.top[1].normal, glm::dvec3(0.0), closer.up, closer.side}};
+// A closer's upright part, whose top reaches upwards, and what reaches down and under from its foot.
+std::array<SeamQuad, 2> quads_of(const SeamCloser& closer) {
+    const glm::dvec3 still(0.0);
+    return {{{{closer.top[0], closer.foot[0], closer.foot[1], closer.top[1]},
+              4,
+              {closer.top[0].normal, closer.top[1].normal, still, closer.up, still}},
+             {{closer.foot[0], closer.foot[0], closer.foot[1], closer.foot[1]},
+              4,
+              {closer.foot[0].normal, closer.foot[1].normal, still, still, 0.5 * closer.side - closer.up}}}};
 }
 
 // The plane that touches the Earth's normals in the middle of a seam.
@@ -138,7 +144,7 @@ class SeamPages : public RegionPages {
     }
 
   private:
-    [[nodiscard]] std::span<const SeamQuad> quads_of(int page) const {
+    [[nodiscard]] std::span<const SeamQuad> quads_on(int page) const {
         const auto number = static_cast<std::size_t>(page);
         const bool closes = number >= piece_pages_;
         const std::size_t begin =
@@ -170,7 +176,7 @@ PageRecord SeamPages::record_of(int page) const {
     PageRecord record;
     PageSummary& summary = record.summary;
     summary.index = {0, page, 0};
-    const std::span<const SeamQuad> quads = quads_of(page);
+    const std::span<const SeamQuad> quads = quads_on(page);
     Around around;
     summary.lowest_h_m = std::numeric_limits<double>::max();
     summary.highest_h_m = -summary.lowest_h_m;
@@ -201,7 +207,7 @@ Result<void> SeamPages::load(const PageIndex& page, gpu::PageBlock& block) const
     std::fill(std::begin(block.heights), std::end(block.heights), gpu::void_height);
     std::vector<Around> around(gpu::meshlets_per_page);
     const glm::dmat3 page_from_ecef = glm::transpose(summary.ecef_from_page);
-    const std::span<const SeamQuad> quads = quads_of(page.column);
+    const std::span<const SeamQuad> quads = quads_on(page.column);
     for (std::size_t number = 0; number < quads.size(); ++number) {
         const SeamQuad& quad = quads[number];
         const int row = static_cast<int>(number) / seam_quads * seam_stride,
@@ -234,7 +240,7 @@ Result<void> SeamPages::load_places(const PageIndex& page, const gpu::PageBlock&
     const LatticePoint origin =
         lattice_point(records_[static_cast<std::size_t>(page.column)].summary.origin_ecef.m);
     std::fill(std::begin(places.steps), std::end(places.steps), 0);
-    const std::span<const SeamQuad> quads = quads_of(page.column);
+    const std::span<const SeamQuad> quads = quads_on(page.column);
     for (std::size_t number = 0; number < quads.size(); ++number) {
         const SeamQuad& quad = quads[number];
         const int row = static_cast<int>(number) / seam_quads * seam_stride,
@@ -287,7 +293,8 @@ Result<std::unique_ptr<RegionPages>> seam_pages(const Seam& seam, const Undulati
                                                 const RegionShape& shape) {
     std::vector<SeamQuad> pieces, closers;
     for (const SeamPiece& piece : seam.pieces) pieces.push_back(quad_of(piece));
-    for (const SeamCloser& closer : seam.closers) closers.push_back(quad_of(closer));
+    for (const SeamCloser& closer : seam.closers)
+        std::ranges::copy(quads_of(closer), std::back_inserter(closers));
     std::vector<SeamQuad> all = pieces;
     all.insert(all.end(), closers.begin(), closers.end());
     ORO_TRY(const MiddlePlane plane, plane_of(all));

@@ -9,14 +9,12 @@ vec3 beside_quad(FramePage page, uvec2 post) {
     return vec3(places.at[0].steps[first], places.at[0].steps[first + 1u], places.at[0].steps[first + 2u]) / seam_unit;
 }
 
-// How far what closes gaps reaches beyond its own posts: by as many pixels as what lies on both sides may be off. A top goes up, a foot
-// down and sidewards. position: from the eye, along the axes of ECEF, metres.
+// How far what closes gaps reaches beyond its own posts: by as many pixels as what lies on both sides may be off, one way for a quad's
+// first row, another for its second. position: from the eye, along the axes of ECEF, metres.
 vec3 gap_reach_m(FramePage page, uvec2 post, vec3 position) {
     uvec2 quad = quad_of_post(post);
     precise float reach_m = max(FRAME.tau_px, least_gap_px) / FRAME.pixels_per_tangent * length(position);
-    vec3 up = beside_quad(page, quad + uvec2(2u, 1u));
-    if (post.x == quad.x) return reach_m * up;
-    return reach_m * (0.5 * beside_quad(page, quad + uvec2(2u, 2u)) - up);
+    return reach_m * beside_quad(page, quad + uvec2(2u, post.x == quad.x ? 1u : 2u));
 }
 
 // The smooth ground's normal at a post of a quad, along the axes of ECEF.

@@ -1,0 +1,282 @@
+// Grids that lie over each other are one surface: no background shines through where they meet, from any eye,
+// and what is drawn is what brute force finds.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <random>
+
+#include "core/seam/seam_pages.h"
+#include "core/terrain/drawn_heights.h"
+#include "core/terrain/ground.h"
+#include "geo/together/cut_regions.h"
+#include "render/frame/frame_renderer.h"
+#include "render/scene/scene.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/net_terrain.h"
+#include "tests/support/rough_terrain.h"
+
+namespace oro {
+namespace {
+
+// A grid on degrees, another turned over its middle with a step and holes, a third of closer posts over a
+// corner of that.
+Region three_grids(int coarse_posts) {
+    Region region;
+    region.field = test::rough_field(47.0, 8.0, coarse_posts, coarse_posts);
+    region.rank = 2;
+    const double middle = 0.5 * coarse_posts / 1200.0;
+    const auto over = [&](const test::PlaneOfPosts& plane, double step_m, int rank) {
+        Region other;
+        other.field = test::net_field(plane, [&](double row, double column) {
+            const PostPlace at = plane.place_of(row, column);
+            return static_cast<float>(test::rough_H_m(at.lat_deg, at.lon_deg) + step_m);
+        });
+        other.rank = rank;
+        region.beside.push_back(std::move(other));
+    };
+    const PostPlace at{47.0 - middle, 8.0 + middle};
+    over({81, 121, at, 40.0, 27.0}, 15.0, 1);
+    over({101, 91, {at.lat_deg + 0.008, at.lon_deg + 0.02}, 15.0, -51.0}, -10.0, 0);
+    HeightField& holed = region.beside[0].field;
+    for (const auto& [first_row, first_column] : {std::pair{20, 30}, std::pair{55, 100}, std::pair{0, 60}})
+        for (int row = first_row; row < first_row + 7; ++row)
+            for (int column = first_column; column < first_column + 9; ++column)
+                holed.H_m[static_cast<std::size_t>(row * holed.grid.columns() + column)] = void_height_m;
+    return region;
+}
+
+HeightField rest_of(const HeightField& field, const CutOut& cut) {
+    HeightField rest = field;
+    for (std::size_t post = 0; post < cut.left_out.size(); ++post)
+        if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
+    return rest;
+}
+
+gpu::FrameStyle plain_style() {
+    gpu::FrameStyle style{};
+    style.tint_count = 1;
+    style.tints[0].colour = gpu::vec3(0.5F);
+    style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
+    style.relief = 1.0F;
+    style.haze_distance_m = 1e5F;
+    style.sky_scale_height_m = 8000.0F;
+    return style;
+}
+
+class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
+  protected:
+    void open(Region region) {
+        region_ = std::move(region);
+        auto cuts = cut_regions(region_);
+        ASSERT_TRUE(cuts.ok()) << cuts.error().line();
+        cuts_ = std::move(cuts).value();
+        seam_ = seam_between(region_, cuts_, 1.0);
+        std::vector<const Region*> grids = all_grids(region_);
+        for (std::size_t i = 0; i < grids.size(); ++i) {
+            Scene scene = scene_of(pages_in_memory(rest_of(grids[i]->field, cuts_[i]), 1.0, 2));
+            if (i == 0)
+                scene_.emplace(std::move(scene));
+            else
+                scene_->draw_beside(std::move(scene));
+        }
+        auto pages = seam_pages(seam_, {}, region_shape(region_.field, 1.0));
+        ASSERT_TRUE(pages.ok()) << pages.error().line();
+        scene_->draw_beside(scene_of(std::move(pages).value()));
+    }
+    Scene scene_of(std::unique_ptr<RegionPages> pages) {
+        auto scene = Scene::create(*gpu_, std::move(pages), {std::uint64_t{64} << 20U, 0});
+        EXPECT_TRUE(scene.ok()) << scene.error().line();
+        return std::move(scene).value();
+    }
+    std::vector<float> depths(const Camera& camera, double tau_px) {
+        const auto width = static_cast<std::uint32_t>(camera.width_px),
+                   height = static_cast<std::uint32_t>(camera.height_px);
+        if (!renderer_) {
+            FrameRendererOptions options;
+            options.extent = {width, height};
+            options.path = GetParam();
+            options.keep_depths = true;
+            auto renderer = FrameRenderer::create(*gpu_, options);
+            EXPECT_TRUE(renderer.ok()) << renderer.error().line();
+            renderer_.emplace(std::move(renderer).value());
+        }
+        const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+        auto plan = scene_->settled_plan(camera, tile, tau_px);
+        EXPECT_TRUE(plan.ok()) << plan.error().line();
+        near_m_ = static_cast<double>(plan->constants.near_m);
+        auto report = renderer_->draw(std::move(*plan), plain_style(), 0, 1);
+        EXPECT_TRUE(report.ok()) << report.error().line();
+        return *renderer_->read_depths(width, height);
+    }
+    // Over a random place of a rim, or of anything near the middle.
+    Camera camera_over_rim(std::mt19937& random, int side_px, double highest_m) const {
+        const auto between = [&](double a, double b) {
+            return std::uniform_real_distribution<double>(a, b)(random);
+        };
+        const SeamCloser& closer = seam_.closers[random() % seam_.closers.size()];
+        const PostPlace at = place_of_normal(closer.up);
+        Camera camera;
+        const double lat_deg = at.lat_deg + between(-0.002, 0.002),
+                     lon_deg = at.lon_deg + between(-0.002, 0.002);
+        double ground_m = -1000.0;
+        for (const Region* grid : all_grids(region_))
+            ground_m = std::max(ground_m, ground_h_m(grid->field, lat_deg, lon_deg).value_or(-1000.0));
+        camera.eye = {lat_deg, lon_deg, ground_m + std::exp(between(std::log(3.0), std::log(highest_m)))};
+        camera.attitude = {between(0, 360), between(-90, -45), between(-180, 180)};
+        camera.vertical_fov_deg = 35.0;
+        camera.width_px = camera.height_px = side_px;
+        return camera;
+    }
+
+    Region region_;
+    std::vector<CutOut> cuts_;
+    Seam seam_;
+    std::optional<Scene> scene_;
+    std::optional<FrameRenderer> renderer_;
+    double near_m_{};
+};
+
+// Eyes that see ground alone: over the middle of the region, looking down. 500 of them; 10,000 take
+// OROGRAPH_TEST_VIEWS=10000.
+TEST_P(GridsTogether, LeaveNoGap) {
+    constexpr unsigned seed = 81;
+    const char* const asked = std::getenv("OROGRAPH_TEST_VIEWS");
+    const int views = asked != nullptr ? std::max(1, std::atoi(asked)) : 500;
+    std::mt19937 random(seed);
+    open(three_grids(700));
+    std::size_t background = 0, pixels = 0;
+    int shown = 0;
+    for (int i = 0; i < views; ++i) {
+        const Camera camera = camera_over_rim(random, 64, 6000.0);
+        const double taus[] = {0.0, 0.25, 0.5, 1.0, 2.0, 4.0};
+        const double tau_px = taus[random() % 6];
+        const std::vector<float> drawn = depths(camera, tau_px);
+        const auto holes = static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), 0.0F));
+        if (holes > 0 && ++shown <= 5)
+            std::printf("view %d, tau %g: %zu background pixels; eye %.6f, %.6f, h %.1f\n", i, tau_px, holes,
+                        camera.eye.lat_deg, camera.eye.lon_deg, camera.eye.h_m);
+        background += holes;
+        pixels += drawn.size();
+    }
+    std::printf("seed %u: %d views, %zu pixels, %zu of background; %zu pieces, %zu closers\n", seed, views,
+                pixels, background, seam_.pieces.size(), seam_.closers.size());
+    EXPECT_EQ(background, 0U);
+}
+
+struct Triangle {
+    glm::dvec3 a, b, c;
+};
+// Distance along a ray from the origin, or infinity. Source: T. Möller, B. Trumbore, Fast, minimum storage
+// ray/triangle intersection, J. Graphics Tools 2(1), 1997.
+double hit(const Triangle& triangle, const glm::dvec3& ray) {
+    const glm::dvec3 ab = triangle.b - triangle.a, ac = triangle.c - triangle.a, p = glm::cross(ray, ac);
+    const double determinant = glm::dot(ab, p);
+    const double u = glm::dot(-triangle.a, p) / determinant;
+    if (!(u >= 0.0 && u <= 1.0)) return std::numeric_limits<double>::infinity();
+    const glm::dvec3 q = glm::cross(-triangle.a, ab);
+    const double v = glm::dot(ray, q) / determinant;
+    const double t = glm::dot(ac, q) / determinant;
+    return v >= 0.0 && u + v <= 1.0 && t > 0.0 ? t : std::numeric_limits<double>::infinity();
+}
+
+// All that is drawn at full resolution, from an eye: the three grids' own triangles, whole or left out, and
+// the seam.
+std::vector<Triangle> all_triangles(const Region& region, const std::vector<CutOut>& cuts, const Seam& seam,
+                                    const glm::dvec3& eye) {
+    std::vector<Triangle> all;
+    const std::vector<const Region*> grids = all_grids(region);
+    for (std::size_t grid = 0; grid < grids.size(); ++grid) {
+        const HeightField rest = rest_of(grids[grid]->field, cuts[grid]);
+        const auto there = [&](int row, int column) { return !is_void(rest.H_at_post_m(row, column)); };
+        const auto at = [&](int row, int column) { return post_ecef(rest, row, column, 1.0).m - eye; };
+        for (int row = 0; row + 1 < rest.grid.rows(); ++row) {
+            for (int column = 0; column + 1 < rest.grid.columns(); ++column) {
+                if (!there(row, column) || !there(row + 1, column + 1)) continue;
+                if (there(row + 1, column))
+                    all.push_back({at(row, column), at(row + 1, column), at(row + 1, column + 1)});
+                if (there(row, column + 1))
+                    all.push_back({at(row, column), at(row + 1, column + 1), at(row, column + 1)});
+            }
+        }
+    }
+    for (const SeamPiece& piece : seam.pieces)
+        all.push_back(
+            {piece.corners[0].at.m - eye, piece.corners[1].at.m - eye, piece.corners[2].at.m - eye});
+    for (const SeamCloser& closer : seam.closers) {
+        all.push_back({closer.top[0].at.m - eye, closer.foot[0].at.m - eye, closer.foot[1].at.m - eye});
+        all.push_back({closer.top[0].at.m - eye, closer.foot[1].at.m - eye, closer.top[1].at.m - eye});
+    }
+    return all;
+}
+
+// At full resolution each pixel's depth is that of the nearest triangle along its ray, but at edges: there a
+// pixel may show what its neighbour does.
+TEST_P(GridsTogether, AreWhatBruteForceFinds) {
+    constexpr unsigned seed = 82;
+    constexpr int side_px = 40;
+    std::mt19937 random(seed);
+    open(three_grids(90));
+    std::size_t pixels = 0, off = 0, beyond = 0;
+    for (int i = 0; i < 12; ++i) {
+        Camera camera = camera_over_rim(random, side_px, 1500.0);
+        camera.attitude.pitch_deg = std::uniform_real_distribution<double>(-60.0, 5.0)(random);
+        const std::vector<float> drawn = depths(camera, 0.0);
+        const glm::dmat3 ecef_from_view = glm::transpose(camera.view_from_ecef());
+        const Projection projection = projection_of_tile(camera, {0, 0, side_px, side_px, {0.5, 0.5}});
+        const std::vector<Triangle> all = all_triangles(region_, cuts_, seam_, camera.eye_ecef().m);
+        std::vector<double> truth;
+        for (int y = 0; y < side_px; ++y) {
+            for (int x = 0; x < side_px; ++x) {
+                const glm::dvec2 clip = (glm::dvec2(x, y) + 0.5) * 2.0 / double{side_px} - 1.0;
+                const glm::dvec3 ray =
+                    ecef_from_view *
+                    glm::dvec3((clip - glm::dvec2(projection.shift)) / glm::dvec2(projection.scale), -1.0);
+                double nearest = std::numeric_limits<double>::infinity();
+                for (const Triangle& triangle : all) nearest = std::min(nearest, hit(triangle, ray));
+                truth.push_back(nearest);
+            }
+        }
+        const auto agrees = [&](double depth_m, double true_m) {
+            if (std::isinf(true_m) || std::isinf(depth_m)) return std::isinf(true_m) && std::isinf(depth_m);
+            return std::abs(depth_m - true_m) <= 0.02 + 1.0e-3 * true_m;
+        };
+        for (int y = 0; y < side_px; ++y) {
+            for (int x = 0; x < side_px; ++x, ++pixels) {
+                const float depth = drawn[static_cast<std::size_t>(y * side_px + x)];
+                const double m = depth > 0.0F ? near_m_ / static_cast<double>(depth)
+                                              : std::numeric_limits<double>::infinity();
+                if (agrees(m, truth[static_cast<std::size_t>(y * side_px + x)])) continue;
+                ++off;
+                bool near = false;
+                double low = std::numeric_limits<double>::infinity(), high = 0.0;
+                for (int v = std::max(0, y - 1); v <= std::min(side_px - 1, y + 1); ++v) {
+                    for (int u = std::max(0, x - 1); u <= std::min(side_px - 1, x + 1); ++u) {
+                        const double there = truth[static_cast<std::size_t>(v * side_px + u)];
+                        near = near || agrees(m, there);
+                        low = std::min(low, there);
+                        high = std::max(high, there);
+                    }
+                }
+                // Between two neighbours: on a wall, or on ground that is seen at a flat angle.
+                near = near || (m >= low && m <= high);
+                if (!near && ++beyond <= 5)
+                    std::printf("view %d, pixel %d, %d: drawn at %.3f m, truth %.3f m\n", i, x, y, m,
+                                truth[static_cast<std::size_t>(y * side_px + x)]);
+            }
+        }
+    }
+    std::printf("seed %u: %zu pixels, %zu not at the truth's depth, %zu of them at none around\n", seed,
+                pixels, off, beyond);
+    EXPECT_EQ(beyond, 0U);
+    EXPECT_LE(off, pixels / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, GridsTogether, ::testing::Values(RasterPath::mesh, RasterPath::compute),
+                         [](const auto& path) {
+                             return std::string(path.param == RasterPath::mesh ? "mesh" : "compute");
+                         });
+
+}  // namespace
+}  // namespace oro
