@@ -103,7 +103,10 @@ Result<void> run_info(const InfoOptions& options) {
         return {};
     }
     if (!region.beside.empty())
-        std::printf("%zu regions that lie far apart; shot draws them together\n\n", 1 + region.beside.size());
+        std::printf(
+            "%zu grids of posts, which shot draws together; where several have ground, the finest is "
+            "drawn\n\n",
+            1 + region.beside.size());
     std::printf("%s", info_text(region).c_str());
     for (const Region& other : region.beside) std::printf("\n%s", info_text(other).c_str());
     std::printf("%s", unread_files_text(listing).c_str());

@@ -90,7 +90,8 @@ std::string spacing_text(const SourceReport& source) {
     const double middle_deg = 0.5 * (source.box.south_deg + source.box.north_deg);
     const double parallel_m =
         prime_vertical_radius_m(middle_deg) * std::cos(radians_from_deg(middle_deg).rad);
-    return distance_text(source.spacing_m) + " north-south and " +
+    return distance_text(radians_from_deg(source.lat_spacing_deg).rad * meridian_radius_m(middle_deg)) +
+           " north-south and " +
            distance_text(radians_from_deg(source.lon_spacing_deg).rad * parallel_m) + " east-west";
 }
 

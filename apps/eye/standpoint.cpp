@@ -1,7 +1,9 @@
 #include "apps/eye/standpoint.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/geometric.hpp>
 
 #include "apps/command_line/refusals.h"
 #include "core/terrain/ground.h"
@@ -28,6 +30,17 @@ std::string where_data_are(const PostGrid& grid, double lat_deg, double lon_deg)
     return text + (". " + place_name(lon_deg, lat_deg)) + " lies inside: latitude comes first";
 }
 
+// How far a place is from a grid's posts, about: 0 inside.
+double rad_from(const PostGrid& grid, double lat_deg, double lon_deg) {
+    if (holds(grid, lat_deg, lon_deg)) return 0.0;
+    const auto [row, column] = grid.post_at(lat_deg, lon_deg);
+    const PostPlace near =
+        grid.place_at(std::clamp(row, 0.0, grid.rows() - 1.0), std::clamp(column, 0.0, grid.columns() - 1.0));
+    const glm::dvec3 there = ecef_from_enu(near.lat_deg, near.lon_deg)[2],
+                     here = ecef_from_enu(lat_deg, lon_deg)[2];
+    return std::acos(std::clamp(glm::dot(there, here), -1.0, 1.0));
+}
+
 const Region& region_at(const Region& region, double lat_deg, double lon_deg) {
     const Region* there = nullptr;
     const auto look_at = [&](const Region& one, bool has) {
@@ -39,10 +52,23 @@ const Region& region_at(const Region& region, double lat_deg, double lon_deg) {
     look_at(region, has_ground(region));
     for (const Region& other : region.beside) look_at(other, has_ground(other));
     if (there != nullptr) return *there;
-    if (holds(region.field.grid, lat_deg, lon_deg)) return region;
+    const Region* nearest = &region;
     for (const Region& other : region.beside)
-        if (holds(other.field.grid, lat_deg, lon_deg)) return other;
-    return region;
+        if (rad_from(other.field.grid, lat_deg, lon_deg) < rad_from(nearest->field.grid, lat_deg, lon_deg))
+            nearest = &other;
+    return *nearest;
+}
+
+const Region& widest_at(const Region& region, double lat_deg, double lon_deg) {
+    const auto area = [](const Region& one) {
+        const PostGrid& grid = one.field.grid;
+        return (grid.rows() - 1.0) * grid.row_step_rad() * (grid.columns() - 1.0) * grid.column_step_rad();
+    };
+    const Region* widest = &region_at(region, lat_deg, lon_deg);
+    for (const Region& other : region.beside)
+        if (holds(other.field.grid, lat_deg, lon_deg) && area(other) > area(*widest)) widest = &other;
+    if (holds(region.field.grid, lat_deg, lon_deg) && area(region) > area(*widest)) widest = &region;
+    return *widest;
 }
 
 Result<Place> place_at(const char* option, const std::string& text) {

@@ -29,6 +29,8 @@ Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, 
 
 // Of regions that lie apart, the one that has ground at a place; the first where none has.
 const Region& region_at(const Region& region, double lat_deg, double lon_deg);
+// The one of a region's grids that reaches farthest around a place, of those that it is in.
+const Region& widest_at(const Region& region, double lat_deg, double lon_deg);
 
 // A place of an option. Errors (usage) name the option.
 Result<Place> place_at(const char* option, const std::string& text);

@@ -54,8 +54,9 @@ enum class PictureKind { plane, panorama };
 
 struct View {
     RegionRequest region;
-    bool own_posts{};             // its region keeps the posts of files in a CRS of their own
-    Camera camera;                // the eye's h is above the ellipsoid
+    bool own_posts{};      // its region keeps the posts of files in a CRS of their own
+    bool several_grids{};  // ... and those of files that lie apart, or over each other, as grids of their own
+    Camera camera;         // the eye's h is above the ellipsoid
     std::optional<MapFrame> map;  // a map from straight above; the camera then only says about where
     std::optional<PanoramaFrame> panorama;  // nothing: a picture on a plane
     bool legend{};                          // a strip below the picture

@@ -21,14 +21,12 @@ void leave_geoid_out(Region& region) {
 
 namespace {
 
-// Of regions that lie apart, the first is the one that the eye is over, where it is over any: what is told of
-// ground around the eye is told of that.
+// Of several grids, the first is the one whose ground the eye is over, or else the nearest: what is told of
+// ground around the eye is told of that, and what a style asks of the ground.
 void begin_with_region_at(const Geodetic& eye, Region& region) {
-    const auto is_over = [&](const Region& one) { return holds(one.field.grid, eye.lat_deg, eye.lon_deg); };
-    if (is_over(region)) return;
-    const auto there = std::ranges::find_if(region.beside, is_over);
-    if (there == region.beside.end()) return;
-    const auto number = static_cast<std::size_t>(there - region.beside.begin());
+    const Region& there = region_at(region, eye.lat_deg, eye.lon_deg);
+    if (&there == &region) return;
+    const auto number = static_cast<std::size_t>(&there - region.beside.data());
     std::vector<Region> others = std::exchange(region.beside, {});
     Region first = std::move(others[number]);
     first.notes = std::exchange(region.notes, {});
@@ -122,7 +120,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         // A sun that its file told stays where the file has it: the same view, the same bytes.
         if (view_options.sun_time) aim_sun(view.sun, view.camera.eye);
         ORO_CHECK(change_region(view, region_options));
-        view.region.grids_apart = draws_grids_apart(view);
+        view.region.grids_apart = view.several_grids && draws_grids_apart(view);
         if (view.region.paths.empty())
             return Error{ErrorKind::usage, "--view " + view_file,
                          "does not tell where its elevation data lie: name them, too"};
@@ -131,8 +129,9 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         region = std::move(*opened);
         if (!region.beside.empty() && !region_options.grids_apart)
             return Error{ErrorKind::usage, view_file,
-                         "shows files that lie far apart: shot draws it again, and does not measure it yet"};
+                         "shows several grids of posts: shot draws it again, and does not measure it yet"};
         view.own_posts = keeps_own_posts(region);
+        view.several_grids = !region.beside.empty();
         view.prints = prints_of(region);
         begin_with_region_at(view.camera.eye, region);
         ORO_CHECK(check_own_posts(view, region));
@@ -148,6 +147,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     view.region.grids_apart = region_options.grids_apart && draws_grids_apart(view);
     ORO_TRY(region, open_region(view.region, progress));
     view.own_posts = keeps_own_posts(region);
+    view.several_grids = !region.beside.empty();
     view.prints = prints_of(region);
     ORO_CHECK(check_own_posts(view, region));
     ORO_CHECK(open_files(view));

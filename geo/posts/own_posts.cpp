@@ -139,11 +139,24 @@ OwnPosts not_kept(const std::string& why) {
 
 PostWindow posts_in_box(const GridNet& net, const BoundingBox& box) {
     constexpr int steps = 64;
+    // Far beyond the raster parallels and meridians bend away from its rows and columns.
+    const GridNet::Box& all = net.box();
+    const double south_deg = std::max(box.south_deg, all.south_deg),
+                 north_deg = std::min(box.north_deg, all.north_deg);
+    double west_deg = all.east_deg, east_deg = all.west_deg;
+    for (const double turn_deg : {-720.0, -360.0, 0.0, 360.0, 720.0}) {
+        const double west = std::max(box.west_deg + turn_deg, all.west_deg),
+                     east = std::min(box.east_deg + turn_deg, all.east_deg);
+        if (west > east) continue;
+        west_deg = std::min(west_deg, west);
+        east_deg = std::max(east_deg, east);
+    }
+    if (south_deg > north_deg || west_deg > east_deg) return {};
     double north = net.rows(), south = -1.0, west = net.columns(), east = -1.0;
     for (int i = 0; i <= steps; ++i) {
         for (int j = 0; j <= steps; ++j) {
-            const PostNumber post = net.post_at(box.south_deg + (box.north_deg - box.south_deg) * i / steps,
-                                                box.west_deg + (box.east_deg - box.west_deg) * j / steps);
+            const PostNumber post = net.post_at(south_deg + (north_deg - south_deg) * i / steps,
+                                                west_deg + (east_deg - west_deg) * j / steps);
             north = std::min(north, post.row);
             south = std::max(south, post.row);
             west = std::min(west, post.column);

@@ -38,7 +38,8 @@ struct OwnPosts {
 // more posts than memory holds; nothing in the box (no_data).
 Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<BoundingBox>& box);
 
-// Whether the posts of a source in a CRS of its own are on the lattice of another's: the same CRS, spacing and turn.
+// Whether the posts of a source in a CRS of its own are on the lattice of another's: the same CRS, spacing
+// and turn.
 bool is_on_lattice(const Source& source, const Source& other);
 
 // Rows and columns of a net that a box (unwrapped) touches, and a post more on each side where it has one;

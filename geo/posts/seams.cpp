@@ -15,6 +15,13 @@ std::string_view file_name(std::string_view path) {
 
 }  // namespace
 
+Precedence precedence_of(const SourceReport& source) {
+    // Files of one lattice have the same, wherever on it they lie.
+    const double nominal_deg = source.nominal_spacing_deg;
+    if (nominal_deg > 0.0) return {nominal_deg, nominal_deg, source.path};
+    return {source.lat_spacing_deg, source.lon_spacing_deg, source.path};
+}
+
 std::vector<std::size_t> by_precedence(std::span<const Precedence> sources) {
     // Spacings are compared in classes, so that the order stays one: each class starts at its finest member.
     std::vector<std::size_t> order(sources.size());
@@ -45,8 +52,14 @@ std::vector<std::size_t> by_precedence(std::span<const Precedence> sources) {
 
 std::vector<std::size_t> by_precedence(std::span<const Source> sources) {
     std::vector<Precedence> ranks;
-    for (const Source& source : sources)
-        ranks.push_back({source.lat_spacing_deg, source.lon_spacing_deg, source.report.path});
+    for (const Source& source : sources) {
+        Precedence rank = precedence_of(source.report);
+        if (source.report.nominal_spacing_deg <= 0.0) {
+            rank.lat_spacing_deg = source.lat_spacing_deg;
+            rank.lon_spacing_deg = source.lon_spacing_deg;
+        }
+        ranks.push_back(rank);
+    }
     return by_precedence(ranks);
 }
 

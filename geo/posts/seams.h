@@ -19,6 +19,8 @@ struct Precedence {
     double lon_spacing_deg{};
     std::string_view path;  // as found
 };
+// Of a source.
+Precedence precedence_of(const SourceReport& source);
 // The order in which sources take posts: the finer spacing first (the
 // geometric mean of both axes' degrees; equal when within a millionth), among
 // equals by the byte order of file names, then of whole paths.

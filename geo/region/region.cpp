@@ -1,6 +1,7 @@
 #include "geo/region/region.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <new>
 #include <numeric>
@@ -146,6 +147,12 @@ Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent
     if (own) {
         ORO_CHECK(lay_own_posts(sources, {*own, to.undulation, geoid, to.strict_datum}, surface,
                                 region.field.N_of_posts_m, region.notes, progress));
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            SourceReport& report = sources[i].report;
+            const OwnPart& part = own->parts[i];
+            report.part = PartOfGrid{own->upside_down ? grid.rows() - part.row - report.rows : part.row,
+                                     part.column, report.rows, report.columns};
+        }
     } else {
         ORO_TRY(measured, lay_sources(sources, to, surface, region.notes, progress));
     }
@@ -208,11 +215,15 @@ std::vector<std::size_t> ranks_of(const std::vector<std::vector<Source>>& groups
     std::vector<std::size_t> order(groups.size()), ranks(groups.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto spacing_deg = [&](std::size_t group) {
-        return groups[group][finest_of(groups[group])].lat_spacing_deg;
+        double finest_deg = 1.0e9;
+        for (const Source& source : groups[group]) {
+            const Precedence rank = precedence_of(source.report);
+            finest_deg = std::min(finest_deg, std::sqrt(rank.lat_spacing_deg * rank.lon_spacing_deg));
+        }
+        return finest_deg;
     };
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-        return spacing_deg(a) < spacing_deg(b) * (1.0 - 1.0e-6);
-    });
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return spacing_deg(a) < spacing_deg(b); });
     for (std::size_t i = 0; i < order.size(); ++i) ranks[order[i]] = i;
     return ranks;
 }
@@ -234,6 +245,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
         groups.push_back(std::move(found.sources));
     std::vector<Region> regions;
     const std::vector<std::size_t> rank_of = ranks_of(groups);
+    std::vector<Error> empty;
     for (std::size_t number = 0; number < groups.size(); ++number) {
         std::vector<Source>& group = groups[number];
         const auto own = groups.size() == 1 ? extent : region_extent(group, request.box);
@@ -242,15 +254,24 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
         const Progress part = [&](double share, const std::string& what) {
             if (progress) progress(before + share / static_cast<double>(groups.size()), what);
         };
-        ORO_TRY(Region region, region_of(std::move(group), *own, request,
-                                         regions.empty() ? found.notes : std::vector<std::string>(), part));
+        Result<Region> opened = region_of(std::move(group), *own, request,
+                                          regions.empty() ? found.notes : std::vector<std::string>(), part);
+        if (!opened && groups.size() > 1 && opened.error().kind == ErrorKind::no_data) {
+            // The others have ground.
+            empty.push_back(opened.error());
+            continue;
+        }
+        ORO_TRY(Region region, std::move(opened));
         region.rank = static_cast<int>(rank_of[number]);
         regions.push_back(std::move(region));
     }
+    if (regions.empty() && !empty.empty()) return empty.front();
     if (regions.empty())
         return Error{ErrorKind::no_data, list_of(request.paths), "no file's posts cover an area"};
     if (progress) progress(1.0, "region read");
-    return joined(std::move(regions));
+    Region region = joined(std::move(regions));
+    for (const Error& error : empty) add_note(region.notes, "left out: " + error.what);
+    return region;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "geo/region/source_at.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geo/posts/seams.h"
@@ -24,6 +25,17 @@ bool holds(const SourceReport& source, double lat_deg, double lon_deg, double be
     return east_deg <= width_deg + 2.0 * margin_lon_deg + rounding_deg || east_deg >= 360.0 - rounding_deg;
 }
 
+// The same by the posts themselves, where it is known which they are.
+bool holds_place(const Region& region, const SourceReport& source, double lat_deg, double lon_deg,
+                 double beyond) {
+    if (!source.part) return holds(source, lat_deg, lon_deg, beyond);
+    const PostNumber post = region.field.grid.post_at(lat_deg, lon_deg);
+    const double down = post.row - source.part->row, right = post.column - source.part->column;
+    const double slack = std::max(beyond, 1e-6);
+    return down >= -slack && down <= source.part->rows - 1 + slack && right >= -slack &&
+           right <= source.part->columns - 1 + slack;
+}
+
 }  // namespace
 
 const SourceReport* source_at(const Region& region, double lat_deg, double lon_deg) {
@@ -32,9 +44,9 @@ const SourceReport* source_at(const Region& region, double lat_deg, double lon_d
         std::vector<const SourceReport*> around;
         std::vector<Precedence> ranks;
         for (const SourceReport& source : region.sources) {
-            if (!holds(source, lat_deg, lon_deg, beyond)) continue;
+            if (!holds_place(region, source, lat_deg, lon_deg, beyond)) continue;
             around.push_back(&source);
-            ranks.push_back({source.lat_spacing_deg, source.lon_spacing_deg, source.path});
+            ranks.push_back(precedence_of(source));
         }
         if (!around.empty()) return around[by_precedence(ranks).front()];
     }

@@ -111,6 +111,12 @@ struct Resampling {
     std::optional<PostShown> highest, lowest;
 };
 
+// A rectangle of a region's posts.
+struct PartOfGrid {
+    int row{}, column{};
+    int rows{}, columns{};
+};
+
 struct SourceReport {
     std::string path;  // as found, e.g. tiles.zip/N46E008.hgt
     SourceFormat format{SourceFormat::raster};
@@ -126,8 +132,12 @@ struct SourceReport {
     double lat_spacing_deg{};
     double lon_spacing_deg{};
     double spacing_m{};  // north-south, metres
-    BoundingBox box;     // of the posts
-    double lowest_m{};   // of posts of the region that have its heights, H in metres
+    // As its CRS counts it, the mean of both ways, in degrees of the equator: equal for all files of one
+    // lattice. 0 where posts lie on degrees, and in a baked region.
+    double nominal_spacing_deg{};
+    std::optional<PartOfGrid> part;  // of a region on a net, where it is known
+    BoundingBox box;                 // of the posts
+    double lowest_m{};               // of posts of the region that have its heights, H in metres
     double highest_m{};
     std::optional<StoredRange> stored;  // nothing where it is not known: nothing was read, no value is
                                         // stored, or the region was baked before this was kept

@@ -239,6 +239,11 @@ Result<void> place_on_earth(Source& source, OGRSpatialReferenceH horizontal) {
         ORO_CHECK(place_by_samples(source, outwards));
         ORO_CHECK(measure_spacing(source, outwards));
         source.projected = !OSRIsGeographic(horizontal);
+        const auto& m = source.crs_from_post;
+        const double metre_deg = 1.0 / (radians_from_deg(1.0).rad * wgs84_a_m);
+        source.report.nominal_spacing_deg =
+            std::sqrt(std::abs(m[1] * m[5] - m[2] * m[4])) *
+            (source.projected ? OSRGetLinearUnits(horizontal, nullptr) * metre_deg : 1.0);
         if (!source.projected) {
             source.lat_spacing_deg = std::hypot(source.crs_from_post[4], source.crs_from_post[5]);
             source.lon_spacing_deg = std::hypot(source.crs_from_post[1], source.crs_from_post[2]);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "core/terrain/drawn_heights.h"
@@ -20,37 +21,49 @@ std::vector<const Region*> over(const Region& region, const Region& one) {
     return finer;
 }
 
-// Posts of one grid as they are drawn.
+// Posts of one grid as they are drawn; each is placed once.
 class DrawnPosts {
   public:
     DrawnPosts(const HeightField& field, double exaggeration) : field_(field), exaggeration_(exaggeration) {}
 
-    [[nodiscard]] glm::dvec3 at(GridPost post) const {
-        return post_ecef(field_, post.row, post.column, exaggeration_).m;
-    }
-    [[nodiscard]] double h_m(GridPost post) const {
-        return drawn_h_m(field_, post.row, post.column, exaggeration_);
-    }
-    // Of the smooth ground: from the posts around, on the sides where there are any.
-    [[nodiscard]] glm::dvec3 normal(GridPost post) const {
-        const glm::dvec3 here = at(post), up = glm::normalize(here);
-        const auto way = [&](int down, int right) {
-            const GridPost before{post.row - down, post.column - right},
-                after{post.row + down, post.column + right};
-            return (is_there(after) ? at(after) : here) - (is_there(before) ? at(before) : here);
-        };
-        const glm::dvec3 normal = glm::cross(way(1, 0), way(0, 1));
-        const double length = glm::length(normal);
-        return length > 0.0 && glm::dot(normal, up) > 0.0 ? normal / length : up;
+    // The normal is that of the smooth ground: from the posts around, on the sides where there are any.
+    const SeamCorner& at(GridPost post) {
+        const auto [found, is_new] = drawn_.try_emplace(number(post));
+        if (is_new) {
+            found->second.at.m = place(post);
+            found->second.h_m = drawn_h_m(field_, post.row, post.column, exaggeration_);
+            found->second.normal = normal(post, found->second.at.m);
+        }
+        return found->second;
     }
 
   private:
+    [[nodiscard]] std::size_t number(GridPost post) const {
+        return static_cast<std::size_t>(post.row) * static_cast<std::size_t>(field_.grid.columns()) +
+               static_cast<std::size_t>(post.column);
+    }
+    [[nodiscard]] glm::dvec3 place(GridPost post) const {
+        return post_ecef(field_, post.row, post.column, exaggeration_).m;
+    }
+    [[nodiscard]] glm::dvec3 normal(GridPost post, const glm::dvec3& here) const {
+        const auto place_or_here = [&](int down, int right) {
+            const GridPost beside{post.row + down, post.column + right};
+            return is_there(beside) ? place(beside) : here;
+        };
+        const glm::dvec3 up = glm::normalize(here);
+        const glm::dvec3 down_row = place_or_here(1, 0) - place_or_here(-1, 0),
+                         along_row = place_or_here(0, 1) - place_or_here(0, -1);
+        const glm::dvec3 normal = glm::cross(down_row, along_row);
+        const double length = glm::length(normal);
+        return length > 0.0 && glm::dot(normal, up) > 0.0 ? normal / length : up;
+    }
     [[nodiscard]] bool is_there(GridPost post) const {
         return post.row >= 0 && post.column >= 0 && post.row < field_.grid.rows() &&
                post.column < field_.grid.columns() && !is_void(field_.H_at_post_m(post.row, post.column));
     }
     const HeightField& field_;
     double exaggeration_;
+    std::unordered_map<std::size_t, SeamCorner> drawn_;
 };
 
 // The corners of one grid's cut as they are drawn.
@@ -63,24 +76,25 @@ class SeamBuilder {
     void add(const CutOut& cut, Seam& seam);
 
   private:
-    [[nodiscard]] SeamCorner corner(const SeamPoint& point) const;
+    SeamCorner corner(const SeamPoint& point);
     // Where two points of the cut grid are the same.
     using Key = std::pair<std::int64_t, std::int64_t>;
     static Key key(const SeamPoint& point);
-    void close_outer_sides(const CutOut& cut, Seam& seam) const;
+    void close_outer_sides(const CutOut& cut, Seam& seam);
     void add_closer(std::array<SeamCorner, 2> one, std::array<SeamCorner, 2> other, Seam& seam) const;
 
     std::vector<DrawnPosts> posts_;
 };
 
-SeamCorner SeamBuilder::corner(const SeamPoint& point) const {
-    const DrawnPosts& grid = posts_[point.grid];
+SeamCorner SeamBuilder::corner(const SeamPoint& point) {
+    DrawnPosts& grid = posts_[point.grid];
     SeamCorner corner;
     for (std::size_t i = 0; i < 3; ++i) {
         if (point.shares[i] == 0.0) continue;
-        corner.at.m += point.shares[i] * grid.at(point.posts[i]);
-        corner.h_m += point.shares[i] * grid.h_m(point.posts[i]);
-        corner.normal += point.shares[i] * grid.normal(point.posts[i]);
+        const SeamCorner& post = grid.at(point.posts[i]);
+        corner.at.m += point.shares[i] * post.at.m;
+        corner.h_m += point.shares[i] * post.h_m;
+        corner.normal += point.shares[i] * post.normal;
     }
     corner.normal = glm::normalize(corner.normal);
     return corner;
@@ -114,7 +128,7 @@ void SeamBuilder::add_closer(std::array<SeamCorner, 2> one, std::array<SeamCorne
 
 // Sides of pieces that neither another piece nor a wall shares: there the grid's own triangles go on, as
 // placed by another program.
-void SeamBuilder::close_outer_sides(const CutOut& cut, Seam& seam) const {
+void SeamBuilder::close_outer_sides(const CutOut& cut, Seam& seam) {
     std::map<std::pair<Key, Key>, int> shared;
     for (const SeamTriangle& piece : cut.ground)
         for (std::size_t i = 0; i < 3; ++i) ++shared[{key(piece.points[i]), key(piece.points[(i + 1) % 3])}];

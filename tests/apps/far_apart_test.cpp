@@ -87,7 +87,7 @@ TEST_F(FilesFarApart, AreListedAsRegionsOfTheirOwn) {
     EXPECT_EQ(told["region"]["posts"]["rows"], 1201);
     EXPECT_EQ(told["apart"][0]["region"]["posts"]["rows"], 1201);
     const Outcome text = run_orograph({"info", north_, south_});
-    EXPECT_NE(text.out.find("2 regions that lie far apart"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("2 grids of posts"), std::string::npos) << text.out;
 }
 
 // What measures a picture does so on one grid yet: it refuses such a picture, and says why.
@@ -96,10 +96,37 @@ TEST_F(FilesFarApart, AreNotMeasuredYet) {
     const Outcome drawn = run_orograph({"shot", north_, south_, "--at", "46.5,8.5", "--above", "900",
                                         "--size", "80x60", "--out", both.string(), "-q"});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
-    expect_refusal(run_orograph({"compare", both.string()}), 2, {"both.png", "far apart"});
+    expect_refusal(run_orograph({"compare", both.string()}), 2, {"both.png", "several grids"});
     expect_refusal(
         run_orograph({"shot", "--view", both.string(), "--verify", "--out", (folder_ / "x.png").string()}), 2,
-        {"both.png", "far apart"});
+        {"both.png", "several grids"});
+}
+
+// What was measured was drawn as one grid, and is drawn again so.
+TEST_F(FilesFarApart, AreDrawnAgainAsTheyWere) {
+    const fs::path folder = folder_ / "near";
+    fs::create_directory(folder);
+    const std::string a = tile(folder, "N46E008.hgt", 500).string(),
+                      b = tile(folder, "N48E010.hgt", 600).string();
+    const fs::path both = folder / "both.png";
+    const Outcome drawn =
+        run_orograph({"shot", a, b, "--bbox=8.9,46.9,10.1,48.1", "--at", "46.95,8.95", "--above", "900",
+                      "--size", "80x60", "--verify", "--out", both.string(), "-q"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    const Outcome again =
+        run_orograph({"shot", "--view", both.string(), "--out", (folder / "again.png").string(), "-q"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(pixels(both), pixels(folder / "again.png"));
+}
+
+// A file without any height is left out where others have some.
+TEST_F(FilesFarApart, AreLeftOutWhereTheyAreEmpty) {
+    std::string bytes;
+    for (int post = 0; post < 1201 * 1201; ++post) bytes += std::string{static_cast<char>(0x80), '\0'};
+    oro::test::write_bytes(south_, bytes);
+    const Outcome info = run_orograph({"info", north_, south_});
+    ASSERT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_NE(info.out.find("left out: no height"), std::string::npos) << info.out;
 }
 
 // Tiles with a gap between them that is not larger than they are make one region, as ever.

@@ -12,6 +12,7 @@
 #include "apps/drawing/drape.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/eye/standpoint.h"
 #include "apps/layers/picture_layers.h"
 #include "apps/legend/legend.h"
 #include "apps/maps/ortho_map.h"
@@ -198,7 +199,9 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
                          [&](double share) { bar.show(share, "measuring levels"); }));
     if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
     if (!shot.view.map) {
-        ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
+        const Geodetic& eye = shot.view.camera.eye;
+        ORO_TRY(shot.unseen,
+                unseen_in(shot.view, widest_at(shot.region, eye.lat_deg, eye.lon_deg), ceiling_m));
     }
     ORO_TRY(Scene scene,
             create_scene(gpu, std::move(pages), memory_of_pages(shot.view, options.memory), shot.view.heights,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/net_terrain.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -45,6 +46,27 @@ TEST(SourceAt, AmongEqualsTheFirstFileNameWhateverItsFolder) {
     EXPECT_EQ(name_at(region, 46.5, 8.0), "b/N46E007.hgt") << "the meridian that both have";
     EXPECT_EQ(name_at(region, 46.5, 8.000001), "a/N46E008.hgt");
     EXPECT_EQ(name_at(region, 46.5, 7.999999), "b/N46E007.hgt");
+}
+
+// Two files of a turned lattice, side by side: each one's box holds a corner of the other.
+TEST(SourceAt, OnANetByTheFilesOwnPosts) {
+    const test::PlaneOfPosts plane{101, 201, {46.5, 8.5}, 30.0, 30.0};
+    Region region;
+    region.field.grid = grid_on_net(test::net_of(plane));
+    const BoundingBox all{8.0, 46.0, 9.0, 47.0};
+    region.sources = {source("a.tif", 3600, all), source("b.tif", 3600, all)};
+    region.sources[0].part = PartOfGrid{0, 0, 101, 101};
+    region.sources[1].part = PartOfGrid{0, 101, 101, 100};
+    const auto name = [&](double row, double column) {
+        const PostPlace place = plane.place_of(row, column);
+        return name_at(region, place.lat_deg, place.lon_deg);
+    };
+    EXPECT_EQ(name(50.0, 30.0), "a.tif");
+    EXPECT_EQ(name(50.0, 170.0), "b.tif");
+    EXPECT_EQ(name(3.0, 99.5), "a.tif");
+    EXPECT_EQ(name(97.0, 102.0), "b.tif");
+    EXPECT_EQ(name(50.0, 100.4), "a.tif") << "half a cell beyond its last post";
+    EXPECT_EQ(name(-3.0, 50.0), "none");
 }
 
 TEST(SourceAt, OverTheAntimeridianInEveryTurn) {

@@ -254,8 +254,8 @@ TEST(CutOut, AFinerGridOnTheSameDegreesTakesItsPart) {
     scene.expect_walls_as_high_as_steps();
     // Its rim is 2 x (60 + 80) posts long.
     EXPECT_EQ(scene.cut().walls.size(), 280U);
-    // In two of its corners a triangle has all its posts on the rim. One of them goes, and takes three triangles outside
-    // along, which meet the rim's own posts.
+    // In two of its corners a triangle has all its posts on the rim. One of them goes, and takes three
+    // triangles outside along, which meet the rim's own posts.
     EXPECT_EQ(scene.cut().ground.size(), 18U);
 }
 
