@@ -13,7 +13,8 @@ float height_across(PageBlocks block, ivec2 post, ivec2 step, int here) {
 // Rise towards (east, north), metres per metre, at a post of the page.
 // Source: B. K. P. Horn, Hill shading and the reflectance map, Proceedings of the IEEE 69(1), 1981: weights 1, 2, 1.
 vec2 rise_at_post(PageBlocks block, FramePage page, ivec2 post) {
-    int here = height_or(block, post, 0);
+    int here = height_or(block, post, void_height);
+    if (here == void_height) return vec2(0.0);
     float north_west = height_across(block, post, ivec2(-1, -1), here), north = height_across(block, post, ivec2(-1, 0), here);
     float north_east = height_across(block, post, ivec2(-1, 1), here), east = height_across(block, post, ivec2(0, 1), here);
     float south_east = height_across(block, post, ivec2(1, 1), here), south = height_across(block, post, ivec2(1, 0), here);

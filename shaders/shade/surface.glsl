@@ -62,10 +62,12 @@ void descend(inout FramePage page, inout vec2 post, float distance_m) {
 
 // Slope at a post towards (south, east), metres from one of the region's posts to the next. One-sided beside a void.
 vec2 slope_at_post(PageBlocks block, FramePage page, ivec2 post) {
-    int here = height_or(block, post, 0);
+    int here = height_or(block, post, void_height);
     ivec4 around = ivec4(height_or(block, post + ivec2(-1, 0), void_height), height_or(block, post + ivec2(1, 0), void_height),
                          height_or(block, post + ivec2(0, -1), void_height), height_or(block, post + ivec2(0, 1), void_height));
     bvec4 there = notEqual(around, ivec4(void_height));
+    // A void post, where a cell has one: between its neighbours, or none.
+    if (here == void_height) there = bvec4(bvec2(there.x && there.y), bvec2(there.z && there.w));
     // A region that goes round the Earth has posts beyond its last: there the spacing is the same on both sides.
     vec2 at = region_post(page, vec2(post));
     vec2 before = region_post(page, vec2(post - 1)), after = region_post(page, vec2(post + 1));
@@ -206,10 +208,10 @@ vec3 normal_of_seam(FramePage page, uvec2 posts[3], vec3 shares, float heights_m
     vec3 normal = shares.x * seam_normal(page, posts[0]) + shares.y * seam_normal(page, posts[1]) + shares.z * seam_normal(page, posts[2]);
     vec3 view = shares.x * at[0] + shares.y * at[1] + shares.z * at[2];
     normal = FRAME.view_from_ecef * normal;
-    float lowest_m = min(heights_m[0], min(heights_m[1], heights_m[2])), highest_m = max(heights_m[0], max(heights_m[1], heights_m[2]));
     float reach_m = FRAME.tau_px / FRAME.pixels_per_tangent * length(view);
-    // A step that is more than a line.
-    if ((page.cull & closes_gaps) != 0u && highest_m - lowest_m > 2.0 * reach_m) {
+    // A step that is more than a line: between a top and the foot below it.
+    float step_m = abs(posts[0].y == posts[1].y ? heights_m[0] - heights_m[1] : heights_m[1] - heights_m[2]);
+    if ((page.cull & closes_gaps) != 0u && step_m > 2.0 * reach_m) {
         vec3 upright = cross(at[1] - at[0], at[2] - at[0]);
         normal = dot(upright, view) > 0.0 ? -upright : upright;
     }

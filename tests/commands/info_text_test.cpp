@@ -126,10 +126,11 @@ TEST(InfoText, LengthsAreInWordsAndUnitsShort) {
     coarse.rows = coarse.columns = 5;
     coarse.lat_spacing_deg = coarse.lon_spacing_deg = 0.25;
     coarse.spacing_m = 27670.0;
+    // A quarter of a degree of the meridian at 46.5 N: M = 6,369.06 km.
     coarse.height_unit.name = "metre";
     coarse.lowest_m = -3.25;
     coarse.highest_m = 4142.0;
-    expect_words(info_text(region_of({coarse})), {"degrees (27.67 km north-south and 19.19 km east-west)\n",
+    expect_words(info_text(region_of({coarse})), {"degrees (27.79 km north-south and 19.19 km east-west)\n",
                                                   ", in m\n", "-3.2 to 4142.0 m\n"});
     // In a projection posts are as far apart both ways, and do not fill a box of degrees.
     coarse.lon_spacing_deg = 0.3625;
