@@ -7,7 +7,8 @@
 namespace oro {
 namespace {
 
-// Three times the middle of a triangle.
+// Three times the middle of a triangle, and the triangle with its least corner first: so it does not matter
+// which corner was first.
 struct Placed {
     std::int64_t row;
     std::int64_t column;
@@ -56,6 +57,8 @@ void split_to_clusters(const OriginalSurface& surface, std::span<VertexTriangle>
     placed.reserve(triangles.size());
     for (const VertexTriangle& triangle : triangles) {
         Placed one{0, 0, triangle};
+        std::rotate(one.triangle.begin(), std::min_element(one.triangle.begin(), one.triangle.end()),
+                    one.triangle.end());
         for (const VertexNumber number : triangle) {
             one.row += surface.vertex(number).row;
             one.column += surface.vertex(number).column;

@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/clusters/cluster_split.h"
+#include "core/clusters/cluster_walk.h"
 #include "core/clusters/group_assignment.h"
 #include "core/clusters/group_bounds.h"
 #include "core/clusters/open_border.h"
@@ -52,6 +53,8 @@ class Builder {
     };
 
     void share_out(const GroupAssignment& assignment, std::size_t part, Part& shared);
+    void put_clusters_in_order(std::span<VertexTriangle> triangles,
+                               std::span<const std::size_t> clusters) const;
     void add_clusters(const std::vector<Part>& shared, GraphLevel& report);
     void add_groups(std::size_t groups, std::uint32_t first_cluster, GraphLevel& report);
     void make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simplifier, Made& made) const;
@@ -97,7 +100,19 @@ void Builder::share_out(const GroupAssignment& assignment, std::size_t part, Par
         split_to_clusters(surface_, std::span(sorted).subspan(first, last - first), shared.clusters);
         shared.groups.resize(shared.clusters.size(), group);
     }
+    put_clusters_in_order(sorted, shared.clusters);
     triangles = std::move(sorted);
+}
+
+// So what becomes of clusters does not depend on how they came about, and a file may tell them in its own
+// order.
+void Builder::put_clusters_in_order(std::span<VertexTriangle> triangles,
+                                    std::span<const std::size_t> clusters) const {
+    std::size_t first = 0;
+    for (const std::size_t count : clusters) {
+        put_in_walk_order(surface_, triangles.subspan(first, count));
+        first += count;
+    }
 }
 
 // used_by is the group's number on its level for now.
@@ -225,6 +240,7 @@ void Builder::add_coarsest() {
             shared[i].clusters = {parts_[i].size()};
         else
             split_to_clusters(surface_, parts_[i], shared[i].clusters);
+        if (made_by_[i] != no_group) put_clusters_in_order(parts_[i], shared[i].clusters);
     }
     GraphLevel unused;
     add_clusters(shared, unused);
