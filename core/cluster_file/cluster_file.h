@@ -1,0 +1,74 @@
+// The cluster file: a cluster graph whose groups are read one by one when they are asked for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/open_file.h"
+#include "core/base/result.h"
+#include "core/cluster_file/group_code.h"
+#include "core/clusters/cluster_graph.h"
+#include "core/surface/ground_bounds.h"
+#include "core/surface/original_surface.h"
+
+namespace oro {
+
+// What a file says of the whole graph.
+struct ClusterOutline {
+    // Tells the heights that the graph was built over from any other.
+    std::uint64_t fingerprint{};
+    PostCounts posts;
+    std::uint32_t leaves{};  // clusters of the original; their triangles are the grid's, and not in the file
+    std::uint32_t clusters{};  // leaves, too
+    std::uint32_t groups{};
+    std::uint64_t members{};    // clusters that groups use
+    std::uint64_t triangles{};  // above the leaves
+    std::vector<GraphLevel> levels;
+};
+
+// Writes a graph as PATH.partial, which takes the real name when it is whole, on the disk. posts: those that
+// the graph was built over. The same graph makes the same bytes, whatever the number of threads. Errors:
+// a name that is taken (unless `overwrite`), a folder that cannot be written to, another program that is
+// writing the same file, a group that no file holds (encode_group).
+Result<void> write_cluster_graph(const std::string& path, const ClusterGraph& graph, const PostCounts& posts,
+                                 std::uint64_t fingerprint, bool overwrite, int threads = 1);
+
+// A cluster file that is read. Opening reads what concerns the whole graph, a few KB; a group's record and
+// payload are read when they are asked for, from any number of threads at once. Every damage is an Error with
+// the name of the file, the place, what was found and what was expected.
+//     ORO_TRY(const ClusterFile file, ClusterFile::open("alps.oroc"));
+//     ORO_TRY(const ClusterGraph graph, file.graph(surface, bounds));
+class ClusterFile {
+  public:
+    // Errors: no cluster file, one of another version of the format, cut off, unfinished, damaged, or with
+    // counts that no graph has.
+    static Result<ClusterFile> open(const std::string& path);
+
+    [[nodiscard]] const std::string& path() const { return file_.path(); }
+    [[nodiscard]] const ClusterOutline& outline() const { return outline_; }
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+    // A group's numbers, without first_member; number: below outline().groups. What the groups of one level
+    // say of each other is looked at in graph() alone.
+    [[nodiscard]] Result<ClusterGroup> group(std::uint32_t number) const;
+    // All of a group. Members are below what it made, its clusters' users on the next level.
+    Result<void> part(std::uint32_t number, GroupPart& part) const;
+    // The whole graph, as it was written, to the bit. Over what it was built over: leaves and places come
+    // from there. All is checked (core/cluster_file/sound_graph.h).
+    [[nodiscard]] Result<ClusterGraph> graph(const OriginalSurface& surface, const GroundBounds& bounds,
+                                             int threads = 1) const;
+
+  private:
+    ClusterFile(OpenFile file, ClusterOutline outline, std::uint64_t bytes);
+    [[nodiscard]] std::uint32_t level_of(std::uint32_t number) const;
+    [[nodiscard]] Result<void> check_records() const;
+
+    OpenFile file_;
+    ClusterOutline outline_;
+    std::uint64_t bytes_;
+    std::vector<std::uint32_t> last_groups_;  // one after the last, by level
+};
+
+}  // namespace oro

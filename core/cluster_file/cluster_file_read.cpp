@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "core/base/checksum.h"
+#include "core/base/little_endian.h"
+#include "core/base/parallel.h"
+#include "core/cluster_file/cluster_format.h"
+#include "core/cluster_file/sound_graph.h"
+
+namespace oro {
+namespace {
+
+using namespace cluster_format;
+
+std::uint64_t record_offset(const ClusterOutline& outline, std::uint32_t number) {
+    return header_bytes + outline.levels.size() * level_bytes + std::uint64_t{number} * record_bytes;
+}
+
+Result<Header> read_header(const OpenFile& file, std::uint64_t bytes) {
+    HeaderBytes front;
+    const auto there = std::span(front).first(std::min<std::uint64_t>(bytes, front.size()));
+    ORO_CHECK(file.read(0, there));
+    const auto begins = std::as_bytes(std::span(magic));
+    if (there.size() < begins.size() || !std::equal(begins.begin(), begins.end(), there.begin()))
+        return fault(file.path(), "is no cluster file");
+    ORO_CHECK(file.read(0, front));
+    const auto found = from_little_endian<std::uint32_t>(&front[8]);
+    if (found != version)
+        return fault(file.path(), "has version " + std::to_string(found) + " of the format, expected " +
+                                      std::to_string(version));
+    if (const auto wrong = wrong_checksum(front, 0)) return file.damaged(0, "the header " + *wrong);
+    const Header header = header_from_bytes(front);
+    if (header.file_bytes == 0) return fault(file.path(), "is unfinished");
+    if (header.file_bytes != bytes)
+        return file.damaged(16, "the header says " + std::to_string(header.file_bytes) +
+                                    " bytes, but the file has " + std::to_string(bytes));
+    if (const auto wrong = implausible(header)) return file.damaged(0, "the header " + *wrong);
+    return header;
+}
+
+Result<StoredGroup> read_record(const OpenFile& file, const ClusterOutline& outline, std::uint64_t bytes,
+                                std::uint32_t number) {
+    const std::uint64_t offset = record_offset(outline, number);
+    const std::string name = "the record of group " + std::to_string(number) + " ";
+    RecordBytes stored;
+    ORO_CHECK(file.read(offset, stored));
+    if (const auto wrong = wrong_checksum(stored, number)) return file.damaged(offset, name + *wrong);
+    const StoredGroup record = record_from_bytes(stored);
+    const Header header{bytes, outline, static_cast<std::uint32_t>(outline.levels.size()), 0};
+    if (const auto wrong = implausible(record, header)) return file.damaged(offset, name + *wrong);
+    return record;
+}
+
+}  // namespace
+
+ClusterFile::ClusterFile(OpenFile file, ClusterOutline outline, std::uint64_t bytes)
+    : file_(std::move(file)), outline_(std::move(outline)), bytes_(bytes) {
+    std::uint32_t last = 0;
+    for (const GraphLevel& level : outline_.levels)
+        last_groups_.push_back(last += static_cast<std::uint32_t>(level.groups));
+}
+
+std::uint32_t ClusterFile::level_of(std::uint32_t number) const {
+    return 1 + static_cast<std::uint32_t>(std::upper_bound(last_groups_.begin(), last_groups_.end(), number) -
+                                          last_groups_.begin());
+}
+
+Result<ClusterFile> ClusterFile::open(const std::string& path) {
+    ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    ORO_TRY(const std::uint64_t bytes, file.size());
+    ORO_TRY(const Header header, read_header(file, bytes));
+    std::vector<std::byte> levels(header.levels * level_bytes);
+    ORO_CHECK(file.read(header_bytes, levels));
+    if (const std::uint64_t computed = xxh64(levels); computed != header.levels_checksum)
+        return file.damaged(header_bytes, "the levels have checksum " + std::to_string(computed) +
+                                              ", expected " + std::to_string(header.levels_checksum));
+    ClusterOutline outline = header.outline;
+    outline.levels = levels_from_bytes(levels);
+    if (const auto wrong = implausible(header, outline.levels))
+        return file.damaged(header_bytes, "the levels " + *wrong);
+    return ClusterFile(std::move(file), std::move(outline), bytes);
+}
+
+Result<ClusterGroup> ClusterFile::group(std::uint32_t number) const {
+    assert(number < outline_.groups);
+    ORO_TRY(StoredGroup stored, read_record(file_, outline_, bytes_, number));
+    stored.group.level = level_of(number);
+    return stored.group;
+}
+
+Result<void> ClusterFile::part(std::uint32_t number, GroupPart& part) const {
+    assert(number < outline_.groups);
+    ORO_TRY(const StoredGroup stored, read_record(file_, outline_, bytes_, number));
+    std::vector<std::byte> payload(stored.payload_bytes);
+    ORO_CHECK(file_.read(stored.payload_offset, payload));
+    const auto damaged = [&](const std::string& what) {
+        return file_.damaged(stored.payload_offset,
+                             "the payload of group " + std::to_string(number) + " " + what);
+    };
+    if (const std::uint64_t computed = xxh64(payload, number); computed != stored.payload_checksum)
+        return damaged("has checksum " + std::to_string(computed) + ", expected " +
+                       std::to_string(stored.payload_checksum));
+    part.number = number;
+    part.group = stored.group;
+    const std::uint32_t level = part.group.level = level_of(number);
+    if (const auto wrong = decode_group(payload, outline_.posts, outline_.clusters, part))
+        return damaged(*wrong);
+    if (part.triangles.size() != stored.triangles)
+        return damaged("has " + std::to_string(part.triangles.size()) + " triangles, expected " +
+                       std::to_string(stored.triangles));
+    for (const std::uint32_t member : part.members) {
+        if (member >= part.group.first_made || (level == 1) != (member < outline_.leaves))
+            return damaged("uses cluster " + std::to_string(member) + ", expected one of level " +
+                           std::to_string(level - 1));
+    }
+    for (const Cluster& cluster : part.made) {
+        const bool last = level == outline_.levels.size();
+        if (last ? cluster.used_by != no_group
+                 : cluster.used_by == no_group || cluster.used_by >= outline_.groups ||
+                       level_of(cluster.used_by) != level + 1)
+            return damaged(
+                "has a cluster used by group " + std::to_string(cluster.used_by) +
+                (last ? ", expected none" : ", expected one of level " + std::to_string(level + 1)));
+    }
+    return {};
+}
+
+namespace {
+
+// Leaves, and room for the rest.
+Result<ClusterGraph> begin_graph(const ClusterFile& file, const OriginalSurface& surface) {
+    const ClusterOutline& outline = file.outline();
+    const auto leaves = surface.leaves();
+    if (surface.vertex_count() !=
+            static_cast<std::size_t>(outline.posts.rows) * static_cast<std::size_t>(outline.posts.columns) ||
+        leaves.size() != outline.leaves)
+        return fault(file.path(), "was made over " + std::to_string(outline.posts.rows) + " x " +
+                                      std::to_string(outline.posts.columns) + " posts with " +
+                                      std::to_string(outline.leaves) + " leaves; here are " +
+                                      std::to_string(surface.vertex_count()) + " posts with " +
+                                      std::to_string(leaves.size()) + " leaves");
+    ClusterGraph graph;
+    graph.levels = outline.levels;
+    std::vector<VertexNumber> vertices;
+    for (const auto& leaf : leaves) {
+        vertices.clear();
+        for (const VertexTriangle& triangle : leaf)
+            vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+        std::sort(vertices.begin(), vertices.end());
+        const auto different = std::unique(vertices.begin(), vertices.end()) - vertices.begin();
+        graph.clusters.push_back({static_cast<std::uint32_t>(graph.triangles.size()),
+                                  static_cast<std::uint32_t>(leaf.size()),
+                                  static_cast<std::uint32_t>(different), no_group, no_group});
+        graph.triangles.insert(graph.triangles.end(), leaf.begin(), leaf.end());
+    }
+    return graph;
+}
+
+// Appends a group to those before it.
+void append(const GroupPart& part, ClusterGraph& graph) {
+    ClusterGroup group = part.group;
+    group.first_member = static_cast<std::uint32_t>(graph.members.size());
+    graph.members.insert(graph.members.end(), part.members.begin(), part.members.end());
+    for (Cluster cluster : part.made) {
+        cluster.first_triangle += static_cast<std::uint32_t>(graph.triangles.size());
+        graph.clusters.push_back(cluster);
+    }
+    graph.triangles.insert(graph.triangles.end(), part.triangles.begin(), part.triangles.end());
+    graph.groups.push_back(group);
+}
+
+// Leaves say which group uses them by what the groups of level 1 say.
+void link_leaves(ClusterGraph& graph, std::uint32_t leaves) {
+    for (std::uint32_t i = 0; i < graph.groups.size() && graph.groups[i].level == 1; ++i) {
+        for (const std::uint32_t member : graph.members_of(graph.groups[i])) {
+            if (member < leaves && graph.clusters[member].used_by == no_group)
+                graph.clusters[member].used_by = i;
+        }
+    }
+}
+
+}  // namespace
+
+// All records against each other, the levels, the header and the file, before anything is made room for.
+Result<void> ClusterFile::check_records() const {
+    std::uint64_t next_payload = record_offset(outline_, outline_.groups);
+    std::uint64_t next_made = outline_.leaves, members = 0;
+    std::uint32_t number = 0;
+    const auto differ = [&](const std::string& what, std::uint64_t found, std::uint64_t expected) {
+        return file_.damaged(record_offset(outline_, number),
+                             "the record of group " + std::to_string(number) + " " + what + " " +
+                                 std::to_string(found) + ", expected " + std::to_string(expected));
+    };
+    for (std::size_t level = 0; level < outline_.levels.size(); ++level) {
+        std::uint64_t triangles = 0, made = 0;
+        double largest_m = 0.0;
+        for (; number < last_groups_[level]; ++number) {
+            ORO_TRY(const StoredGroup stored, read_record(file_, outline_, bytes_, number));
+            if (stored.payload_offset != next_payload)
+                return differ("has its payload at byte", stored.payload_offset, next_payload);
+            if (stored.group.first_made != next_made)
+                return differ("made clusters from number", stored.group.first_made, next_made);
+            next_payload += stored.payload_bytes;
+            next_made += stored.group.made;
+            made += stored.group.made;
+            triangles += stored.triangles;
+            members += stored.group.members;
+            largest_m = std::max(largest_m, stored.group.error_m);
+        }
+        const GraphLevel& said = outline_.levels[level];
+        if (made != said.clusters_out || triangles != said.triangles_out || largest_m != said.largest_error_m)
+            return file_.damaged(
+                header_bytes + level * level_bytes,
+                "level " + std::to_string(level + 1) + " says " + std::to_string(said.clusters_out) +
+                    " clusters, " + std::to_string(said.triangles_out) + " triangles and " +
+                    std::to_string(said.largest_error_m) + " m, but its groups have " + std::to_string(made) +
+                    ", " + std::to_string(triangles) + " and " + std::to_string(largest_m));
+    }
+    if (next_payload != bytes_)
+        return file_.damaged(next_payload,
+                             "the payloads end here, but the file has " + std::to_string(bytes_) + " bytes");
+    if (members != outline_.members)
+        return file_.damaged(0, "the header says " + std::to_string(outline_.members) +
+                                    " members, but the groups have " + std::to_string(members));
+    return {};
+}
+
+Result<ClusterGraph> ClusterFile::graph(const OriginalSurface& surface, const GroundBounds& bounds,
+                                        int threads) const {
+    ORO_TRY(ClusterGraph graph, begin_graph(*this, surface));
+    if (!outline_.levels.empty() && outline_.levels.front().triangles_in != graph.triangles.size())
+        return fault(path(), "was made over " + std::to_string(outline_.levels.front().triangles_in) +
+                                 " triangles; here are " + std::to_string(graph.triangles.size()));
+    ORO_CHECK(check_records());
+    const auto unsound = [&](std::uint32_t group, const std::string& what) {
+        return file_.damaged(record_offset(outline_, group), "group " + std::to_string(group) + " " + what);
+    };
+    for (std::uint32_t first = 0; first < outline_.groups; first += groups_at_a_time) {
+        std::vector<GroupPart> parts(std::min(groups_at_a_time, outline_.groups - first));
+        std::vector<Result<void>> read(parts.size());
+        in_parallel(static_cast<int>(parts.size()), threads, [&](int i) {
+            const auto at = static_cast<std::size_t>(i);
+            read[at] = part(first + static_cast<std::uint32_t>(i), parts[at]);
+        });
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            ORO_CHECK(read[i]);
+            append(parts[i], graph);
+        }
+    }
+    link_leaves(graph, outline_.leaves);
+    if (const auto wrong = wrong_link(graph)) return unsound(wrong->group, wrong->what);
+    if (const auto wrong = wrong_growth(graph, surface, bounds)) return unsound(wrong->group, wrong->what);
+    if (const auto wrong = torn_group(graph, surface, threads)) return unsound(wrong->group, wrong->what);
+    return graph;
+}
+
+}  // namespace oro
