@@ -1,0 +1,171 @@
+// Any bytes as a cluster file over a small grid with a hole. The first byte says how they are taken: as the
+// whole file; as header, levels, records and payloads whose magic, size, places and checksums are then made
+// right; as the payload of a group; as changes of a true file, made right in the same way. What is read as a
+// graph must be sound, and every cut of it must be as many triangles as the original at most.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "core/base/checksum.h"
+#include "core/base/little_endian.h"
+#include "core/cluster_file/cluster_file.h"
+#include "core/cluster_file/cluster_format.h"
+#include "core/clusters/cluster_cut.h"
+#include "core/clusters/graph_builder.h"
+#include "core/surface/grid_surface.h"
+#include "core/terrain/drawn_heights.h"
+
+namespace {
+
+using namespace oro;
+using namespace cluster_format;
+
+constexpr std::int32_t rows = 30, columns = 28;
+
+struct Ground {
+    HeightField field;
+    DrawnHeights heights;
+    GridSurface surface;
+    GridBounds bounds;
+    std::vector<std::byte> file;
+
+    static HeightField made() {
+        HeightField field;
+        field.grid.lat = {1200.0, 0.0, 47 * 1200, -1, rows};
+        field.grid.lon = {1200.0, 0.0, 8 * 1200, +1, columns};
+        for (int i = 0; i < rows * columns; ++i)
+            field.H_m.push_back(i % 400 == 399 ? void_height_m : static_cast<float>(i * 7919 % 613));
+        return field;
+    }
+    Ground()
+        : field(made()),
+          heights(drawn_heights(field, 1.0, 1)),
+          surface(heights),
+          bounds(field.grid, heights.highest_steps) {
+        const std::string path = name() + "-true";
+        if (!write_cluster_graph(path, build_cluster_graph(surface, bounds), {rows, columns}, 0, true).ok())
+            std::abort();
+        std::ifstream in(path, std::ios::binary);
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        const auto bytes = std::as_bytes(std::span(text));
+        file.assign(bytes.begin(), bytes.end());
+        std::filesystem::remove(path);
+    }
+    static std::string name() {
+        return (std::filesystem::temp_directory_path() / ("orograph-oroc-fuzz-" + std::to_string(getpid())))
+            .string();
+    }
+};
+
+void check_line(const Error& error) {
+    if (error.what.empty()) std::abort();
+    for (const char c : error.line())
+        if (static_cast<unsigned char>(c) < 0x20) std::abort();
+}
+
+// Makes right what a fuzzer cannot guess, so that the numbers behind it are looked at.
+void mend(std::vector<std::byte>& bytes) {
+    if (bytes.size() < header_bytes) bytes.resize(header_bytes);
+    std::memcpy(bytes.data(), magic.data(), magic.size());
+    to_little_endian(version, &bytes[8]);
+    to_little_endian(std::uint32_t{header_bytes}, &bytes[12]);
+    to_little_endian(std::uint64_t{bytes.size()}, &bytes[16]);
+    HeaderBytes front;
+    std::copy_n(bytes.begin(), header_bytes, front.begin());
+    const Header header = header_from_bytes(front);
+    const std::span<std::byte> all(bytes);
+    if (!implausible(header)) {  // then the sizes fit the file
+        const Offsets places = offsets_of(header);
+        to_little_endian(xxh64(all.subspan(header_bytes, places.records - header_bytes)),
+                         &bytes[header_bytes - 16]);
+        std::uint64_t next = places.payloads;
+        for (std::uint32_t i = 0; i < header.outline.groups; ++i) {
+            const std::uint64_t at = places.records + std::uint64_t{i} * record_bytes;
+            to_little_endian(next, &bytes[at + 40]);
+            const std::uint64_t length = std::min<std::uint64_t>(
+                from_little_endian<std::uint32_t>(&bytes[at + 56]), bytes.size() - next);
+            to_little_endian(static_cast<std::uint32_t>(length), &bytes[at + 56]);
+            to_little_endian(xxh64(all.subspan(next, length), i), &bytes[at + 48]);
+            to_little_endian(xxh64(all.subspan(at, record_bytes - 8), i), &bytes[at + record_bytes - 8]);
+            next += length;
+        }
+    }
+    to_little_endian(xxh64(all.first(header_bytes - 8)), &bytes[header_bytes - 8]);
+}
+
+// Pairs of a place and a byte.
+std::vector<std::byte> changed(std::vector<std::byte> file, std::span<const std::byte> changes) {
+    for (std::size_t i = 0; i + 3 <= changes.size(); i += 3) {
+        const std::size_t at = from_little_endian<std::uint16_t>(&changes[i]) % file.size();
+        file[at] = changes[i + 2];
+    }
+    return file;
+}
+
+void check_payload(std::span<const std::byte> bytes) {
+    if (bytes.size() < 2) return;
+    GroupPart part;
+    part.group.members = std::to_integer<std::uint32_t>(bytes[0]);
+    part.group.made = std::to_integer<std::uint32_t>(bytes[1]);
+    if (decode_group(bytes.subspan(2), {rows, columns}, 200, part)) return;
+    for (const VertexTriangle& triangle : part.triangles) {
+        for (const VertexNumber vertex : triangle)
+            if (vertex >= static_cast<VertexNumber>(rows * columns)) std::abort();
+    }
+    if (!encode_group(part, {rows, columns}, 200).ok() && part.made.empty()) std::abort();
+}
+
+void read_all(const Ground& ground, const std::string& path) {
+    const auto file = ClusterFile::open(path);
+    if (!file.ok()) return check_line(file.error());
+    GroupPart part;
+    for (std::uint32_t i = 0; i < std::min(file->outline().groups, 3U); ++i) {
+        const auto read = file->part(i, part);
+        if (!read.ok()) check_line(read.error());
+    }
+    const auto graph = file->graph(ground.surface, ground.bounds);
+    if (!graph.ok()) return check_line(graph.error());
+    std::size_t whole = 0;
+    for (const auto& leaf : ground.surface.leaves()) whole += leaf.size();
+    for (const double error_m : {0.0, 10.0, 1.0e3, 1.0e9}) {
+        const std::size_t drawn = triangles_of_cut(*graph, cut_by_metres(*graph, error_m));
+        if (drawn == 0 || drawn > whole) std::abort();
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    static const Ground ground;
+    const auto* const from = reinterpret_cast<const std::byte*>(data);
+    std::vector<std::byte> bytes(from + 1, from + size);
+    switch (data[0] % 4) {
+        case 0:
+            break;
+        case 1:
+            mend(bytes);
+            break;
+        case 2:
+            check_payload(bytes);
+            return 0;
+        default:
+            bytes = changed(ground.file, bytes);
+            mend(bytes);
+    }
+    const std::string path = Ground::name();
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    read_all(ground, path);
+    std::filesystem::remove(path);
+    return 0;
+}
