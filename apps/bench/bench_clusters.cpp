@@ -10,8 +10,6 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <map>
-#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -22,6 +20,7 @@
 #include "apps/bench/bench_tin.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
+#include "core/cluster_file/cluster_file.h"
 #include "core/clusters/cluster_cut.h"
 #include "core/clusters/graph_builder.h"
 #include "core/clusters/simplify_group.h"
@@ -72,99 +71,34 @@ double every_place_m(const DrawnHeights& heights, const GridSurface& surface, co
     return largest_m;
 }
 
-// How often each of some numbers comes, and the bits that they take when a coder knows that.
-class Histogram {
-  public:
-    void add(std::int64_t number) {
-        ++counts_[number];
-        ++all_;
+// What the graph takes in a file, group by group, and the time that coding takes both ways on one thread.
+Result<void> print_bytes(const std::string& region, const PostCounts& posts, const OriginalSurface& surface,
+                         const GroundBounds& bounds, const ClusterGraph& graph) {
+    const std::string path = region + ".clusters-bench";
+    double before_s = processor_s();
+    ORO_CHECK(write_cluster_graph(path, graph, posts, 0, true));
+    const double write_s = processor_s() - before_s;
+    ORO_TRY(const ClusterFile file, ClusterFile::open(path));
+    before_s = processor_s();
+    std::size_t triangles = 0;
+    for (std::uint32_t i = 0; i < file.outline().groups; ++i) {
+        GroupPart part;
+        ORO_CHECK(file.part(i, part));
+        triangles += part.triangles.size();
     }
-    [[nodiscard]] double bits() const {
-        double bits = 0.0;
-        for (const auto& [number, count] : counts_)
-            bits -= static_cast<double>(count) *
-                    std::log2(static_cast<double>(count) / static_cast<double>(all_));
-        return bits;
-    }
-
-  private:
-    std::map<std::int64_t, std::size_t> counts_;
-    std::size_t all_{};
-};
-
-// What the clusters of one level would take in a file: an estimate, not a format. Triangles are told one
-// after another, each across an edge of those before: none there, one with a new vertex, or with a known one
-// (its number among the cluster's). New vertices as rows and columns from where a parallelogram would put
-// them. As an arithmetic coder with one table of each kind for the level would write it.
-class LevelBytes {
-  public:
-    void add(const OriginalSurface& surface, std::span<const VertexTriangle> triangles) {
-        std::map<std::pair<VertexNumber, VertexNumber>, std::size_t> across;
-        for (std::size_t i = 0; i < triangles.size(); ++i) {
-            for (std::size_t j = 0; j < 3; ++j) across[{triangles[i][j], triangles[i][(j + 1) % 3]}] = i;
-        }
-        std::vector<bool> told(triangles.size());
-        std::set<VertexNumber> known;
-        bits_ += 8.0 * header_bytes;
-        for (std::size_t first = 0; first < triangles.size(); ++first) {
-            if (told[first]) continue;
-            told[first] = true;
-            bits_ += 2.0 * 32.0;
-            for (const VertexNumber vertex : triangles[first]) known.insert(vertex);
-            std::vector<std::size_t> open{first};
-            for (std::size_t i = 0; i < open.size(); ++i) {
-                for (std::size_t j = 0; j < 3; ++j) {
-                    const VertexTriangle& from = triangles[open[i]];
-                    const auto beyond = across.find({from[(j + 1) % 3], from[j]});
-                    if (beyond == across.end()) {
-                        steps_.add(0);
-                    } else if (!told[beyond->second]) {
-                        told[beyond->second] = true;
-                        open.push_back(beyond->second);
-                        tell(surface, from, j, triangles[beyond->second], known);
-                    }
-                }
-            }
-        }
-    }
-    [[nodiscard]] double bytes() const {
-        return (bits_ + steps_.bits() + rows_.bits() + columns_.bits()) / 8.0;
-    }
-    // Of each cluster: counts, groups, and a share of its group's sphere and error.
-    static constexpr double header_bytes = 16.0;
-
-  private:
-    void tell(const OriginalSurface& surface, const VertexTriangle& from, std::size_t edge,
-              const VertexTriangle& triangle, std::set<VertexNumber>& known) {
-        const VertexNumber a = from[edge], b = from[(edge + 1) % 3], c = from[(edge + 2) % 3];
-        const VertexNumber vertex =
-            *std::find_if(triangle.begin(), triangle.end(), [&](VertexNumber v) { return v != a && v != b; });
-        steps_.add(known.contains(vertex) ? 2 : 1);
-        if (!known.insert(vertex).second) {
-            bits_ += std::log2(static_cast<double>(known.size()));
-            return;
-        }
-        const SurfaceVertex at = surface.vertex(vertex), of_a = surface.vertex(a), of_b = surface.vertex(b),
-                            of_c = surface.vertex(c);
-        rows_.add(at.row - (of_a.row + of_b.row - of_c.row));
-        columns_.add(at.column - (of_a.column + of_b.column - of_c.column));
-    }
-
-    double bits_{};
-    Histogram steps_;
-    Histogram rows_;
-    Histogram columns_;
-};
-
-void print_bytes(const OriginalSurface& surface, const ClusterGraph& graph) {
-    std::vector<LevelBytes> levels(graph.levels.size() + 1);
-    for (const Cluster& cluster : graph.clusters) {
-        const std::uint32_t level = cluster.made_by == no_group ? 0 : graph.groups[cluster.made_by].level;
-        if (level > 0) levels[level].add(surface, graph.triangles_of(cluster));
-    }
-    double bytes = 0.0;
-    for (const LevelBytes& level : levels) bytes += level.bytes();
-    std::printf("above the leaves, estimated: %.2f MB without heights\n", 1.0e-6 * bytes);
+    const double groups_s = processor_s() - before_s;
+    before_s = processor_s();
+    ORO_TRY(const ClusterGraph read, file.graph(surface, bounds));
+    const double graph_s = processor_s() - before_s;
+    if (read.triangles != graph.triangles) return Error{ErrorKind::failed, path, "holds another graph"};
+    std::printf("above the leaves: %.3f MB in a file without heights, %.2f bits a triangle\n",
+                1.0e-6 * static_cast<double>(file.bytes()),
+                8.0 * static_cast<double>(file.bytes()) / static_cast<double>(triangles));
+    std::printf(
+        "processor time: %.2f s to write, %.2f s to read all groups, %.2f s to read and check the graph\n",
+        write_s, groups_s, graph_s);
+    std::remove(path.c_str());
+    return {};
 }
 
 void print_levels(const ClusterGraph& graph) {
@@ -341,7 +275,8 @@ Result<void> report(const ClustersOptions& options) {
     std::printf("%s: %d x %d posts, %.1f s of processor time\n", options.region.c_str(), heights.rows,
                 heights.columns, processor_s() - before_s);
     print_levels(graph);
-    if (options.bytes) print_bytes(surface, graph);
+    if (options.bytes)
+        ORO_CHECK(print_bytes(options.region, {heights.rows, heights.columns}, surface, bounds, graph));
     if (!options.path.empty()) ORO_CHECK(print_views(options, file, field, heights, surface, bounds, graph));
     return print_cuts(options, file, field.grid, heights, graph);
 }
@@ -365,7 +300,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 1000.0));
     app.add_flag("--references", options.references,
                  "Count blocks, greedy triangulations (TIN) and collapses without groups, too");
-    app.add_flag("--bytes", options.bytes, "Estimate what the levels above the leaves take in a file");
+    app.add_flag("--bytes", options.bytes,
+                 "Write a file of the graph beside the region, tell what it takes, and remove it");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
