@@ -121,10 +121,13 @@ std::vector<VertexNumber> vertices_by_place(const OriginalSurface& surface,
         vertices.insert(vertices.end(), triangle.begin(), triangle.end());
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    std::stable_sort(vertices.begin(), vertices.end(), [&](VertexNumber a, VertexNumber b) {
+    const auto by_place = [&](VertexNumber a, VertexNumber b) {
         const SurfaceVertex of_a = surface.vertex(a), of_b = surface.vertex(b);
         return std::tie(of_a.row, of_a.column) < std::tie(of_b.row, of_b.column);
-    });
+    };
+    // A grid's numbers are in this order already.
+    if (!std::is_sorted(vertices.begin(), vertices.end(), by_place))
+        std::stable_sort(vertices.begin(), vertices.end(), by_place);
     return vertices;
 }
 

@@ -26,7 +26,8 @@ constexpr std::size_t groups_at_a_time = 8;
 // border all around, there are few, and what they hold up would fall.
 constexpr double most_share = 1.25;
 
-constexpr std::size_t most_levels = 80;
+// Groups may be stuck for a level: the next has other borders, and the one after that.
+constexpr int most_without_progress = 3;
 
 class Builder {
   public:
@@ -37,7 +38,8 @@ class Builder {
           locks_(surface.vertex_count()),
           border_(surface) {}
 
-    ClusterGraph build();
+    // From the original on, or from the last level of a graph.
+    ClusterGraph build(ClusterGraph begun);
 
   private:
     // What a group of the last level made (or a leaf has), sorted by the groups that it goes to.
@@ -58,7 +60,10 @@ class Builder {
     void add_clusters(const std::vector<Part>& shared, GraphLevel& report);
     void add_groups(std::size_t groups, std::uint32_t first_cluster, GraphLevel& report);
     void make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simplifier, Made& made) const;
-    bool add_level();
+    void add_level();
+    void begin_with_leaves();
+    void begin_with(ClusterGraph begun);
+    void see_locks(std::uint32_t level);
     void add_coarsest();
     [[nodiscard]] std::size_t triangles_left() const;
 
@@ -67,7 +72,8 @@ class Builder {
     const GraphOptions& options_;
     VertexLocks locks_;
     OpenBorder border_;
-    bool any_whole_{true};  // of the last level's groups
+    bool any_whole_{true};    // of the last level's groups
+    int without_progress_{};  // levels in a row
     ClusterGraph graph_;
     std::vector<std::vector<VertexTriangle>> parts_;  // of the last level
     std::vector<std::uint32_t> made_by_;              // of each part
@@ -181,15 +187,16 @@ void Builder::make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simpli
     made.bounds = group_bounds(surface_, bounds_, graph_, group, made.triangles, mesh.difference(surface_));
 }
 
-// False when nothing could be made coarser; then the level is not there.
-bool Builder::add_level() {
+void Builder::add_level() {
     GraphLevel report;
     const int level = static_cast<int>(graph_.levels.size()) + 1;
     const GroupAssignment assignment(surface_, parts_, GroupTiling(level, options_.kept_share),
                                      !surface_.is_window() && triangles_left() <= one_group_triangles,
                                      locks_);
-    report.locked = assignment.locked();
-    report.locked_twice = assignment.locked_twice();
+    report.locked = locks_.locked();
+    report.locked_twice = locks_.locked_twice();
+    // Before triangles change their places in parts.
+    const std::vector<char> whole = border_.whole_groups(assignment, parts_);
     std::vector<Part> shared(parts_.size());
     in_parallel(static_cast<int>(parts_.size()), options_.threads, [&](int part) {
         const auto i = static_cast<std::size_t>(part);
@@ -199,7 +206,6 @@ bool Builder::add_level() {
     const auto first_group = static_cast<std::uint32_t>(graph_.groups.size());
     add_clusters(shared, report);
     add_groups(assignment.groups(), first_cluster, report);
-    const std::vector<char> whole = border_.whole_groups(assignment, parts_);
     std::vector<Made> made(assignment.groups());
     const std::size_t turns = (made.size() + groups_at_a_time - 1) / groups_at_a_time;
     in_parallel(static_cast<int>(turns), options_.threads, [&](int turn) {
@@ -228,7 +234,7 @@ bool Builder::add_level() {
     border_.reach(parts_, whole);
     any_whole_ = std::find(whole.begin(), whole.end(), 1) != whole.end();
     graph_.levels.push_back(report);
-    return report.triangles_out < report.triangles_in;
+    without_progress_ = report.triangles_out < report.triangles_in ? 0 : without_progress_ + 1;
 }
 
 // What is left is used by none.
@@ -246,22 +252,63 @@ void Builder::add_coarsest() {
     add_clusters(shared, unused);
 }
 
-ClusterGraph Builder::build() {
+void Builder::begin_with_leaves() {
     parts_ = surface_.leaves();
     made_by_.assign(parts_.size(), no_group);
-    // Groups may be stuck for a level: the next has other borders, and the one after that.
-    int without_progress = 0;
-    while (!parts_.empty() && without_progress < 3 &&
-           !(parts_.size() == 1 && triangles_left() <= most_cluster_triangles)) {
-        without_progress = add_level() ? 0 : without_progress + 1;
-        if (graph_.levels.size() == most_levels || !any_whole_) break;
-    }
-    add_coarsest();
-    for (std::size_t i = 0; i < graph_.levels.size(); ++i) {
-        for (const ClusterGroup& group : graph_.groups) {
-            if (group.level == i + 1) graph_.levels[i].clusters_out += group.made;
+}
+
+// Which vertices are on borders between groups of a level, told by what these made.
+void Builder::see_locks(std::uint32_t level) {
+    locks_.begin_level();
+    for (const Cluster& cluster : graph_.clusters) {
+        if (cluster.made_by == no_group || graph_.groups[cluster.made_by].level != level) continue;
+        for (const VertexTriangle& triangle : graph_.triangles_of(cluster)) {
+            for (const VertexNumber vertex : triangle) locks_.see(vertex, cluster.made_by);
         }
     }
+    locks_.end_level();
+}
+
+// As it was when the last level was made. How its clusters were split is forgotten: that is for the groups of
+// the next level to say.
+void Builder::begin_with(ClusterGraph begun) {
+    graph_ = std::move(begun);
+    const auto last = static_cast<std::uint32_t>(graph_.levels.size());
+    if (last > 1) see_locks(last - 1);
+    see_locks(last);
+    std::vector<char> whole;
+    for (std::uint32_t i = 0; i < graph_.groups.size(); ++i) {
+        const ClusterGroup& group = graph_.groups[i];
+        if (group.level != last) continue;
+        std::vector<VertexTriangle>& part = parts_.emplace_back();
+        for (std::uint32_t j = group.first_made; j < group.first_made + group.made; ++j) {
+            const auto triangles = graph_.triangles_of(graph_.clusters[j]);
+            part.insert(part.end(), triangles.begin(), triangles.end());
+        }
+        made_by_.push_back(i);
+        whole.push_back(group.whole ? 1 : 0);
+    }
+    border_.reach(parts_, whole);
+    any_whole_ = std::find(whole.begin(), whole.end(), 1) != whole.end();
+    for (const GraphLevel& level : graph_.levels)
+        without_progress_ = level.triangles_out < level.triangles_in ? 0 : without_progress_ + 1;
+    const std::uint32_t first = graph_.groups[made_by_.front()].first_made;
+    graph_.triangles.resize(graph_.clusters[first].first_triangle);
+    graph_.clusters.resize(first);
+}
+
+ClusterGraph Builder::build(ClusterGraph begun) {
+    if (begun.levels.empty())
+        begin_with_leaves();
+    else
+        begin_with(std::move(begun));
+    while (!parts_.empty() && without_progress_ < most_without_progress && any_whole_ &&
+           static_cast<int>(graph_.levels.size()) < options_.last_level &&
+           !(parts_.size() == 1 && triangles_left() <= most_cluster_triangles))
+        add_level();
+    add_coarsest();
+    for (GraphLevel& level : graph_.levels) level.clusters_out = 0;
+    for (const ClusterGroup& group : graph_.groups) graph_.levels[group.level - 1].clusters_out += group.made;
     return std::move(graph_);
 }
 
@@ -269,7 +316,12 @@ ClusterGraph Builder::build() {
 
 ClusterGraph build_cluster_graph(const OriginalSurface& surface, const GroundBounds& bounds,
                                  const GraphOptions& options) {
-    return Builder(surface, bounds, options).build();
+    return Builder(surface, bounds, options).build({});
+}
+
+ClusterGraph continue_cluster_graph(const OriginalSurface& surface, const GroundBounds& bounds,
+                                    ClusterGraph begun, const GraphOptions& options) {
+    return Builder(surface, bounds, options).build(std::move(begun));
 }
 
 }  // namespace oro

@@ -10,6 +10,7 @@ namespace oro {
 struct GraphOptions {
     int threads{1};
     double kept_share{0.65};  // of a group's triangles, in what comes out of it
+    int last_level{80};       // stop after it; what it made is then used by none
 };
 
 // All levels up to the coarsest: one group, or groups that cannot be made coarser; of a window all that have
@@ -23,5 +24,11 @@ struct GraphOptions {
 // little more while it works (194 MB in all for 1201 x 1201 posts).
 [[nodiscard]] ClusterGraph build_cluster_graph(const OriginalSurface& surface, const GroundBounds& bounds,
                                                const GraphOptions& options = {});
+
+// Goes on with a graph of the same surface that was stopped after some level, or had nothing more to be made
+// coarser: with the same kept_share the result is that of one go, to the bit. All that is needed of it is in
+// a file of it (core/cluster_file/cluster_file.h): what its last two levels made.
+[[nodiscard]] ClusterGraph continue_cluster_graph(const OriginalSurface& surface, const GroundBounds& bounds,
+                                                  ClusterGraph begun, const GraphOptions& options = {});
 
 }  // namespace oro

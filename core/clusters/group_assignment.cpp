@@ -74,26 +74,28 @@ void GroupAssignment::choose_tiles(const OriginalSurface& surface, Parts parts, 
     }
 }
 
-void GroupAssignment::lock_borders(Parts parts, VertexLocks& locks) {
-    std::fill(locks.group_.begin(), locks.group_.end(), VertexLocks::unseen);
+void GroupAssignment::lock_borders(Parts parts, VertexLocks& locks) const {
+    locks.begin_level();
     std::size_t i = 0;
     for (const auto& part : parts) {
         for (const VertexTriangle& triangle : part) {
-            const std::uint32_t group = group_[i++];
-            for (const VertexNumber vertex : triangle) {
-                std::uint32_t& known = locks.group_[vertex];
-                if (known == VertexLocks::unseen)
-                    known = group;
-                else if (known != group)
-                    known = VertexLocks::shared;
-            }
+            for (const VertexNumber vertex : triangle) locks.see(vertex, group_[i]);
+            ++i;
         }
     }
-    for (std::size_t vertex = 0; vertex < locks.group_.size(); ++vertex) {
-        std::uint8_t& levels = locks.levels_[vertex];
-        const bool shared = locks.group_[vertex] == VertexLocks::shared;
-        levels = shared ? static_cast<std::uint8_t>(levels + 1) : std::uint8_t{0};
-        locked_ += shared ? 1U : 0U;
+    locks.end_level();
+}
+
+void VertexLocks::begin_level() {
+    std::fill(group_.begin(), group_.end(), unseen);
+}
+
+void VertexLocks::end_level() {
+    locked_ = locked_twice_ = 0;
+    for (std::size_t vertex = 0; vertex < group_.size(); ++vertex) {
+        std::uint8_t& levels = levels_[vertex];
+        levels = group_[vertex] == shared ? static_cast<std::uint8_t>(levels + 1) : std::uint8_t{0};
+        locked_ += levels > 0 ? 1U : 0U;
         locked_twice_ += levels > 1 ? 1U : 0U;
     }
 }

@@ -17,17 +17,34 @@ class VertexLocks {
   public:
     explicit VertexLocks(std::size_t vertex_count) : group_(vertex_count), levels_(vertex_count, 0) {}
 
+    // A level: begun, then each corner of each triangle that goes to a group, then ended. What a group made
+    // says the same as what it uses: vertices on its border have stayed.
+    void begin_level();
+    void see(VertexNumber vertex, std::uint32_t group) {
+        std::uint32_t& known = group_[vertex];
+        if (known == unseen)
+            known = group;
+        else if (known != group)
+            known = shared;
+    }
+    void end_level();
+
     // Levels in a row, up to the last, that a vertex was on a border between groups at; at most 2.
     [[nodiscard]] int levels(VertexNumber vertex) const { return levels_[vertex]; }
     // On a border between groups of the last level.
     [[nodiscard]] bool is_locked(VertexNumber vertex) const { return levels_[vertex] != 0; }
 
+    // Vertices that are locked, and those of them that were at the level before, too.
+    [[nodiscard]] std::size_t locked() const { return locked_; }
+    [[nodiscard]] std::size_t locked_twice() const { return locked_twice_; }
+
   private:
-    friend class GroupAssignment;
     static constexpr std::uint32_t unseen = ~std::uint32_t{0};
     static constexpr std::uint32_t shared = unseen - 1;
     std::vector<std::uint32_t> group_;
     std::vector<std::uint8_t> levels_;
+    std::size_t locked_{};
+    std::size_t locked_twice_{};
 };
 
 // Of all triangles of a level, part by part. A triangle goes to the tile that its middle lies in, but where
@@ -49,19 +66,15 @@ class GroupAssignment {
     [[nodiscard]] std::span<const std::uint32_t> groups_of(std::size_t part) const {
         return std::span(group_).subspan(first_[part], first_[part + 1] - first_[part]);
     }
-    [[nodiscard]] std::size_t locked() const { return locked_; }
-    [[nodiscard]] std::size_t locked_twice() const { return locked_twice_; }
 
   private:
     void join_kept(Parts parts, const VertexLocks& locks);
     VertexNumber first_of_kept(VertexNumber vertex);
     void choose_tiles(const OriginalSurface& surface, Parts parts, const VertexLocks& locks);
-    void lock_borders(Parts parts, VertexLocks& locks);
+    void lock_borders(Parts parts, VertexLocks& locks) const;
 
     GroupTiling tiling_;
     std::size_t groups_{};
-    std::size_t locked_{};
-    std::size_t locked_twice_{};
     std::vector<GroupTile> tiles_;      // by group; none where all is one
     std::vector<std::uint32_t> group_;  // by triangle, part after part
     std::vector<std::size_t> first_;    // triangle, by part
