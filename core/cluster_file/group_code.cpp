@@ -7,6 +7,7 @@
 
 #include "core/cluster_file/mesh_code.h"
 #include "core/cluster_file/point_code.h"
+#include "core/clusters/cluster_split.h"
 
 // The order of a payload: members, rising; then each cluster with its counts, its user, its rectangle, its
 // vertices (core/cluster_file/point_code.h) and its triangles (core/cluster_file/mesh_code.h). What is

@@ -43,7 +43,7 @@ inline constexpr std::uint32_t most_group_members = 1U << 20U;
 
 // A group's triangles, members and links in few bytes, the same for the same group. `group` itself lies in
 // the group's record (core/cluster_file/cluster_format.h). clusters: of the graph. Errors: a group above the
-// limits; triangles that are not in the order of a walk (core/clusters/cluster_walk.h), as the builder makes
+// limits; triangles that are not in the order of a walk (walk_order), as the builder makes
 // them.
 [[nodiscard]] Result<std::vector<std::byte>> encode_group(const GroupPart& part, const PostCounts& posts,
                                                           std::uint32_t clusters);

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/clusters/cluster_graph.h"
-#include "core/surface/original_surface.h"
 
 namespace oro {
 
@@ -60,16 +60,44 @@ class ClusterWalk {
 // A triangle of a cluster by its own numbers.
 using LocalTriangle = std::array<std::uint8_t, 3>;
 
-// The triangles of a cluster in the order of a walk, and each turned as the walk tells it: the edge first
-// that it was reached by. One that is reached by none is the least of those that are left, its least corner
-// first. Gives the same for the same triangles in any order.
-[[nodiscard]] std::vector<LocalTriangle> walk_order(std::span<const LocalTriangle> triangles, int vertices);
+inline void ClusterWalk::start(int vertices) {
+    assert(vertices >= 0 && at(vertices) <= most_cluster_vertices);
+    vertices_ = at(vertices);
+    states_.assign(vertices_ * vertices_, unknown);
+    told_.fill(0);
+    open_.fill(0);
+    edges_.clear();
+    next_ = 0;
+}
 
-// Vertices of a cluster by place.
-[[nodiscard]] std::vector<VertexNumber> vertices_by_place(const OriginalSurface& surface,
-                                                          std::span<const VertexTriangle> triangles);
+inline std::optional<ClusterWalk::Edge> ClusterWalk::next() {
+    for (; next_ < edges_.size(); ++next_) {
+        const Edge edge = edges_[next_];
+        if (state(edge.to, edge.from) == unknown) return edge;
+    }
+    return std::nullopt;
+}
 
-// Puts a cluster's triangles into the order of a walk.
-void put_in_walk_order(const OriginalSurface& surface, std::span<VertexTriangle> triangles);
+inline void ClusterWalk::add(int a, int b, int c) {
+    assert(may_be(a, b, c));
+    for (const Edge& edge : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
+        const bool closes = state(edge.to, edge.from) == told;
+        state(edge.from, edge.to) = told;
+        told_[at(edge.from)] = 1;
+        for (const int vertex : {edge.from, edge.to}) open_[at(vertex)] += closes ? -1 : 1;
+        if (!closes) edges_.push_back(edge);
+    }
+}
+
+inline void ClusterWalk::close(const Edge& edge) {
+    state(edge.to, edge.from) = nothing;
+    --open_[at(edge.from)];
+    --open_[at(edge.to)];
+}
+
+inline bool ClusterWalk::may_be(int a, int b, int c) const {
+    return a != b && b != c && c != a && state(a, b) == unknown && state(b, c) == unknown &&
+           state(c, a) == unknown;
+}
 
 }  // namespace oro

@@ -8,7 +8,6 @@
 
 #include "core/base/parallel.h"
 #include "core/clusters/cluster_split.h"
-#include "core/clusters/cluster_walk.h"
 #include "core/clusters/group_assignment.h"
 #include "core/clusters/group_bounds.h"
 #include "core/clusters/open_border.h"

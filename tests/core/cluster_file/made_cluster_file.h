@@ -15,7 +15,7 @@
 #include "core/base/little_endian.h"
 #include "core/cluster_file/cluster_file.h"
 #include "core/cluster_file/cluster_format.h"
-#include "core/clusters/cluster_walk.h"
+#include "core/clusters/cluster_split.h"
 #include "tests/core/clusters/cluster_terrain.h"
 #include "tests/support/test_data.h"
 

@@ -1,7 +1,7 @@
 // The order of a cluster's triangles.
 #include <gtest/gtest.h>
 
-#include "core/clusters/cluster_walk.h"
+#include "core/clusters/cluster_split.h"
 #include "tests/core/clusters/cluster_terrain.h"
 
 namespace oro {
