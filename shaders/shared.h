@@ -165,10 +165,11 @@ ORO_CONST uint edges_words = 32u;    // a page: four bits for each node
 ORO_CONST uint cull_by_frustum = 1u;
 ORO_CONST uint cull_by_horizon = 2u;
 ORO_CONST uint stands_never = 4u;
-ORO_CONST uint closes_gaps = 8u;  // a page of a seam (core/seam) whose quads reach out by pixels, at least so many
+ORO_CONST uint closes_gaps =
+    8u;  // a page of a seam (core/seam) whose quads reach out by pixels, at least so many
 ORO_CONST float least_gap_px = 0.05f;
-ORO_CONST uint seam_stride = 3u;          // posts of a seam's page from a quad to the next
-ORO_CONST float seam_unit = 1048576.0f;   // a unit vector's length in the places of its pages
+ORO_CONST uint seam_stride = 3u;         // posts of a seam's page from a quad to the next
+ORO_CONST float seam_unit = 1048576.0f;  // a unit vector's length in the places of its pages
 
 ORO_CONST uint groups_per_row = 32768u;  // of an indirect dispatch; below every device's limit
 
@@ -351,7 +352,6 @@ struct FrameConstants {
     uint page_count;
     uint first_page;    // of a frame's several grids: triangle ids go on from one to the next
     uint grids_beside;  // other grids that the frame draws
-    uint is_seam;       // 1: what lies between grids (place/seam.glsl)
     uint sample_index;  // samples of a pixel are drawn one after the other
     uint sample_count;
     uint has_means;      // 1: pages have PageMeans
@@ -384,6 +384,8 @@ struct FrameConstants {
     EyePost eye_post;
     NetMap net;
     DrapeTable drape;
+    // Last, so that addresses before it stay at multiples of 8 bytes: it would cost 2 to 4 % of a frame.
+    uint is_seam;  // 1: what lies between grids (place/seam.glsl)
 };
 
 #ifdef __cplusplus

@@ -266,7 +266,6 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, page_count),
         ORO_MEMBER(FrameConstants, first_page),
         ORO_MEMBER(FrameConstants, grids_beside),
-        ORO_MEMBER(FrameConstants, is_seam),
         ORO_MEMBER(FrameConstants, sample_index),
         ORO_MEMBER(FrameConstants, sample_count),
         ORO_MEMBER(FrameConstants, has_means),
@@ -296,6 +295,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, style),
         ORO_MEMBER(FrameConstants, eye_post),
         ORO_MEMBER(FrameConstants, drape),
+        ORO_MEMBER(FrameConstants, is_seam),
     };
 #undef ORO_MEMBER
     return table;
