@@ -142,6 +142,8 @@ class RegionFile {
     // Errors: no region file, one of another version of the format, cut off, unfinished, damaged, or with a
     // number that no region has.
     static Result<RegionFile> open(const std::string& path);
+    // One that is a part of a file (core/baked/grids_file.h).
+    static Result<RegionFile> open(OpenFile file);
 
     [[nodiscard]] const std::string& path() const { return file_.path(); }
     [[nodiscard]] const RegionOutline& outline() const { return outline_; }

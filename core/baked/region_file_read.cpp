@@ -168,6 +168,10 @@ RegionFile::RegionFile(OpenFile file, RegionOutline outline)
 
 Result<RegionFile> RegionFile::open(const std::string& path) {
     ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    return open(std::move(file));
+}
+
+Result<RegionFile> RegionFile::open(OpenFile file) {
     ORO_TRY(const std::uint64_t size, file.size());
     HeaderBytes front;
     ORO_TRY(const RegionHeader header, read_header(file, size, front));

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -25,6 +26,10 @@ class OpenFile {
     OpenFile& operator=(const OpenFile&) = delete;
     ~OpenFile();
 
+    // So many bytes of it from one byte on, as a file of their own, to be read; offsets in errors are the
+    // whole file's. Errors: those of the system.
+    [[nodiscard]] Result<OpenFile> part(std::uint64_t first, std::uint64_t bytes) const;
+
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] int descriptor() const { return descriptor_; }
     [[nodiscard]] Result<std::uint64_t> size() const;
@@ -45,6 +50,8 @@ class OpenFile {
 
     int descriptor_{-1};
     std::string path_;
+    std::uint64_t first_{0};
+    std::optional<std::uint64_t> bytes_;  // of a part
 };
 
 // The system's words for an error number.
