@@ -8,8 +8,8 @@
 
 #include "apps/accuracy/truth.h"
 #include "apps/view/view.h"
+#include "core/effects/effects.h"
 #include "core/frame/region_pages.h"
-#include "core/truth/effects.h"
 
 namespace oro {
 

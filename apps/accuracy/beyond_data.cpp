@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "apps/command_line/refusals.h"
+#include "apps/eye/standpoint.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/view/view_limits.h"
@@ -68,12 +69,15 @@ Result<double> unseen_ceiling(const std::optional<double>& option_m) {
 
 Result<UnseenGround> unseen_in(const View& view, const Region& region, const TrueScene& truth,
                                double ceiling_m) {
+    if (!region.beside.empty()) return unseen_in(view, region, ceiling_m);
     const UnseenGround unseen = unseen_over(view, region, truth.surface(), truth.sight(), ceiling_m);
     ORO_CHECK(region.field.health());
     return unseen;
 }
 
-Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m) {
+Result<UnseenGround> unseen_in(const View& view, const Region& whole, double ceiling_m) {
+    const Geodetic& eye = view.camera.eye;
+    const Region& region = widest_at(whole, eye.lat_deg, eye.lon_deg);
     std::optional<HeightField> lifted;
     if (!region.geoid_left_out.N_m.empty()) {
         lifted = region.field;

@@ -14,7 +14,8 @@ namespace oro {
 // The --unseen-ceiling, or the usual one. Usage errors: out of range.
 Result<double> unseen_ceiling(const std::optional<double>& option_m);
 
-// From the truth's eye through the truth's air, over what the region holds. Errors: a baked region that
+// From the truth's eye through the truth's air, over what the region holds: of several grids the one that
+// reaches farthest around the eye. Errors: a baked region that
 // cannot be read (posts are read where they are asked for).
 Result<UnseenGround> unseen_in(const View& view, const Region& region, const TrueScene& truth,
                                double ceiling_m);

@@ -31,7 +31,7 @@ bool is_drawn_one(const PictureDifference& difference) {
 }
 
 Result<PictureDifference> compare_pixels(const std::string& picture, const View& view,
-                                         const HeightField& field, const Gpu& gpu, Scene& scene,
+                                         const TrueGround& ground, const Gpu& gpu, Scene& scene,
                                          RasterPath path, const Style& style,
                                          std::span<const std::uint8_t> strip,
                                          const RenderProgress& progress) {
@@ -40,7 +40,7 @@ Result<PictureDifference> compare_pixels(const std::string& picture, const View&
         PictureComparison comparison,
         PictureComparison::open(picture, camera.width_px, camera.height_px + view.legend_px, device_slack));
     const auto take = [&](std::span<const std::uint8_t> rgb) { return comparison.add_drawn_row(rgb); };
-    ORO_CHECK(render_labelled(gpu, scene, view, field, style, path, take, progress));
+    ORO_CHECK(render_labelled(gpu, scene, view, ground, style, path, take, progress));
     const auto row_bytes = static_cast<std::size_t>(camera.width_px) * 3;
     for (std::size_t at = 0; at < strip.size(); at += row_bytes)
         ORO_CHECK(take(strip.subspan(at, row_bytes)));

@@ -8,6 +8,7 @@
 
 #include "apps/styles/style.h"
 #include "apps/view/view.h"
+#include "core/truth/true_ground.h"
 #include "geo/pixels/picture_difference.h"
 #include "render/frame/picture_renderer.h"
 
@@ -29,7 +30,7 @@ bool is_drawn_one(const PictureDifference& difference);
 // Draws a view as its picture is drawn, and compares that, with the strip below it, with the picture's file.
 // Errors: those of open_picture_rows and of the device.
 Result<PictureDifference> compare_pixels(const std::string& picture, const View& view,
-                                         const HeightField& field, const Gpu& gpu, Scene& scene,
+                                         const TrueGround& ground, const Gpu& gpu, Scene& scene,
                                          RasterPath path, const Style& style,
                                          std::span<const std::uint8_t> strip, const RenderProgress& progress);
 

@@ -1,8 +1,6 @@
 #include "apps/accuracy/truth.h"
 
 #include "apps/view/model_names.h"
-#include "core/baked/file_pages.h"
-#include "core/base/parallel.h"
 
 namespace oro {
 
@@ -23,14 +21,7 @@ std::string light_line(const View& view, const Region& region) {
 
 Result<std::unique_ptr<TrueScene>> TrueScene::of(const View& view, const Region& region) {
     std::unique_ptr<TrueScene> scene(new TrueScene);
-    if (region.file) {
-        ORO_TRY(scene->field_, field_in_memory(*region.file));
-    } else if (!region.geoid_left_out.N_m.empty()) {
-        scene->field_ = region.field;
-        scene->field_->undulation = region.geoid_left_out;
-        scene->field_->N_of_posts_m = region.N_of_posts_left_out_m;
-    }
-    scene->surface_.emplace(scene->field_ ? *scene->field_ : region.field, view.exaggeration, thread_count());
+    ORO_TRY(scene->ground_, RegionGround::of(region, view.exaggeration, GroundHeights::true_ones));
     scene->sight_ = true_sight(view, region);
     return scene;
 }

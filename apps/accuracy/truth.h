@@ -7,8 +7,8 @@
 
 #include "apps/view/view.h"
 #include "core/truth/oracle.h"
-#include "core/truth/true_surface.h"
-#include "geo/region/region.h"
+#include "core/truth/true_ground.h"
+#include "geo/together/region_ground.h"
 
 namespace oro {
 
@@ -21,22 +21,23 @@ Sight true_sight(const View& view, const Region& region);
 // How light goes in it: "Light: k 0.13 at all heights.\n"
 std::string light_line(const View& view, const Region& region);
 
-// The full-resolution surface that a view really looks at: on WGS84, lifted by the geoid, exaggerated as the
+// The full-resolution ground that a view really looks at: on WGS84, lifted by the geoid, exaggerated as the
 // view is. Holds on to the region.
 class TrueScene {
   public:
-    // Every post of a baked region is read into memory. Errors: damage in it.
+    // Every post of a baked region is read into memory. Errors: damage in it; those of cut_regions().
     static Result<std::unique_ptr<TrueScene>> of(const View& view, const Region& region);
     TrueScene(const TrueScene&) = delete;
     TrueScene& operator=(const TrueScene&) = delete;
 
-    [[nodiscard]] const TrueSurface& surface() const { return *surface_; }
+    [[nodiscard]] const TrueGround& ground() const { return ground_->ground(); }
+    // Of a region of one grid; the first of several.
+    [[nodiscard]] const TrueSurface& surface() const { return ground().surface(0); }
     [[nodiscard]] const Sight& sight() const { return sight_; }
 
   private:
     TrueScene() = default;
-    std::optional<HeightField> field_;  // where it is not the region's own
-    std::optional<TrueSurface> surface_;
+    std::unique_ptr<const RegionGround> ground_;
     Sight sight_;
 };
 

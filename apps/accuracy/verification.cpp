@@ -48,7 +48,7 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
         return Error{ErrorKind::failed, "--gpu-memory",
                      "the GPU may hold " + std::to_string(scene.store().capacity()) +
                          " pages of terrain; this view needs more (a larger --tau needs fewer)"};
-    const TruePicture true_picture(truth.surface(), truth.sight(), view.camera, thread_count());
+    const TruePicture true_picture(truth.ground(), truth.sight(), view.camera, thread_count());
     measure(done, true_picture);
     return done;
 }
@@ -67,6 +67,7 @@ std::string verification_text(const Verification& verification, double tau_px, c
         "Displacement: how far each pixel's ground is drawn from where it truly is. " +
         counted(ground.drawn, "pixel", "pixels") +
         if_any(ground.beyond_data, " of them where there are no data") +
+        if_any(ground.between, " of them between grids") +
         ".\n"
         "Surface: how far the drawn ground is from the true surface, wherever along it.\n"
         "Seen: how far away on the picture the truth has what is drawn; what is missing or should be hidden "
@@ -110,6 +111,7 @@ ordered_json verification_json(const Verification& verification) {
     json["slack_px"] = verification.slack_px;
     json["drawn_pixels"] = ground.drawn;
     json["pixels_beyond_data"] = ground.beyond_data;
+    if (ground.between > 0) json["pixels_between_grids"] = ground.between;
     json["pixels_of_other_ground"] = seen.other;
     json["skyline_columns"] = skyline.summary_px.count;
     json["skyline_in_one_only"] = skyline.in_one_only;

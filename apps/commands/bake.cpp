@@ -25,6 +25,8 @@
 #include "geo/region/region_description.h"
 #include "geo/region/region_prints.h"
 #include "geo/sources/raster_parts.h"
+#include "geo/together/baked_grids.h"
+#include "geo/together/cut_regions.h"
 
 namespace oro {
 namespace {
@@ -82,6 +84,7 @@ struct BakeResult {
     std::string file;
     std::uint64_t bytes{};
     std::uint64_t posts{};
+    std::size_t grids{1};
     BakeReport report;
     double read_s{};
     double build_s{};
@@ -99,12 +102,15 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
     if (report.pages_found > 0)
         say(options.quiet, "went on from page " + std::to_string(report.pages_found) + " of " +
                                std::to_string(report.pages) + ", where a bake was broken off");
-    say(options.quiet, "wrote " + baked.file + ": " + std::to_string(report.pages) + " pages, " + size);
+    const std::string grids = baked.grids > 1 ? std::to_string(baked.grids) + " grids, " : "";
+    say(options.quiet,
+        "wrote " + baked.file + ": " + grids + std::to_string(report.pages) + " pages, " + size);
     if (!options.json) return;
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["file"] = baked.file;
     json["bytes"] = baked.bytes;
     json["posts"] = baked.posts;
+    if (baked.grids > 1) json["grids"] = baked.grids;
     json["bytes_per_post"] = baked.bytes_per_post();
     json["pages"] = json_object("all", report.pages, "of_a_bake_broken_off", report.pages_found);
     json["triangles"] = report.triangles;
@@ -112,10 +118,85 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
     std::printf("%s\n", json_text(json, true).c_str());
 }
 
+// Reads the posts of what is baked already, to be baked anew.
+Result<void> take_into_memory(Region& region) {
+    if (!region.file) return {};
+    ORO_TRY(region.field, field_in_memory(*region.file));
+    region.posts_print = posts_print(region.field);
+    return {};
+}
+
+// What one grid is baked with, to `path`.
+Result<BakeOptions> options_for(const Region& region, const std::string& path, bool overwrite) {
+    BakeOptions how;
+    how.path = path;
+    how.overwrite = overwrite;
+    how.fingerprint = fingerprint_of(region.field);
+    how.description = region_description(region);
+    how.threads = thread_count();
+    // Not to find out when the file is opened.
+    ORO_CHECK(region_from_description(how.description, path));
+    return how;
+}
+
+void add(BakeReport& sum, const BakeReport& part) {
+    sum.pages += part.pages;
+    sum.pages_found += part.pages_found;
+    sum.triangles += part.triangles;
+}
+
+// One grid of several into a file of its own, which is there when a bake was broken off after it.
+Result<BakeReport> bake_grid(const Region& region, const BakeOptions& how, const BakeProgress& progress) {
+    ORO_CHECK(check_path_of_grid(how.path));
+    if (is_baked_grid(how.path, how.fingerprint, how.description)) {
+        ORO_TRY(const RegionFile file, RegionFile::open(how.path));
+        return BakeReport{file.order().count(), file.order().count(), file.outline().triangles};
+    }
+    return bake_region(region.field, how, progress);
+}
+
+// Ranks without gaps: a file whose posts are all void had one, and is left out.
+std::vector<std::uint32_t> as_ranks(const std::vector<std::uint32_t>& order) {
+    std::vector<std::uint32_t> ranks;
+    for (const std::uint32_t rank : order)
+        ranks.push_back(static_cast<std::uint32_t>(
+            std::ranges::count_if(order, [&](std::uint32_t other) { return other < rank; })));
+    return ranks;
+}
+
+// Each grid by itself, then all of them into one file.
+Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options, ProgressBar& bar) {
+    const std::vector<const Region*> grids = all_grids(region);
+    BakeReport report;
+    std::vector<std::uint32_t> order;
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        ORO_TRY(const BakeOptions how, options_for(*grids[i], path_of_grid(options.out, i), true));
+        const std::string what =
+            "baking grid " + std::to_string(i + 1) + " of " + std::to_string(grids.size());
+        ORO_TRY(const BakeReport baked, bake_grid(*grids[i], how, [&](double share) {
+                    bar.show(share, what);
+                    return true;
+                }));
+        add(report, baked);
+        order.push_back(static_cast<std::uint32_t>(grids[i]->rank));
+    }
+    ORO_CHECK(join_grids(options.out, options.overwrite, as_ranks(order)));
+    return report;
+}
+
+Result<BakeReport> bake_all(const Region& region, const BakingOptions& options, ProgressBar& bar) {
+    if (!region.beside.empty()) return bake_grids(region, options, bar);
+    ORO_TRY(const BakeOptions how, options_for(region, options.out, options.overwrite));
+    return bake_region(region.field, how, [&](double share) {
+        bar.show(share, "baking");
+        return true;
+    });
+}
+
 }  // namespace
 
 Result<void> run_bake(const BakingOptions& options) {
-    ORO_TRY(const RegionRequest request, region_request(options.region));
+    ORO_TRY(const RegionRequest request, region_request(of_grids(options.region)));
     ORO_CHECK(check_out(options));
     ProgressBar bar(options.quiet);
     BakeResult baked;
@@ -124,29 +205,17 @@ Result<void> run_bake(const BakingOptions& options) {
     ORO_TRY(Region region, open_region(request, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
-    if (region.file) {
-        ORO_TRY(region.field, field_in_memory(*region.file));
-        region.posts_print = posts_print(region.field);
-    }
+    ORO_CHECK(take_into_memory(region));
+    for (Region& other : region.beside) ORO_CHECK(take_into_memory(other));
     baked.read_s = seconds_since(reading);
     bar.clear();
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
     const auto building = Clock::now();
-    BakeOptions how;
-    how.path = options.out;
-    how.overwrite = options.overwrite;
-    how.fingerprint = fingerprint_of(region.field);
-    how.description = region_description(region);
-    how.threads = thread_count();
-    // Not to find out when the file is opened.
-    ORO_CHECK(region_from_description(how.description, options.out));
-    ORO_TRY(baked.report, bake_region(region.field, how, [&](double share) {
-                bar.show(share, "baking");
-                return true;
-            }));
+    ORO_TRY(baked.report, bake_all(region, options, bar));
     baked.build_s = seconds_since(building);
     bar.clear();
-    baked.posts = region.field.grid.post_count();
+    for (const Region* const grid : all_grids(region)) baked.posts += grid->field.grid.post_count();
+    baked.grids = 1 + region.beside.size();
     std::error_code fault;
     baked.bytes = fs::file_size(options.out, fault);
     if (fault)

@@ -61,19 +61,20 @@ Result<void> check_error_picture(const CompareOptions& options) {
 // Of a picture: that its pixels are what its view draws. Where its data changed, and that is known, they may
 // well be others.
 Result<std::optional<PictureDifference>> check_pixels(const CompareOptions& options, const View& view,
-                                                      const Region& region, const Gpu& gpu, Scene& scene,
-                                                      RasterPath path, const Style& style, ProgressBar& bar) {
+                                                      const Region& region, const RegionGround& ground,
+                                                      const Gpu& gpu, Scene& scene, RasterPath path,
+                                                      const Style& style, ProgressBar& bar) {
     if (!is_from_picture(view)) {
         say(options.quiet, "note: " + options.view_file + ": is a view without pixels to check");
         return std::optional<PictureDifference>();
     }
     std::vector<std::uint8_t> strip;
     if (view.legend) {
-        ORO_TRY(const auto middle, place_in_middle(view, region));
+        ORO_TRY(const auto middle, place_in_middle(view, ground));
         ORO_TRY(strip, legend_strip(view, region, style, middle));
     }
     ORO_TRY(const PictureDifference found,
-            compare_pixels(options.view_file, view, region.field, gpu, scene, path, style, strip,
+            compare_pixels(options.view_file, view, ground.ground(), gpu, scene, path, style, strip,
                            [&](double share) { bar.show(share, "drawing"); }));
     const std::optional<Fingerprints>& told = view.told->prints;
     const bool same_style =
@@ -96,7 +97,7 @@ Result<void> run_compare(const CompareOptions& options) {
     View view;
     Region region;
     ORO_CHECK(open_view(
-        options.view_file, {}, options.region,
+        options.view_file, {}, of_grids(options.region),
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     ORO_CHECK(check_unchanged(view, region, options.data_changed, options.quiet));
     if (!options.out.empty()) {
@@ -105,16 +106,21 @@ Result<void> run_compare(const CompareOptions& options) {
     }
     ORO_TRY(const Style style, load_style(view, region.field));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
-    ORO_TRY(Scene scene, create_scene(
-                             *gpu, region, view.exaggeration, memory_of_pages(view, options.memory),
-                             [&](double share) { bar.show(share, "measuring levels"); }, view.heights,
-                             asks_for_means(style.frame)));
+    ORO_TRY(const RegionCuts cuts, cut_regions(region));
+    ORO_TRY(std::unique_ptr<RegionPages> pages,
+            region_pages(region, cuts.grids.front(), view.exaggeration,
+                         [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
+                                               {view.exaggeration, memory_of_pages(view, options.memory),
+                                                view.heights, asks_for_means(style.frame)}));
+    Scene& scene = whole.scene;
+    ORO_TRY(const auto ground, RegionGround::of(region, cuts, view.exaggeration));
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(const std::optional<PictureDifference> pixels,
-            check_pixels(options, view, region, *gpu, scene, path, style, bar));
+            check_pixels(options, view, region, *ground, *gpu, scene, path, style, bar));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(0.0, "comparing");
     ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));

@@ -12,6 +12,7 @@
 #include "geo/listing/file_listing.h"
 #include "geo/region/baked_region.h"
 #include "geo/region/region_sources.h"
+#include "geo/together/cut_regions.h"
 
 namespace oro {
 namespace {
@@ -93,7 +94,8 @@ Result<void> run_info(const InfoOptions& options) {
     // All of them are listed below.
     std::erase_if(region.notes, [](const std::string& note) { return note.starts_with(passed_over); });
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
-    if (options.check && region.file) ORO_CHECK(region.file->verify());
+    for (const Region* const grid : all_grids(region))
+        if (options.check && grid->file) ORO_CHECK(grid->file->verify());
     if (options.json) {
         nlohmann::ordered_json json = json_object(
             "sources", sources_json(region.sources), "region", region_json(region), "file", file_json(region),
@@ -103,10 +105,8 @@ Result<void> run_info(const InfoOptions& options) {
         return {};
     }
     if (!region.beside.empty())
-        std::printf(
-            "%zu grids of posts, which shot draws together; where several have ground, the finest is "
-            "drawn\n\n",
-            1 + region.beside.size());
+        std::printf("%zu grids of posts, drawn together; where several have ground, %s is drawn\n\n",
+                    1 + region.beside.size(), request.listed_first ? "the one named first" : "the finest");
     std::printf("%s", info_text(region).c_str());
     for (const Region& other : region.beside) std::printf("\n%s", info_text(other).c_str());
     std::printf("%s", unread_files_text(listing).c_str());

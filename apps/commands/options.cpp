@@ -211,6 +211,10 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
               "Bring the points of files in a CRS of their own (a projected one, say) onto latitudes and "
               "longitudes. Without this they stay where that CRS has them, with the heights of their file; "
               "resampled, summits lose some metres. For --earth, --precision, and to compare.");
+    data.choice(
+        "--order", options.order, {"finest", "listed"},
+        "Which file is the ground where several have some: the one with the closest points (finest, the "
+        "default), or the one named first (listed; of a folder by the order of names).");
     data.flag(
         "--fill-voids", options.fill_voids,
         "Give void posts (points that a file leaves empty) a height from their neighbours. Without this "

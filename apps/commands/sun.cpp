@@ -7,6 +7,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sun_text.h"
+#include "apps/eye/standpoint.h"
 #include "apps/light/sun.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -81,23 +82,24 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     View view;
     Region region;
     ORO_CHECK(open_view(
-        "", view_options, options.region,
+        "", view_options, of_grids(options.region),
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(1.0, "looking for the sun");
     const Geodetic& eye = view.camera.eye;
-    const double N_m = region.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
-    const SunOverTerrain sun(truth->surface(), eye, view.model.air, N_m);
+    const Region& around = widest_at(region, eye.lat_deg, eye.lon_deg);
+    const double N_m = around.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    const SunOverTerrain sun(truth->ground(), eye, view.model.air, N_m);
     const auto from_utc_s = static_cast<double>(report.from_utc_s);
     report.terrain = light_of(sun_day(from_utc_s, sun, thread_count()), from_utc_s, eye);
     for (SunReport::Crossing& crossing : report.terrain->crossings)
-        crossing.data_reach_m = data_reach_m(region.field.grid, eye, crossing.azimuth_deg);
-    ORO_CHECK(region.field.health());
+        crossing.data_reach_m = data_reach_m(around.field.grid, eye, crossing.azimuth_deg);
+    ORO_CHECK(region.health());
     bar.clear();
     say_notes(region, options.quiet);
     report.place = eye;
     report.H_m = eye.h_m - N_m;
-    if (const auto ground = ground_h_m(region.field, eye.lat_deg, eye.lon_deg))
+    if (const auto ground = truth->ground().h_m(eye.lat_deg, eye.lon_deg))
         report.above_ground_m = eye.h_m - *ground;
     report.air = view.model.air;
     return {};
@@ -118,6 +120,7 @@ Result<void> leave_terrain_out(const SunOptions& options) {
                                            {"--source-vertical", !region.source_vertical.empty()},
                                            {"--strict-datum", region.strict_datum},
                                            {"--resample", region.resample},
+                                           {"--order", !region.order.empty()},
                                            {"--fill-voids", region.fill_voids}}) {
         if (is_given) return refused(option, "", "says nothing without elevation data: name them, too");
     }

@@ -24,8 +24,8 @@ GridAxis every(const GridAxis& axis, int step) {
 }  // namespace
 
 bool measures_long(const Region& region) {
-    // Of posts on a net nothing coarser is made: their levels are waited for.
-    return !region.file && !region.field.posts && !region.field.grid.net &&
+    // Of posts on a net, and of several grids, nothing coarser is made: their levels are waited for.
+    return region.beside.empty() && !region.file && !region.field.posts && !region.field.grid.net &&
            region.field.grid.post_count() > 4 * posts_in_a_moment;
 }
 

@@ -44,6 +44,13 @@ Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, const Cu
     if (std::ranges::find(cut.left_out, 1) == cut.left_out.end())
         return region_pages(region, exaggeration, progress);
     HeightField rest = region.field;
+    if (region.file) {
+        ORO_TRY(const HeightField posts, field_in_memory(*region.file));
+        rest.H_m = posts.H_m;
+        rest.posts = nullptr;
+        rest.range.reset();
+        if (!rest.undulation.N_m.empty()) rest.N_of_posts_m = posts.N_of_posts_m;
+    }
     for (std::size_t post = 0; post < cut.left_out.size(); ++post)
         if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
     std::unique_ptr<RegionPages> pages = pages_in_memory(rest, exaggeration, thread_count(), progress);
@@ -66,13 +73,13 @@ Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, c
                          {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares}, heights, means);
 }
 
-Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, const std::vector<CutOut>& cuts,
+Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                   double exaggeration, const MemoryOptions& memory, HeightStorage heights,
                                   bool means, Scene& scene) {
     std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < region.beside.size(); ++i) {
         ORO_TRY(std::unique_ptr<RegionPages> pages,
-                region_pages(region.beside[i], cuts[i + 1], exaggeration));
+                region_pages(region.beside[i], cuts.grids[i + 1], exaggeration));
         triangles += pages->facts().triangles;
         ORO_TRY(Scene more, create_scene(gpu, std::move(pages), memory, heights, means,
                                          1U + static_cast<unsigned>(region.beside.size())));
@@ -88,6 +95,19 @@ Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, const st
         scene.draw_beside(std::move(between));
     }
     return triangles;
+}
+
+Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
+                                    std::unique_ptr<RegionPages> pages, const SceneRequest& request) {
+    const std::uint64_t own = pages->facts().triangles;
+    ORO_TRY(Scene scene, create_scene(gpu, std::move(pages), request.memory, request.heights, request.means,
+                                      1U + static_cast<unsigned>(region.beside.size())));
+    std::uint64_t beside = 0;
+    if (!region.beside.empty()) {
+        ORO_TRY(beside, draw_beside(gpu, region, cuts, request.exaggeration, request.memory, request.heights,
+                                    request.means, scene));
+    }
+    return RegionScene{std::move(scene), own + beside};
 }
 
 std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages) {

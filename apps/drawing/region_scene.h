@@ -27,9 +27,24 @@ Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, const Cu
 // The regions beside one whose scene has 1 / (1 + their number) of the memory, and what is between them all,
 // into its frames. cuts: of all of them (cut_regions()). Gives the triangles that they have at full
 // resolution.
-Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, const std::vector<CutOut>& cuts,
+Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                   double exaggeration, const MemoryOptions& memory, HeightStorage heights,
                                   bool means, Scene& scene);
+
+// A region with all its grids, ready for a GPU, and the triangles that it has at full resolution.
+struct RegionScene {
+    Scene scene;
+    std::uint64_t triangles{};
+};
+struct SceneRequest {
+    double exaggeration{1.0};
+    MemoryOptions memory;
+    HeightStorage heights{HeightStorage::f32};
+    bool means{};
+};
+// pages: of the region's own grid (region_pages()), with cuts as draw_beside().
+Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
+                                    std::unique_ptr<RegionPages> pages, const SceneRequest& request);
 
 // What to tell of a style that asks for means of the ground over pages that have none, being of too many
 // posts: each pixel then has the colour of the ground in its middle. "" where nothing of that is so.

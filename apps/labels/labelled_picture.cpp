@@ -73,17 +73,15 @@ Result<std::vector<LineLabel>> add_line_labels(const TextFace& face, const SeenH
 }
 
 // What a view's vector files put on its picture.
-Result<void> find_vectors(const View& view, const HeightField& field, const TrueSurface* known,
-                          const TextFace& face, ViewWriting& writing) {
+Result<void> find_vectors(const View& view, const TrueGround& ground, const TextFace& face,
+                          ViewWriting& writing) {
     const std::vector<NamedPoint> points = points_of(view);
     if (points.empty() && view.vectors_read->overlay.empty()) return {};
-    std::optional<TrueSurface> own;
-    if (known == nullptr) known = &own.emplace(field, view.exaggeration, thread_count());
-    const PointsInView in_view(*known, view.camera, view.model);
-    writing.overlay = overlay_in_view(view, *known, in_view);
+    const PointsInView in_view(ground, view.camera, view.model);
+    writing.overlay = overlay_in_view(view, ground, in_view);
     ORO_TRY(writing.names, names_in_view(points, in_view, view.camera, face));
     // What could not be read counts as void: sight lines went through it.
-    return field.health();
+    return ground.health();
 }
 
 }  // namespace
@@ -101,19 +99,19 @@ bool has_writing(const View& view, const Style& style) {
     return style.labels_px > 0.0 || view.vectors_read;
 }
 
-Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view, const HeightField& field,
-                                 const TrueSurface* surface, const Style& style, RasterPath path) {
+Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view, const TrueGround& ground,
+                                 const Style& style, RasterPath path) {
     ViewWriting writing;
     if (!has_writing(view, style)) return writing;
     ORO_TRY(const TextFace face, TextFace::open());
-    if (view.vectors_read) ORO_CHECK(find_vectors(view, field, surface, face, writing));
+    if (view.vectors_read) ORO_CHECK(find_vectors(view, ground, face, writing));
     if (has_areas(view)) {
-        ORO_TRY(writing.overlay.areas, area_masks(gpu, scene, view, field.grid, picture_options(view, path)));
+        ORO_TRY(writing.overlay.areas, area_masks(gpu, scene, view, ground, picture_options(view, path)));
     }
     writing.texts = std::move(writing.names.inked);
     if (style.labels_px > 0.0) {
         ORO_TRY(const SeenHeights seen,
-                seen_heights(gpu, scene, view.camera, picture_options(view, path), view.exaggeration, field));
+                seen_heights(gpu, scene, view.camera, picture_options(view, path), ground));
         ORO_TRY(writing.labels, add_line_labels(face, seen, style, writing.names.labels, writing.texts));
     }
     return writing;
@@ -133,9 +131,9 @@ RowSink written_rows(ViewWriting& writing, const Camera& camera, const RowSink& 
 }
 
 Result<LabelledPicture> render_labelled(const Gpu& gpu, Scene& scene, const View& view,
-                                        const HeightField& field, const Style& style, RasterPath path,
+                                        const TrueGround& ground, const Style& style, RasterPath path,
                                         const RowSink& sink, const RenderProgress& progress) {
-    ORO_TRY(ViewWriting writing, find_writing(gpu, scene, view, field, nullptr, style, path));
+    ORO_TRY(ViewWriting writing, find_writing(gpu, scene, view, ground, style, path));
     const RowSink rows = written_rows(writing, view.camera, sink);
     LabelledPicture picture;
     picture.labels = std::move(writing.labels);

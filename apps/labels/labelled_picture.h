@@ -26,10 +26,10 @@ struct ViewWriting {
 // Whether a view can have any.
 [[nodiscard]] bool has_writing(const View& view, const Style& style);
 
-// Finds it. surface: the view's field with its exaggeration, for the sight lines to what is named. Errors:
+// Finds it. ground: of the view's region with its exaggeration, for the sight lines to what is named. Errors:
 // those of pages, of the device, and of text.
-Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view, const HeightField& field,
-                                 const TrueSurface* surface, const Style& style, RasterPath path);
+Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view, const TrueGround& ground,
+                                 const Style& style, RasterPath path);
 
 // A sink for a picture's rows (width * 3 bytes of sRGB, from the top down) that hands them on to `sink` with
 // the writing over them; areas and lines first, then what is written over these.
@@ -44,7 +44,7 @@ struct LabelledPicture {
     OverlayInView overlay;
 };
 Result<LabelledPicture> render_labelled(const Gpu& gpu, Scene& scene, const View& view,
-                                        const HeightField& field, const Style& style, RasterPath path,
+                                        const TrueGround& ground, const Style& style, RasterPath path,
                                         const RowSink& sink, const RenderProgress& progress);
 
 // What a view's picture is drawn with.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/measure/shown_place.h"
 #include "render/frame/shown_ground.h"
 
 namespace oro {
@@ -71,15 +72,15 @@ SeenHeights no_heights(const Camera& camera) {
 }
 
 Result<SeenHeights> seen_heights(const Gpu& gpu, Scene& scene, const Camera& camera,
-                                 const PictureOptions& options, double exaggeration,
-                                 const HeightField& field) {
+                                 const PictureOptions& options, const TrueGround& ground) {
     SeenHeights seen = no_heights(camera);
+    const Sight sight = sight_of(options.model, camera.eye);
     const auto take = [&](int x, int y, const DrawnPoint& point) {
         if (point.background()) return;
-        const auto [lat_deg, lon_deg] = field.grid.place_at(point.row, point.column);
+        const auto [lat_deg, lon_deg] = place_of(point, ground, sight, camera, {x + 0.5, y + 0.5});
         const std::size_t node = seen.at(x / seen.step_px, y / seen.step_px);
         seen.H_m[node] =
-            static_cast<float>((point.h_m - field.undulation.at_m(lat_deg, lon_deg)) / exaggeration);
+            static_cast<float>((point.h_m - ground.N_m(lat_deg, lon_deg)) / ground.exaggeration());
         seen.far_m[node] = static_cast<float>(point.z_m);
     };
     ORO_CHECK(shown_ground(gpu, scene, camera, options, seen.step_px, take));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/earth/camera.h"
-#include "core/terrain/post_grid.h"
+#include "core/truth/true_ground.h"
 #include "render/frame/picture_renderer.h"
 
 namespace oro {
@@ -39,9 +39,9 @@ struct SeenHeights {
 SeenHeights no_heights(const Camera& camera);
 
 // What a picture shows: of its triangles, as fine as tau asks for, and each node the mean of the ground
-// around it (binomial over 3 x 3 nodes), as pixels are. Errors: those of the device and of pages.
+// around it (binomial over 3 x 3 nodes), as pixels are. ground: of the scene's grids. Errors: those of the
+// device and of pages.
 Result<SeenHeights> seen_heights(const Gpu& gpu, Scene& scene, const Camera& camera,
-                                 const PictureOptions& options, double exaggeration,
-                                 const HeightField& field);
+                                 const PictureOptions& options, const TrueGround& ground);
 
 }  // namespace oro

@@ -3,6 +3,7 @@
 #include "apps/layers/picture_layers.h"
 #include "apps/report/figures.h"
 #include "geo/rasters/layer_raster.h"
+#include "geo/together/cut_regions.h"
 
 namespace oro {
 namespace {
@@ -29,9 +30,11 @@ Tags common_tags(const std::string& picture, const View& view, const Region& reg
 Tags source_tags(const View& view, const Region& region) {
     Tags tags;
     if (!view.tells_paths) return tags;
-    for (std::size_t i = 0; i < region.sources.size(); ++i)
-        tags.emplace_back("SOURCE_" + std::to_string(i),
-                          std::filesystem::path(region.sources[i].path).filename().string());
+    for (const Region* const grid : all_grids(region)) {
+        for (const SourceReport& source : grid->sources)
+            tags.emplace_back("SOURCE_" + std::to_string(tags.size()),
+                              std::filesystem::path(source.path).filename().string());
+    }
     return tags;
 }
 

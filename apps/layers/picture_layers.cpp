@@ -22,8 +22,8 @@ constexpr float none = std::numeric_limits<float>::quiet_NaN();
 // pictures cast shadows.
 class SunOverPlaces {
   public:
-    SunOverPlaces(const TrueSurface& surface, const Geodetic& eye, const SunDirection& sun)
-        : surface_(surface), oracle_(surface, sight_from(eye)), light_(direct_light(sun)) {
+    SunOverPlaces(const TrueGround& ground, const Geodetic& eye, const SunDirection& sun)
+        : ground_(ground), oracle_(ground, sight_from(eye)), light_(direct_light(sun)) {
         const SineCosine around = sine_cosine_deg(sun.azimuth_deg), up = sine_cosine_deg(sun.elevation_deg);
         towards_ = ecef_from_enu(eye.lat_deg, eye.lon_deg) *
                    glm::dvec3(up.cosine * around.sine, up.cosine * around.cosine, up.sine);
@@ -32,7 +32,7 @@ class SunOverPlaces {
     [[nodiscard]] float share_at(const ShownPlace& place) const {
         // A line begins above the true ground, or it would meet what it begins on.
         constexpr double lift_m = 0.02;
-        const auto ground_m = surface_.h_at_m(place.row, place.column);
+        const auto ground_m = ground_.surface(place.grid).h_at_m(place.row, place.column);
         if (!ground_m) return none;
         if (light_ <= 0.0) return 0.0F;
         const Geodetic from{place.point.lat_deg, place.point.lon_deg, *ground_m + lift_m};
@@ -42,7 +42,7 @@ class SunOverPlaces {
     }
 
   private:
-    const TrueSurface& surface_;
+    TrueGround ground_;
     Oracle oracle_;
     double light_;
     glm::dvec3 towards_{};
@@ -58,14 +58,19 @@ PictureLayers empty_layers(std::size_t pixels) {
     return layers;
 }
 
-float number_of_source(const Region& region, const Geodetic& point) {
+float number_of_source(const RegionGround& ground, std::size_t grid, const Geodetic& point) {
+    const Region& region = ground.region(grid);
     const SourceReport* const source = source_at(region, point.lat_deg, point.lon_deg);
-    return source ? static_cast<float>(source - region.sources.data()) : none;
+    if (!source) return none;
+    std::size_t before = 0;
+    for (std::size_t other = 0; other < grid; ++other) before += ground.region(other).sources.size();
+    return static_cast<float>(before) + static_cast<float>(source - region.sources.data());
 }
 
 // All that is told of a place, into a pixel.
-void put(const ShownPlace& place, const View& view, const Region& region, const SunOverPlaces& sun,
+void put(const ShownPlace& place, const View& view, const RegionGround& ground, const SunOverPlaces& sun,
          std::size_t pixel, PictureLayers& layers) {
+    const Region& region = ground.region(place.grid);
     const Geodetic& point = place.point;
     const double N_m = region.field.undulation.at_m(point.lat_deg, point.lon_deg);
     const double H_m = (point.h_m - N_m) / view.exaggeration;
@@ -78,7 +83,7 @@ void put(const ShownPlace& place, const View& view, const Region& region, const 
     layers.distance_m[pixel] = static_cast<float>(place.distance_m);
     if (const auto slope_deg = horn_slope_deg(region.field, place.row, place.column))
         layers.slope_deg[pixel] = static_cast<float>(*slope_deg);
-    layers.source[pixel] = number_of_source(region, point);
+    layers.source[pixel] = number_of_source(ground, place.grid, point);
     layers.shadow[pixel] = sun.share_at(place);
 }
 
@@ -93,16 +98,16 @@ Result<void> check_layers(const Camera& camera) {
     return refused("--layers", "", "takes a picture of at most 100,000,000 pixels: give a smaller --size");
 }
 
-Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& view, const Region& region,
-                                     const Style& style, RasterPath path, const RenderProgress& progress) {
+Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& view,
+                                     const RegionGround& ground, const Style& style, RasterPath path,
+                                     const RenderProgress& progress) {
     const Camera& camera = view.camera;
     PictureLayers layers = empty_layers(static_cast<std::size_t>(pixels_of(camera)));
-    const TrueSurface surface(region.field, view.exaggeration, thread_count());
-    const ShownPlaces places(surface, camera, view.model, view.tau_px == 0.0);
-    const SunOverPlaces sun(surface, camera.eye, style.sun);
+    const ShownPlaces places(ground.ground(), camera, view.model, view.tau_px == 0.0);
+    const SunOverPlaces sun(ground.ground(), camera.eye, style.sun);
     std::atomic<std::uint64_t> ground_px{0};
     const auto take = [&](const Tile& tile, int first_row, int rows,
-                          const std::vector<gpu::DrawnTriangle>& triangles) {
+                          const std::vector<ShownTriangle>& triangles) {
         in_parallel(rows, thread_count(), [&](int row) {
             const int y = tile.y_px + first_row + row;
             for (int column = 0; column < tile.width_px; ++column) {
@@ -113,7 +118,7 @@ Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& v
                     {x + 0.5, y + 0.5});
                 if (!place) continue;
                 ++ground_px;
-                put(*place, view, region, sun,
+                put(*place, view, ground, sun,
                     static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
                         static_cast<std::size_t>(x),
                     layers);
@@ -123,7 +128,7 @@ Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& v
     };
     ORO_CHECK(shown_triangles(gpu, scene, camera, picture_options(view, path), take));
     // What could not be read counted as void.
-    ORO_CHECK(region.field.health());
+    ORO_CHECK(ground.ground().health());
     layers.ground_px = ground_px;
     layers.beside_px = places.passed_beside();
     return layers;

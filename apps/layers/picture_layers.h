@@ -9,6 +9,7 @@
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "geo/files/whole_file.h"
+#include "geo/together/region_ground.h"
 #include "render/frame/picture_renderer.h"
 
 namespace oro {
@@ -21,7 +22,7 @@ struct PictureLayers {
     std::vector<float> h_m;         // the same above the ellipsoid
     std::vector<float> distance_m;  // along the sight line, to where the view has the place
     std::vector<float> slope_deg;   // horn_slope_deg()
-    std::vector<float> source;      // number in Region::sources, from 0
+    std::vector<float> source;      // number among the sources of all grids (all_grids()), from 0
     std::vector<float>
         shadow;  // share of the sun's light that comes past the terrain: 0 in shadow, 1 without
     std::uint64_t ground_px{};
@@ -32,10 +33,11 @@ struct PictureLayers {
 Result<void> check_layers(const Camera& camera);
 
 // Of a view whose picture is drawn with `path`. A pixel's place is where its own ray meets the triangle that
-// the picture shows there, in double (ShownPlaces). Errors: those of the device and of
-// pages; posts that cannot be read.
-Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& view, const Region& region,
-                                     const Style& style, RasterPath path, const RenderProgress& progress);
+// the picture shows there, in double (ShownPlaces). ground: of the view's region and exaggeration. Errors:
+// those of the device and of pages; posts that cannot be read.
+Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& view,
+                                     const RegionGround& ground, const Style& style, RasterPath path,
+                                     const RenderProgress& progress);
 
 // The files beside a picture: NAME.longitude.tif, and so on. Names differ by more than the case of letters,
 // for there are file systems that see none: height is H, ellipsoidal-height is h.

@@ -37,23 +37,33 @@ std::optional<PixelFrame> pixel_frame(const MapSquare& square, MapPlaces& places
     return frame;
 }
 
-void find_ground(MapPlaces& places, const TrueSurface& surface, bool voids_are_sea, MapSquare& square) {
+// The ground at a place, of the grid that is the ground there; the sea on the ellipsoid where a grid has void
+// posts, if these are sea.
+std::optional<double> ground_h_m(const TrueGround& ground, const MapPlace& place, bool voids_are_sea) {
+    std::optional<double> sea_h_m;
+    for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
+        const TrueSurface& surface = ground.surface(grid);
+        const PostGrid& posts = surface.field().grid;
+        const auto [row, column] = posts.post_at(place.lat_deg, place.lon_deg);
+        const bool inside =
+            row >= 0.0 && column >= 0.0 && row <= posts.rows() - 1.0 && column <= posts.columns() - 1.0;
+        if (!inside) continue;
+        const auto h_m = surface.h_at_m(row, column);
+        if (h_m && ground.shows(grid, place.lat_deg, place.lon_deg)) return h_m;
+        if (!h_m && voids_are_sea) sea_h_m = surface.field().undulation.at_m(place.lat_deg, place.lon_deg);
+    }
+    return sea_h_m;
+}
+
+void find_ground(MapPlaces& places, const TrueGround& ground, bool voids_are_sea, MapSquare& square) {
     std::vector<std::vector<std::optional<MapPlace>>> rows(static_cast<std::size_t>(square.height_px));
     for (int y = 0; y < square.height_px; ++y)
         places.row(square.x_px, square.y_px + y, square.width_px, rows[static_cast<std::size_t>(y)]);
-    const HeightField& field = surface.field();
-    const PostGrid& grid = field.grid;
     in_parallel(square.height_px, thread_count(), [&](int y) {
         for (int x = 0; x < square.width_px; ++x) {
             const auto& place = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
             if (!place) continue;
-            const auto [row, column] = grid.post_at(place->lat_deg, place->lon_deg);
-            const bool inside =
-                row >= 0.0 && column >= 0.0 && row <= grid.rows() - 1.0 && column <= grid.columns() - 1.0;
-            if (!inside) continue;
-            auto h_m = surface.h_at_m(row, column);
-            if (!h_m && voids_are_sea) h_m = field.undulation.at_m(place->lat_deg, place->lon_deg);
-            if (h_m)
+            if (const auto h_m = ground_h_m(ground, *place, voids_are_sea))
                 square.ground[square.number(x, y)] =
                     ecef_from_geodetic({place->lat_deg, place->lon_deg, *h_m});
         }
@@ -76,8 +86,8 @@ glm::dvec2 project(MapSquare& square) {
 
 }  // namespace
 
-MapSquare map_square(const MapSquare& where, MapPlaces& places, const TrueSurface& surface,
-                     bool voids_are_sea, int finer) {
+MapSquare map_square(const MapSquare& where, MapPlaces& places, const TrueGround& ground, bool voids_are_sea,
+                     int finer) {
     MapSquare square = where;
     const auto pixels =
         static_cast<std::size_t>(square.width_px) * static_cast<std::size_t>(square.height_px);
@@ -87,10 +97,10 @@ MapSquare map_square(const MapSquare& where, MapPlaces& places, const TrueSurfac
     square.camera.width_px = square.camera.height_px = 0;
     const auto frame = pixel_frame(square, places);
     if (!frame) return square;
-    find_ground(places, surface, voids_are_sea, square);
+    find_ground(places, ground, voids_are_sea, square);
     double top_h_m = -1.0e9;
-    for (const auto& ground : square.ground)
-        if (ground) top_h_m = std::max(top_h_m, geodetic_from_ecef(*ground).h_m);
+    for (const auto& at : square.ground)
+        if (at) top_h_m = std::max(top_h_m, geodetic_from_ecef(*at).h_m);
     if (top_h_m < -1.0e8) return square;
     const double side_m = std::min(frame->right_m, frame->down_m),
                  away_m = std::max(least_away_m, eye_away_px * side_m);

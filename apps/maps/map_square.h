@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/earth/camera.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 #include "geo/rasters/map_frame.h"
 
 namespace oro {
@@ -27,7 +27,7 @@ struct MapSquare {
 // the camera: straight above the square's middle, so far away that its whole width is seen within three
 // degrees, with `finer` pixels of it for one of the map's. Float32 places ground as seen from there within
 // 0.02 px.
-MapSquare map_square(const MapSquare& where, MapPlaces& places, const TrueSurface& surface,
-                     bool voids_are_sea, int finer);
+MapSquare map_square(const MapSquare& where, MapPlaces& places, const TrueGround& ground, bool voids_are_sea,
+                     int finer);
 
 }  // namespace oro

@@ -158,12 +158,11 @@ class SquarePainter {
 
 }  // namespace
 
-Result<PictureReport> draw_map(const Gpu& gpu, Scene& scene, const View& view, const Region& region,
+Result<PictureReport> draw_map(const Gpu& gpu, Scene& scene, const View& view, const TrueGround& ground,
                                const Style& style, RasterPath path, const MapRowSink& sink,
                                const RenderProgress& progress) {
     const MapFrame& map = *view.map;
     ORO_TRY(MapPlaces places, MapPlaces::of(map));
-    const TrueSurface surface(region.field, view.exaggeration, thread_count());
     SquarePainter painter(gpu, scene, view, style, path);
     PictureReport report;
     report.path = path;
@@ -178,14 +177,14 @@ Result<PictureReport> draw_map(const Gpu& gpu, Scene& scene, const View& view, c
             where.width_px = std::min(square_px, map.width_px - x);
             where.height_px = rows;
             const MapSquare square =
-                map_square(where, places, surface, view.sea == Sea::voids, painter.finer());
+                map_square(where, places, ground, view.sea == Sea::voids, painter.finer());
             ORO_CHECK(painter.paint(square, map.width_px, band, report));
             if (progress)
                 progress((y + rows * std::min(1.0, static_cast<double>(x + square_px) / map.width_px)) /
                          map.height_px);
         }
         // What could not be read counted as void.
-        ORO_CHECK(region.field.health());
+        ORO_CHECK(ground.health());
         for (int i = 0; i < rows; ++i) {
             const auto row = std::span<const std::uint8_t>(band).subspan(
                 static_cast<std::size_t>(i) * row_bytes, row_bytes);

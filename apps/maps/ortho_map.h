@@ -4,6 +4,7 @@
 #include "apps/commands/options.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
+#include "core/truth/true_ground.h"
 #include "render/frame/picture_renderer.h"
 
 namespace oro {
@@ -24,7 +25,7 @@ using MapRowSink = std::function<Result<void>(std::span<const std::uint8_t> rgba
 // show at its place: longitude and latitude by PROJ, the ground's height there in double, projected into the
 // picture. So slopes stand where they are, not aside of it. Without ground there, a pixel is transparent.
 // Errors: those of render_picture(), of PROJ and of the sink.
-Result<PictureReport> draw_map(const Gpu& gpu, Scene& scene, const View& view, const Region& region,
+Result<PictureReport> draw_map(const Gpu& gpu, Scene& scene, const View& view, const TrueGround& ground,
                                const Style& style, RasterPath path, const MapRowSink& sink,
                                const RenderProgress& progress);
 

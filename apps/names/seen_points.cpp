@@ -35,17 +35,17 @@ std::optional<double> own_h_m(const NamedPoint& point, double ground_h_m, double
 
 }  // namespace
 
-PointsInView::PointsInView(const TrueSurface& surface, const Camera& camera, const WorldModel& model)
-    : surface_(surface),
+PointsInView::PointsInView(const TrueGround& ground, const Camera& camera, const WorldModel& model)
+    : ground_(ground),
       camera_(camera),
       model_(model),
       view_from_ecef_(camera.view_from_ecef()),
       enu_from_ecef_(glm::transpose(ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg))),
-      oracle_(surface, sight_of(model, camera.eye)) {}
+      oracle_(ground, sight_of(model, camera.eye)) {}
 
-PointsInView::PointsInView(const TrueSurface& surface, const Camera& camera, const WorldModel& model,
+PointsInView::PointsInView(const TrueGround& ground, const Camera& camera, const WorldModel& model,
                            const Cylinder& around)
-    : PointsInView(surface, camera, model) {
+    : PointsInView(ground, camera, model) {
     around_ = around;
 }
 
@@ -89,7 +89,8 @@ bool PointsInView::in_picture(const SeenPoint& point) const {
 }
 
 std::optional<Geodetic> PointsInView::summit_near(const Geodetic& place) const {
-    const PostGrid& grid = surface_.field().grid;
+    const TrueSurface& surface = ground_.surface(ground_.grid_at(place.lat_deg, place.lon_deg).value_or(0));
+    const PostGrid& grid = surface.field().grid;
     const auto [row, column] = grid.post_at(place.lat_deg, place.lon_deg);
     std::optional<Geodetic> highest;
     for (int down = -posts_to_summit; down <= posts_to_summit; ++down) {
@@ -97,7 +98,7 @@ std::optional<Geodetic> PointsInView::summit_near(const Geodetic& place) const {
             const int r = static_cast<int>(std::lround(row)) + down,
                       c = static_cast<int>(std::lround(column)) + right;
             if (r < 0 || c < 0 || r >= grid.rows() || c >= grid.columns()) continue;
-            const auto h_m = surface_.post_h_m(r, c);
+            const auto h_m = surface.post_h_m(r, c);
             if (h_m && *h_m > (highest ? highest->h_m : place.h_m)) {
                 const PostPlace at =
                     grid.net ? grid.net->place_at(r, c) : PostPlace{grid.lat.at_deg(r), grid.lon.at_deg(c)};
@@ -114,20 +115,20 @@ bool PointsInView::sees_or_moves(SeenPoint& point) const {
     if (!summit || !sees(*summit, seen_above_m)) return false;
     put_at(*summit, point);
     if (!point.tells_H) {
-        const double N_m = surface_.field().undulation.at_m(summit->lat_deg, summit->lon_deg);
-        point.H_m = H_over(summit->h_m, N_m, surface_.exaggeration());
+        const double N_m = ground_.N_m(summit->lat_deg, summit->lon_deg);
+        point.H_m = H_over(summit->h_m, N_m, ground_.exaggeration());
     }
     return in_picture(point);
 }
 
 std::optional<SeenPoint> PointsInView::placed(const NamedPoint& point, PointCounts& counts) const {
-    const auto ground_h_m = surface_.h_m(point.lat_deg, point.lon_deg);
+    const auto ground_h_m = ground_.h_m(point.lat_deg, point.lon_deg);
     if (!ground_h_m) {
         ++counts.beyond_data;
         return std::nullopt;
     }
-    const double N_m = surface_.field().undulation.at_m(point.lat_deg, point.lon_deg),
-                 exaggeration = surface_.exaggeration(), ground_H_m = H_over(*ground_h_m, N_m, exaggeration);
+    const double N_m = ground_.N_m(point.lat_deg, point.lon_deg), exaggeration = ground_.exaggeration(),
+                 ground_H_m = H_over(*ground_h_m, N_m, exaggeration);
     SeenPoint seen{point.name, point.lat_deg, point.lon_deg, {}, ground_H_m, false, 0.0, 0.0, {}};
     double h_m = *ground_h_m;
     const auto tell = [&](double H_m) {

@@ -11,7 +11,7 @@
 #include "core/earth/cylinder.h"
 #include "core/earth/world_model.h"
 #include "core/truth/oracle.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 
 namespace oro {
 
@@ -23,8 +23,9 @@ inline constexpr double seen_above_m = 2.0;
 inline constexpr int posts_to_summit = 2;
 // A point's own height is where it is placed when it is at most so far above the ground; else the ground is.
 inline constexpr double highest_above_ground_m = 300.0;
-// The height that a point tells is what is written of it when it is so near the ground's there, or nearer than so
-// much of that: posts 90 m apart lie 260 m below the Matterhorn's summit. Feet taken for metres are farther off.
+// The height that a point tells is what is written of it when it is so near the ground's there, or nearer
+// than so much of that: posts 90 m apart lie 260 m below the Matterhorn's summit. Feet taken for metres are
+// farther off.
 inline constexpr double most_off_ground_m = 100.0;
 inline constexpr double most_off_ground_share = 0.1;
 
@@ -50,10 +51,11 @@ struct PointCounts {
 // Tells which points an eye sees; safe to ask from one thread at a time, and shares its work between several.
 class PointsInView {
   public:
-    // `surface` outlives it: of the view's region and exaggeration. The model is the view's: Earth and air.
-    PointsInView(const TrueSurface& surface, const Camera& camera, const WorldModel& model);
+    // What `ground` is made of outlives it: of the view's region and exaggeration. The model is the view's:
+    // Earth and air.
+    PointsInView(const TrueGround& ground, const Camera& camera, const WorldModel& model);
     // On a panorama: places are the cylinder's; view_m() and projected_px() stay the camera's.
-    PointsInView(const TrueSurface& surface, const Camera& camera, const WorldModel& model,
+    PointsInView(const TrueGround& ground, const Camera& camera, const WorldModel& model,
                  const Cylinder& around);
 
     // Where a place is on the picture; nothing behind the eye.
@@ -77,7 +79,7 @@ class PointsInView {
     [[nodiscard]] bool sees_or_moves(SeenPoint& point) const;
     [[nodiscard]] std::optional<Geodetic> summit_near(const Geodetic& place) const;
 
-    const TrueSurface& surface_;
+    TrueGround ground_;
     Camera camera_;
     WorldModel model_;
     std::optional<Cylinder> around_;

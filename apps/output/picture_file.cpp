@@ -109,12 +109,12 @@ Result<void> check_drawn(const Gpu& gpu, Scene& scene, const PictureReport& repo
 }  // namespace
 
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                  const Region& region, const std::optional<SeenPlace>& middle,
-                                  const Gpu& gpu, Scene& scene, const Style& style,
-                                  std::span<const std::uint8_t> strip, const RenderProgress& progress,
-                                  const RowSink& also) {
+                                  const Region& region, const RegionGround& ground,
+                                  const std::optional<SeenPlace>& middle, const Gpu& gpu, Scene& scene,
+                                  const Style& style, std::span<const std::uint8_t> strip,
+                                  const RenderProgress& progress, const RowSink& also) {
     // The eye and the tags come from heights that were asked for by now.
-    ORO_CHECK(region.field.health());
+    ORO_CHECK(region.health());
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, gpu));
     // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
     ORO_TRY(View drawn, view_told_by(view, files.told_from));
@@ -139,11 +139,11 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
         MapRows rows(files.picture, *writer, pixels, also);
         ORO_TRY(labelled.report,
                 draw_map(
-                    gpu, scene, view, region, style, path,
+                    gpu, scene, view, ground.ground(), style, path,
                     [&](std::span<const std::uint8_t> rgba) { return rows.take(rgba); }, progress));
         ORO_CHECK(rows.take_strip(strip, view.camera.width_px));
     } else {
-        ORO_TRY(labelled, render_labelled(gpu, scene, view, region.field, style, path, take, progress));
+        ORO_TRY(labelled, render_labelled(gpu, scene, view, ground.ground(), style, path, take, progress));
     }
     const PictureReport& report = labelled.report;
     const auto row_bytes = static_cast<std::size_t>(view.camera.width_px) * 3;
@@ -164,11 +164,11 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
 }
 
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                    const Region& region, const std::optional<SeenPlace>& middle,
-                                    const Gpu& gpu, Scene& scene, const Style& style,
-                                    const RenderProgress& progress) {
+                                    const Region& region, const RegionGround& ground,
+                                    const std::optional<SeenPlace>& middle, const Gpu& gpu, Scene& scene,
+                                    const Style& style, const RenderProgress& progress) {
     ORO_TRY(DrawnPicture picture,
-            draw_picture(files, overwrite, view, region, middle, gpu, scene, style, {}, progress));
+            draw_picture(files, overwrite, view, region, ground, middle, gpu, scene, style, {}, progress));
     ORO_CHECK(picture.file.commit());
     return picture.report;
 }

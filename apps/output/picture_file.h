@@ -35,19 +35,20 @@ struct DrawnPicture {
 };
 
 // Draws a picture that is to be `files.picture`, with `strip` below it: view.legend_px rows. The view in it
-// names the way of drawing that --pipeline auto came to. `also` gets each row, too. Errors: a view that could
+// names the way of drawing that --pipeline auto came to. `ground` is the region's, with the view's
+// exaggeration. `also` gets each row, too. Errors: a view that could
 // not be opened again, those of the file and of the device; any message of the validation layer, where it is
 // on.
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                  const Region& region, const std::optional<SeenPlace>& middle,
-                                  const Gpu& gpu, Scene& scene, const Style& style,
-                                  std::span<const std::uint8_t> strip, const RenderProgress& progress,
-                                  const RowSink& also = {});
+                                  const Region& region, const RegionGround& ground,
+                                  const std::optional<SeenPlace>& middle, const Gpu& gpu, Scene& scene,
+                                  const Style& style, std::span<const std::uint8_t> strip,
+                                  const RenderProgress& progress, const RowSink& also = {});
 
 // The same, and gives it its name.
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                    const Region& region, const std::optional<SeenPlace>& middle,
-                                    const Gpu& gpu, Scene& scene, const Style& style,
-                                    const RenderProgress& progress);
+                                    const Region& region, const RegionGround& ground,
+                                    const std::optional<SeenPlace>& middle, const Gpu& gpu, Scene& scene,
+                                    const Style& style, const RenderProgress& progress);
 
 }  // namespace oro

@@ -9,6 +9,7 @@
 #include "apps/overlay/line_masks.h"
 #include "apps/styles/colour_text.h"
 #include "apps/view/view_limits.h"
+#include "core/measure/shown_place.h"
 #include "render/frame/shown_ground.h"
 
 namespace oro {
@@ -53,7 +54,7 @@ bool has_areas(const View& view) {
 }
 
 Result<std::vector<InkedText>> area_masks(const Gpu& gpu, Scene& scene, const View& view,
-                                          const PostGrid& grid, const PictureOptions& options) {
+                                          const TrueGround& ground, const PictureOptions& options) {
     struct Filled {
         GroundArea area;
         std::uint8_t cover;
@@ -75,10 +76,12 @@ Result<std::vector<InkedText>> area_masks(const Gpu& gpu, Scene& scene, const Vi
             {std::move(area), static_cast<std::uint8_t>(std::lround(255.0 * fill.opacity)), found->second});
     });
     if (!filled.empty()) {
+        const Sight sight = sight_of(options.model, view.camera.eye);
         ORO_CHECK(shown_ground(gpu, scene, view.camera, options, 1,
                                [&](int x_px, int y_px, const DrawnPoint& point) {
                                    if (point.background()) return;
-                                   const auto [lat_deg, lon_deg] = grid.place_at(point.row, point.column);
+                                   const auto [lat_deg, lon_deg] =
+                                       place_of(point, ground, sight, view.camera, {x_px + 0.5, y_px + 0.5});
                                    for (const Filled& one : filled) {
                                        if (one.area.holds(lat_deg, lon_deg))
                                            masks[one.mask].cover(x_px, y_px, one.cover);

@@ -43,11 +43,10 @@ void add_crossings(double begin, double end, double first, double last, std::vec
         shares.push_back((whole - begin) / step);
 }
 
-// The same over a grid on a net, where a way that is straight in latitude and longitude is bent among the
-// posts.
-void follow_on_net(const TrueSurface& surface, const VectorPlace& from, const VectorPlace& to,
-                   const GroundSink& sink) {
-    const PostGrid& grid = surface.field().grid;
+// The same over grids on nets, where a way that is straight in latitude and longitude is bent among the
+// posts, and over several grids.
+void follow_bent(const TrueGround& ground, const VectorPlace& from, const VectorPlace& to,
+                 const GroundSink& sink) {
     const double turn_deg = std::remainder(to.lon_deg - from.lon_deg, 360.0);
     const double long_m = wgs84_a_m * radians_from_deg(std::hypot(to.lat_deg - from.lat_deg, turn_deg)).rad;
     const auto at = [&](double along_m) {
@@ -55,12 +54,12 @@ void follow_on_net(const TrueSurface& surface, const VectorPlace& from, const Ve
         return Geodetic{std::lerp(from.lat_deg, to.lat_deg, share),
                         normalised_lon_deg(from.lon_deg + share * turn_deg), 0.0};
     };
-    std::vector<double> along_m = edge_crossings(grid, at, 0.0, long_m);
+    std::vector<double> along_m = edge_crossings(ground, at, 0.0, long_m);
     along_m.insert(along_m.begin(), 0.0);
     along_m.push_back(long_m);
     for (const double here_m : along_m) {
         Geodetic place = at(here_m);
-        const auto h_m = surface.h_m(place.lat_deg, place.lon_deg);
+        const auto h_m = ground.h_m(place.lat_deg, place.lon_deg);
         place.h_m = h_m.value_or(0.0);
         if (h_m)
             sink(place);
@@ -71,10 +70,11 @@ void follow_on_net(const TrueSurface& surface, const VectorPlace& from, const Ve
 
 }  // namespace
 
-void follow_ground(const TrueSurface& surface, const VectorPlace& from, const VectorPlace& to,
+void follow_ground(const TrueGround& ground, const VectorPlace& from, const VectorPlace& to,
                    const GroundSink& sink) {
+    const TrueSurface& surface = ground.surface(0);
     const PostGrid& grid = surface.field().grid;
-    if (grid.net) return follow_on_net(surface, from, to, sink);
+    if (grid.net || ground.grids() > 1) return follow_bent(ground, from, to, sink);
     const double turn_deg = std::remainder(to.lon_deg - from.lon_deg, 360.0);
     const GridPlace a{grid.lat.index_at(from.lat_deg), grid.column_at(from.lon_deg)},
         b{grid.lat.index_at(to.lat_deg), a.column + turn_deg * grid.lon.posts_per_deg};

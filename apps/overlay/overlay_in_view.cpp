@@ -36,7 +36,7 @@ double length_px(const std::vector<glm::dvec2>& places_px) {
 
 }  // namespace
 
-OverlayInView overlay_in_view(const View& view, const TrueSurface& surface, const PointsInView& in_view,
+OverlayInView overlay_in_view(const View& view, const TrueGround& ground, const PointsInView& in_view,
                               double finer) {
     const auto start = Clock::now();
     OverlayInView overlay;
@@ -56,7 +56,7 @@ OverlayInView overlay_in_view(const View& view, const TrueSurface& surface, cons
     const double margin_px = view_limits::overlay_width_px.high;
     std::vector<InkedText::Colour> order;
     std::map<InkedText::Colour, LineMask> masks;
-    for (const SeenLine& line : seen_lines(shapes, surface, in_view, camera, margin_px)) {
+    for (const SeenLine& line : seen_lines(shapes, ground, in_view, camera, margin_px)) {
         const Stroke& stroke = strokes[line.shape];
         const auto [mask, is_new] =
             masks.try_emplace(stroke.colour, LineMask(camera.width_px, camera.height_px));

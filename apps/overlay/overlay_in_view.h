@@ -21,7 +21,7 @@ struct OverlayInView {
 // Lines and the rings of polygons. A feature's fields `stroke` (#rrggbb) and `stroke-width` (pixels) win over
 // the view's colour and width, as in simplestyle. `in_view` is of the view's own camera and model. `finer`:
 // so many times as wide are lines drawn, on a picture that is to become so much smaller.
-OverlayInView overlay_in_view(const View& view, const TrueSurface& surface, const PointsInView& in_view,
+OverlayInView overlay_in_view(const View& view, const TrueGround& ground, const PointsInView& in_view,
                               double finer = 1.0);
 
 }  // namespace oro

@@ -158,7 +158,7 @@ std::vector<SeenLine> joined(const std::vector<Sample>& samples, const std::vect
 
 }  // namespace
 
-std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, const TrueSurface& surface,
+std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, const TrueGround& ground,
                                  const PointsInView& in_view, const Camera& camera, double margin_px) {
     Sampler sampler(in_view, camera, margin_px);
     const GroundSink take = [&](const std::optional<Geodetic>& place) { sampler.take(place); };
@@ -168,8 +168,8 @@ std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, 
         for (const auto& path : shape.paths) {
             sampler.start(i);
             for (std::size_t at = 0; at + 1 < path.size(); ++at)
-                follow_ground(surface, path[at], path[at + 1], take);
-            if (shape.kind == VectorKind::polygon) follow_ground(surface, path.back(), path.front(), take);
+                follow_ground(ground, path[at], path[at + 1], take);
+            if (shape.kind == VectorKind::polygon) follow_ground(ground, path.back(), path.front(), take);
         }
     }
     const std::vector<Sample>& samples = sampler.samples;

@@ -18,7 +18,7 @@ struct SeenLine {
 // Follows shapes' lines and rings on the ground, and asks the oracle about each place: a place is seen when
 // what is a third of a pixel above it is seen. Parts up to `margin_px` beyond the picture's border are given,
 // too. The same for the same shapes. Points are left out.
-std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, const TrueSurface& surface,
+std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, const TrueGround& ground,
                                  const PointsInView& in_view, const Camera& camera, double margin_px);
 
 }  // namespace oro

@@ -30,9 +30,9 @@ double skyline_deg(const Oracle& oracle, const Geodetic& eye, double azimuth_deg
     return free_deg;
 }
 
-Elevations elevations_for(const TrueSurface& surface, const Geodetic& eye, const WorldModel& model,
+Elevations elevations_for(const TrueGround& ground, const Geodetic& eye, const WorldModel& model,
                           double from_deg, double sweep_deg, int threads) {
-    const Oracle oracle(surface, sight_of(model, eye));
+    const Oracle oracle(ground, sight_of(model, eye));
     const double reach_m = sight_reach_m(eye.h_m);
     const glm::dmat3 turn = ecef_from_enu(eye.lat_deg, eye.lon_deg);
     struct Place {
@@ -43,8 +43,8 @@ Elevations elevations_for(const TrueSurface& surface, const Geodetic& eye, const
     in_parallel(static_cast<int>(skyline.size()), threads, [&](int i) {
         const double azimuth_deg = from_deg + std::min(sweep_deg, i * step_deg),
                      deg = skyline_deg(oracle, eye, azimuth_deg, reach_m);
-        const auto ground = oracle.first_hit(turn * enu_towards(azimuth_deg, deg - 2.0 * exact_deg), reach_m);
-        skyline[static_cast<std::size_t>(i)] = {deg, ground && ground->distance_m < at_the_feet_m};
+        const auto below = oracle.first_hit(turn * enu_towards(azimuth_deg, deg - 2.0 * exact_deg), reach_m);
+        skyline[static_cast<std::size_t>(i)] = {deg, below && below->distance_m < at_the_feet_m};
     });
     double lowest_deg = 0.0, highest_deg = 0.0, nearest_deg = -90.0;
     for (const Place& place : skyline) {

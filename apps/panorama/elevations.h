@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/truth/oracle.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 
 namespace oro {
 
@@ -23,7 +23,7 @@ inline constexpr double at_the_feet_m = 250.0;
 // The highest and the lowest that is shown unasked.
 inline constexpr double most_unasked_deg = 60.0;
 // `from_deg`, `sweep_deg`: as PanoramaFrame has them.
-Elevations elevations_for(const TrueSurface& surface, const Geodetic& eye, const WorldModel& model,
+Elevations elevations_for(const TrueGround& ground, const Geodetic& eye, const WorldModel& model,
                           double from_deg, double sweep_deg, int threads);
 
 }  // namespace oro

@@ -54,11 +54,11 @@ Result<void> hand_on(std::span<const std::uint8_t> rgb, int width_px, InkedRows&
 }
 
 // The lines of --overlay on a tile's picture.
-Result<void> draw_overlay(const View& view, const TrueSurface& surface, const CylinderTile& tile,
+Result<void> draw_overlay(const View& view, const TrueGround& ground, const CylinderTile& tile,
                           std::vector<std::uint8_t>& rgb) {
     View of_tile = view;
     of_tile.camera = tile.camera;
-    OverlayInView overlay = overlay_in_view(of_tile, surface, PointsInView(surface, tile.camera, view.model),
+    OverlayInView overlay = overlay_in_view(of_tile, ground, PointsInView(ground, tile.camera, view.model),
                                             usual_cut.oversampling);
     std::vector<std::uint8_t> written;
     written.reserve(rgb.size());
@@ -124,7 +124,7 @@ double panorama_em_px(const Cylinder& around) {
                     std::min(around.height_px() / lines_in_scene, around.width_px / ems_in_width));
 }
 
-Result<PanoramaSheet> lay_out(const View& view, const Region& region, const TrueSurface& surface) {
+Result<PanoramaSheet> lay_out(const View& view, const Region& region, const TrueGround& ground) {
     PanoramaSheet laid;
     laid.around = cylinder_of(view);
     ORO_TRY(const TextFace face, TextFace::open());
@@ -132,7 +132,7 @@ Result<PanoramaSheet> lay_out(const View& view, const Region& region, const True
     laid.rulers = rulers_of(laid.around, em_px);
     laid.names.em_px = em_px;
     if (view.vectors_read) {
-        const PointsInView in_view(surface, view.camera, view.model, laid.around);
+        const PointsInView in_view(ground, view.camera, view.model, laid.around);
         const std::vector<NamedPoint> points = points_of(view);
         ORO_TRY(laid.names, panorama_names(points, in_view, laid.around, face, em_px));
         ORO_TRY(laid.standpoint, standpoint_name(points, view.camera.eye, face));
@@ -147,11 +147,11 @@ Result<PanoramaSheet> lay_out(const View& view, const Region& region, const True
                          source_words(region), sheet));
     laid.names.put_on(sheet);
     // What could not be read counts as void: sight lines went through it.
-    ORO_CHECK(region.field.health());
+    ORO_CHECK(region.health());
     return laid;
 }
 
-Result<CylinderPicture> draw_scene(const View& view, const Region& region, const TrueSurface& surface,
+Result<CylinderPicture> draw_scene(const View& view, const Region& region, const TrueGround& ground,
                                    const Cylinder& around, const Gpu& gpu, Scene& scene, const Style& style,
                                    const RenderProgress& progress) {
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, gpu));
@@ -159,7 +159,7 @@ Result<CylinderPicture> draw_scene(const View& view, const Region& region, const
     extras.ridges = view.panorama->ridges;
     if (view.vectors_read && !view.vectors_read->overlay.empty())
         extras.over = [&](const CylinderTile& tile, std::vector<std::uint8_t>& rgb) {
-            return draw_overlay(view, surface, tile, rgb);
+            return draw_overlay(view, ground, tile, rgb);
         };
     ORO_TRY(CylinderPicture picture,
             render_cylinder(gpu, scene, view.camera.eye, around, usual_cut, style.frame,
@@ -174,7 +174,7 @@ Result<CylinderPicture> draw_scene(const View& view, const Region& region, const
         return Error{ErrorKind::failed, "--gpu-memory",
                      "the GPU may hold " + std::to_string(scene.drape()->capacity()) +
                          " tiles of images; this panorama needs more (a smaller --width needs fewer)"};
-    ORO_CHECK(region.field.health());
+    ORO_CHECK(region.health());
     return picture;
 }
 

@@ -11,8 +11,9 @@
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "core/earth/cylinder.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 #include "geo/files/whole_file.h"
+#include "geo/together/region_ground.h"
 #include "render/frame/cylinder_picture.h"
 
 namespace oro {
@@ -34,11 +35,11 @@ struct PanoramaSheet {
 
 // Finds the names that are seen and their places, and lays the sheet out. Errors: those of text, and of pages
 // that cannot be read.
-Result<PanoramaSheet> lay_out(const View& view, const Region& region, const TrueSurface& surface);
+Result<PanoramaSheet> lay_out(const View& view, const Region& region, const TrueGround& ground);
 
 // Draws the scene, lines of --overlay on it. `view` names the way of drawing, or auto. Errors: those of
 // render_cylinder; any message of the validation layer; too little memory for pages.
-Result<CylinderPicture> draw_scene(const View& view, const Region& region, const TrueSurface& surface,
+Result<CylinderPicture> draw_scene(const View& view, const Region& region, const TrueGround& ground,
                                    const Cylinder& around, const Gpu& gpu, Scene& scene, const Style& style,
                                    const RenderProgress& progress);
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "apps/accuracy/accuracy.h"
-#include "core/truth/effect_table.h"
+#include "core/effects/effect_table.h"
 
 namespace oro {
 

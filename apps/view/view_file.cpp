@@ -211,6 +211,10 @@ View read_fields(const nlohmann::json& json) {
     // Views of before posts were kept say nothing of it, and were drawn from resampled ones.
     view.own_posts = json.contains("own_posts") && json_flag(json, "own_posts");
     view.region.resample = !view.own_posts;
+    if (json.contains("order")) {
+        if (json_string(json, "order") != "listed") throw JsonFault{"'order' is not 'listed'"};
+        view.region.listed_first = true;
+    }
     view.several_grids = json.contains("several_grids") && json_flag(json, "several_grids");
     read_camera(json, view.camera);
     read_map(json, view);
@@ -286,6 +290,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["fill_voids"] = view.region.fill_voids;
     if (view.own_posts) json["own_posts"] = true;
     if (view.several_grids) json["several_grids"] = true;
+    if (view.region.listed_first) json["order"] = "listed";
     json["strict_datum"] = view.region.strict_datum;
     const Camera& camera = view.camera;
     json["eye"] =

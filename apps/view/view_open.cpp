@@ -39,9 +39,9 @@ bool keeps_own_posts(const Region& region) {
     return region.field.grid.net != nullptr || std::ranges::any_of(region.beside, keeps_own_posts);
 }
 
-// Names, lines, images, maps and legends are of one grid yet.
+// Images are of one grid yet, and so are maps, whose frame is that of one.
 bool draws_grids_apart(const View& view) {
-    return !view.map && !view.panorama && !view.legend && view.drape.empty() && !view.vectors.any();
+    return !view.map && view.drape.empty();
 }
 
 // Where the data that a view names are gone: what to do about it.
@@ -129,7 +129,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         region = std::move(*opened);
         if (!region.beside.empty() && !region_options.grids_apart)
             return Error{ErrorKind::usage, view_file,
-                         "shows several grids of posts: shot draws it again, and does not measure it yet"};
+                         "shows several grids of posts: shot draws it again, and compare measures it"};
         view.own_posts = keeps_own_posts(region);
         view.several_grids = !region.beside.empty();
         view.prints = prints_of(region);

@@ -182,6 +182,7 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
     request.fill_voids = options.fill_voids;
     request.resample = options.resample;
     request.grids_apart = options.grids_apart;
+    request.listed_first = options.order == "listed";
     request.height_unit = options.height_unit;
     request.source_crs = options.source_crs;
     request.source_vertical = options.source_vertical;
@@ -259,6 +260,7 @@ Result<void> change_region(View& view, const RegionOptions& options) {
                                            {"--source-vertical", !options.source_vertical.empty()},
                                            {"--strict-datum", options.strict_datum},
                                            {"--resample", options.resample},
+                                           {"--order", !options.order.empty()},
                                            {"--fill-voids", options.fill_voids}}) {
         if (is_given) return refused(option, "", "not together with a picture's view, which says it itself");
     }

@@ -3,24 +3,24 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/base/parallel.h"
 #include "core/truth/oracle.h"
 #include "geo/places/geodesic.h"
 #include "geo/region/source_at.h"
 
 namespace oro {
 
-Result<std::optional<SeenPlace>> place_seen(const View& view, const Region& region,
-                                            const TrueSurface& surface, glm::dvec2 point_px) {
+Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround& ground,
+                                            glm::dvec2 point_px) {
     const Camera& camera = view.camera;
-    const auto hit = first_hit(surface, sight_from(camera.eye, view.model.air),
+    const auto hit = first_hit(ground.ground(), sight_from(camera.eye, view.model.air),
                                camera.ecef_direction_at(point_px), sight_reach_m(camera.eye.h_m));
     // What could not be read counts as void: the sight line went through it.
-    ORO_CHECK(surface.field().health());
+    ORO_CHECK(ground.ground().health());
     if (!hit) return std::optional<SeenPlace>();
     SeenPlace place;
     place.lat_deg = hit->point.lat_deg;
     place.lon_deg = hit->point.lon_deg;
+    const Region& region = ground.region(hit->grid);
     const double N_m = region.field.undulation.at_m(place.lat_deg, place.lon_deg);
     place.H_m = (hit->point.h_m - N_m) / view.exaggeration;
     place.h_m = place.H_m + N_m;
@@ -36,25 +36,8 @@ Result<std::optional<SeenPlace>> place_seen(const View& view, const Region& regi
     return std::optional(place);
 }
 
-namespace {
-
-Result<std::optional<SeenPlace>> place_in_middle_of(const View& view, const Region& region,
-                                                    glm::dvec2 middle_px) {
-    const TrueSurface surface(region.field, view.exaggeration, thread_count());
-    return place_seen(view, region, surface, middle_px);
-}
-
-}  // namespace
-
-Result<std::optional<SeenPlace>> place_in_middle(const View& view, const Region& region) {
-    const glm::dvec2 middle_px(0.5 * view.camera.width_px, 0.5 * view.camera.height_px);
-    const TrueSurface surface(region.field, view.exaggeration, thread_count());
-    ORO_TRY(std::optional<SeenPlace> nearest, place_seen(view, region, surface, middle_px));
-    for (const Region& other : region.beside) {
-        ORO_TRY(const std::optional<SeenPlace> seen, place_in_middle_of(view, other, middle_px));
-        if (seen && (!nearest || seen->seen_distance_m < nearest->seen_distance_m)) nearest = seen;
-    }
-    return nearest;
+Result<std::optional<SeenPlace>> place_in_middle(const View& view, const RegionGround& ground) {
+    return place_seen(view, ground, {0.5 * view.camera.width_px, 0.5 * view.camera.height_px});
 }
 
 std::string line_of(const std::optional<SeenPlace>& place) {

@@ -8,7 +8,7 @@
 
 #include "apps/view/view.h"
 #include "core/base/result.h"
-#include "core/truth/true_surface.h"
+#include "geo/together/region_ground.h"
 
 namespace oro {
 
@@ -22,7 +22,7 @@ struct SeenPlace {
     double bearing_deg{};      // true, at the eye, [0, 360)
     double distance_m{};       // along the ellipsoid
     double seen_distance_m{};  // along the sight line, to where the view has the place
-    int row{};                 // north-west post of its cell in the region's grid
+    int row{};                 // north-west post of its cell in its grid
     int column{};
     std::string source;  // path of the source that it comes from; empty where no source's box holds it
 };
@@ -30,12 +30,12 @@ struct SeenPlace {
 // What a view sees at a point of its picture (pixels from the top left corner, (0.5, 0.5) is the centre of
 // the first); nothing where the sight line meets no ground. Asked of the full resolution, with the view's
 // exaggeration and refraction; views of another Earth than WGS84 are drawn elsewhere than this looks.
-// `surface`: of the region's field, with the view's exaggeration. Exact as Oracle::first_hit is. Errors: a
-// post of the region that could not be read, now or earlier.
-Result<std::optional<SeenPlace>> place_seen(const View& view, const Region& region,
-                                            const TrueSurface& surface, glm::dvec2 point_px);
-// The same at the picture's middle, with a surface made for this one question.
-Result<std::optional<SeenPlace>> place_in_middle(const View& view, const Region& region);
+// `ground`: of the view's region, with its exaggeration. Exact as Oracle::first_hit is. Errors: a post that
+// could not be read, now or earlier.
+Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround& ground,
+                                            glm::dvec2 point_px);
+// The same at the picture's middle.
+Result<std::optional<SeenPlace>> place_in_middle(const View& view, const RegionGround& ground);
 
 // On one line for people: latitude and longitude with 6 decimals, both heights, distance along the sight
 // line, bearing, cell and the source's file name; or that there is nothing.

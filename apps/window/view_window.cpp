@@ -10,6 +10,7 @@
 #include "apps/drawing/finer_levels.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/eye/standpoint.h"
 #include "apps/output/picture_file.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -18,6 +19,7 @@
 #include "apps/view/view_changes.h"
 #include "apps/window/picking.h"
 #include "apps/window/steering.h"
+#include "apps/window/window_start.h"
 #include "apps/window/written_frame.h"
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
@@ -34,6 +36,7 @@ struct Viewer {
     const WindowOptions& options;
     View view;
     Region region;
+    RegionCuts cuts;  // of all its grids
     Style style;
     const Gpu& gpu;
     std::unique_ptr<Scene> scene;  // of every n-th post while `finer` is being measured
@@ -43,10 +46,11 @@ struct Viewer {
     bool asking_place{false};
     std::string place_text{};
     std::string shown_title{};
-    std::string message{};                 // shown in the title until the eye moves
-    std::vector<PageIndex> missing{};      // what the last frame should have had
-    std::optional<TrueSurface> surface{};  // made when it is first asked, for all questions after
-    std::unique_ptr<FinerLevels> finer{};  // the levels that the view asks for, until they are here
+    std::string message{};             // shown in the title until the eye moves
+    std::vector<PageIndex> missing{};  // what the last frame should have had, of the region's own grid
+    bool is_missing{};                 // ... or of any
+    std::unique_ptr<const RegionGround> ground{};  // made when it is first asked, for all questions after
+    std::unique_ptr<FinerLevels> finer{};          // the levels that the view asks for, until they are here
     Clock::time_point started{};
     bool is_shown{};            // once something is
     Clock::time_point moved{};  // when the eye last did
@@ -60,20 +64,28 @@ void say_waited(const Viewer& viewer, const char* what) {
     say(viewer.options.quiet, text);
 }
 
-const TrueSurface& surface_of(Viewer& viewer) {
-    if (!viewer.surface)
-        viewer.surface.emplace(viewer.region.field, viewer.view.exaggeration, thread_count());
-    return *viewer.surface;
+// The finest grid below the eye.
+const HeightField& field_below(const Viewer& viewer) {
+    const Geodetic& eye = viewer.view.camera.eye;
+    return region_at(viewer.region, eye.lat_deg, eye.lon_deg).field;
+}
+
+Result<const RegionGround*> ground_of(Viewer& viewer) {
+    if (!viewer.ground) {
+        ORO_TRY(viewer.ground, RegionGround::of(viewer.region, viewer.cuts, viewer.view.exaggeration));
+    }
+    return viewer.ground.get();
 }
 
 Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px) {
-    return place_seen(viewer.view, viewer.region, surface_of(viewer), point_px);
+    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    return place_seen(viewer.view, *ground, point_px);
 }
 
 std::string title_of(const Viewer& viewer) {
     if (viewer.asking_place) return "Go to: " + viewer.place_text + "_";
     const Camera& camera = viewer.view.camera;
-    const double N_m = viewer.region.field.undulation.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
+    const double N_m = field_below(viewer).undulation.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
     char text[160];
     std::snprintf(text, sizeof text, "%.6f° %.6f°  H %.1f m  heading %.1f°", camera.eye.lat_deg,
                   camera.eye.lon_deg, camera.eye.h_m - N_m, camera.attitude.heading_deg);
@@ -95,9 +107,9 @@ void jump(Viewer& viewer) {
     }
     Camera& camera = viewer.view.camera;
     const double exaggeration = viewer.view.exaggeration;
-    const HeightField& field = viewer.region.field;
-    const auto from = ground_h_m(field, camera.eye.lat_deg, camera.eye.lon_deg, exaggeration);
-    const auto to = ground_h_m(field, place->lat_deg, place->lon_deg, exaggeration);
+    const auto from = ground_h_m(field_below(viewer), camera.eye.lat_deg, camera.eye.lon_deg, exaggeration);
+    const HeightField& there = region_at(viewer.region, place->lat_deg, place->lon_deg).field;
+    const auto to = ground_h_m(there, place->lat_deg, place->lon_deg, exaggeration);
     const double above_m = std::max(eye_clearance_m, camera.eye.h_m - from.value_or(0.0));
     camera.eye = {place->lat_deg, place->lon_deg, to ? *to + above_m : std::max(camera.eye.h_m, above_m)};
     viewer.follows_eye = false;
@@ -117,17 +129,6 @@ void ask_place(Viewer& viewer, const WindowInput& input) {
     if (input.enter) jump(viewer);
 }
 
-// The next free name, from the time: orograph-20261121T090000Z.png, then -2, -3 ...
-std::string free_picture_name(std::int64_t time_utc_s) {
-    std::string stem = "orograph-" + time_text(time_utc_s);
-    std::erase_if(stem, [](char c) { return c == ':'; });
-    std::error_code ignored;
-    for (int i = 1;; ++i) {
-        const std::string name = stem + (i > 1 ? "-" + std::to_string(i) : "") + ".png";
-        if (!std::filesystem::exists(name, ignored)) return name;
-    }
-}
-
 // Takes the measured levels in place of the coarse ones, and waits for them where they are not ready. The eye
 // stays: from its first frame on, the new scene has what a coarse picture needs.
 Result<void> take_finer_levels(Viewer& viewer) {
@@ -143,6 +144,7 @@ Result<void> take_finer_levels(Viewer& viewer) {
                                  std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
     viewer.scene = std::make_unique<Scene>(std::move(scene));
     viewer.missing.clear();
+    viewer.is_missing = false;
     say_waited(viewer, "full detail");
     return {};
 }
@@ -175,7 +177,8 @@ Result<void> take_picture(Viewer& viewer) {
     const Camera& camera = viewer.view.camera;
     ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field));
-    const auto written = write_picture(files, false, viewer.view, viewer.region, middle, viewer.gpu,
+    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    const auto written = write_picture(files, false, viewer.view, viewer.region, *ground, middle, viewer.gpu,
                                        *viewer.scene, viewer.style, {});
     viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
     say(viewer.options.quiet && written.ok(), viewer.message);
@@ -197,7 +200,7 @@ Result<void> pick(Viewer& viewer, glm::dvec2 point_px) {
 // One turn of the loop: input, then a frame where something has changed. False when the user leaves.
 Result<bool> turn(Viewer& viewer, bool& changed) {
     const bool can_draw = viewer.window.extent().width > 0;  // not so while minimised
-    const double wait_s = changed && can_draw ? 0.0 : viewer.missing.empty() ? 0.05 : 0.005;
+    const double wait_s = changed && can_draw ? 0.0 : viewer.is_missing ? 0.005 : 0.05;
     const WindowInput input = viewer.window.poll(wait_s);
     if (input.closed) return false;
     if (viewer.asking_place) {
@@ -220,7 +223,7 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
         const FlightStep step = step_of(input, viewer.view.camera);
         if (moves(step)) {
             viewer.view.camera =
-                flown(viewer.view.camera, step, viewer.region.field, viewer.view.exaggeration);
+                flown(viewer.view.camera, step, field_below(viewer), viewer.view.exaggeration);
             viewer.message.clear();
             viewer.moved = Clock::now();
             viewer.follows_eye = changed = true;
@@ -231,7 +234,7 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
         }
     }
     // The eye stands on ground that was asked for: it ends as a page does that cannot be drawn.
-    ORO_CHECK(viewer.region.field.health());
+    ORO_CHECK(viewer.region.health());
     show_title(viewer);
     return true;
 }
@@ -247,10 +250,11 @@ bool comes_to_rest(Viewer& viewer) {
 
 // Over a frame that is whole, of an eye that rests. Finding it takes too long for an eye that moves.
 Result<void> write_over(Viewer& viewer, const FrameReport& drawn) {
-    const bool whole = viewer.missing.empty() && drawn.images_settled && !viewer.finer;
+    const bool whole = !viewer.is_missing && drawn.images_settled && !viewer.finer;
     if (viewer.follows_eye || !whole || !has_writing(viewer.view, viewer.style)) return {};
-    return write_over_frame(viewer.gpu, *viewer.scene, viewer.view, viewer.region.field, surface_of(viewer),
-                            viewer.style, viewer.path, viewer.renderer);
+    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    return write_over_frame(viewer.gpu, *viewer.scene, viewer.view, ground->ground(), viewer.style,
+                            viewer.path, viewer.renderer);
 }
 
 // Draws with what is on the GPU; what is missing comes in the background and is drawn when it is there.
@@ -262,7 +266,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         ORO_CHECK(viewer.renderer.resize(extent));
         changed = true;
     }
-    if (!viewer.missing.empty()) {
+    if (viewer.is_missing) {
         ORO_TRY(const bool better, viewer.scene->advance(viewer.missing));
         changed = changed || better;
     }
@@ -275,7 +279,8 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     viewer.scene->cast(cast_request(viewer.style.frame));
     ORO_TRY(FramePlan plan, viewer.scene->plan(camera, tile, viewer.view.tau_px, viewer.view.model));
     viewer.missing = plan.missing;
-    if (!viewer.is_shown && plan.pages_wanted == 0) {
+    viewer.is_missing = !plan.is_settled();
+    if (!viewer.is_shown && !plan.wants_pages()) {
         // A view of another place: told where the title is read, and where messages are.
         const auto nothing = nothing_in_view(viewer.view, viewer.region, viewer.options.view_file);
         viewer.message = nothing.ok() ? *nothing : nothing.error().what;
@@ -312,20 +317,22 @@ Result<void> run_loop(Viewer& viewer) {
     }
 }
 
-// What a window begins with: all levels, or where measuring them takes long, those of every n-th post.
-Result<std::unique_ptr<RegionPages>> first_pages(const Region& region, const View& view,
-                                                 const RenderProgress& progress) {
-    if (!measures_long(region)) return region_pages(region, view.exaggeration, progress);
-    return pages_in_memory(coarse_field(region.field), view.exaggeration, thread_count());
-}
-
-// A window is drawn in one piece, where a picture has tiles.
-Result<void> check_window_size(const Camera& camera, const DeviceReport& device) {
-    const auto most = static_cast<int>(device.max_picture_side_px);
-    if (camera.width_px <= most && camera.height_px <= most) return {};
-    return refused("--size", std::to_string(camera.width_px) + "x" + std::to_string(camera.height_px),
-                   "is too large for a window: " + device.name + " draws at most " + std::to_string(most) +
-                       " pixels a side");
+// The data, and the view that the flight begins with.
+Result<void> open_flight(const WindowOptions& options, ProgressBar& bar, View& view, Region& region) {
+    ORO_CHECK(open_view(
+        options.view_file, options.view, of_grids(options.region),
+        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    if (options.no_paths) view.tells_paths = false;
+    // Its pictures are those of the window.
+    view.legend = false;
+    view.legend_px = 0;
+    // Each of two levels is within tau of the full resolution: where one takes the other's place nothing
+    // moves by more than twice that.
+    if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
+    const Geodetic& eye = view.camera.eye;
+    view.camera =
+        above_ground(view.camera, region_at(region, eye.lat_deg, eye.lon_deg).field, view.exaggeration);
+    return region.health();
 }
 
 }  // namespace
@@ -338,18 +345,8 @@ Result<void> run_view(const WindowOptions& options) {
     ProgressBar bar(options.quiet);
     View view;
     Region region;
-    ORO_CHECK(open_view(
-        options.view_file, options.view, options.region,
-        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
-    if (options.no_paths) view.tells_paths = false;
-    // Its pictures are those of the window.
-    view.legend = false;
-    view.legend_px = 0;
-    // Each of two levels is within tau of the full resolution: where one takes the other's place nothing
-    // moves by more than twice that.
-    if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
-    view.camera = above_ground(view.camera, region.field, view.exaggeration);
-    ORO_CHECK(region.field.health());
+    ORO_CHECK(open_flight(options, bar, view, region));
+    ORO_TRY(RegionCuts cuts, cut_regions(region));
     ORO_TRY(const Style style, load_style(view, region.field));
     GpuOptions gpu_options = gpu_options_from_environment();
     gpu_options.instance_extensions = extensions;
@@ -358,9 +355,11 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_CHECK(check_window_size(view.camera, gpu->report()));
     const bool coarse_first = measures_long(region);
     ORO_TRY(std::unique_ptr<RegionPages> pages,
-            first_pages(region, view, [&](double share) { bar.show(share, "measuring levels"); }));
-    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), memory_of_pages(view, options.memory),
-                                      view.heights, asks_for_means(style.frame)));
+            first_pages(region, cuts, view, [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
+                                               {view.exaggeration, memory_of_pages(view, options.memory),
+                                                view.heights, asks_for_means(style.frame)}));
+    Scene& scene = whole.scene;
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     bar.clear();
     say_changes(view, options.quiet);
@@ -380,6 +379,7 @@ Result<void> run_view(const WindowOptions& options) {
     Viewer viewer{options,
                   std::move(view),
                   std::move(region),
+                  std::move(cuts),
                   style,
                   *gpu,
                   std::make_unique<Scene>(std::move(scene)),

@@ -4,10 +4,9 @@
 
 namespace oro {
 
-Result<void> write_over_frame(const Gpu& gpu, Scene& scene, const View& view, const HeightField& field,
-                              const TrueSurface& surface, const Style& style, RasterPath path,
-                              FrameRenderer& renderer) {
-    ORO_TRY(ViewWriting writing, find_writing(gpu, scene, view, field, &surface, style, path));
+Result<void> write_over_frame(const Gpu& gpu, Scene& scene, const View& view, const TrueGround& ground,
+                              const Style& style, RasterPath path, FrameRenderer& renderer) {
+    ORO_TRY(ViewWriting writing, find_writing(gpu, scene, view, ground, style, path));
     if (writing.is_empty()) return {};
     const auto width = static_cast<std::uint32_t>(view.camera.width_px);
     const auto height = static_cast<std::uint32_t>(view.camera.height_px);

@@ -9,8 +9,7 @@ namespace oro {
 // Writes over the last frame that the renderer drew, which was of this view and as large as its camera's
 // picture, what a picture of the view has written over it. Errors: those of find_writing(), and of the
 // device.
-Result<void> write_over_frame(const Gpu& gpu, Scene& scene, const View& view, const HeightField& field,
-                              const TrueSurface& surface, const Style& style, RasterPath path,
-                              FrameRenderer& renderer);
+Result<void> write_over_frame(const Gpu& gpu, Scene& scene, const View& view, const TrueGround& ground,
+                              const Style& style, RasterPath path, FrameRenderer& renderer);
 
 }  // namespace oro

@@ -41,6 +41,11 @@ struct FramePlan {
         return missing.empty() &&
                std::ranges::all_of(beside, [](const FramePlan& other) { return other.missing.empty(); });
     }
+    // Whether any page of any grid may be in view.
+    [[nodiscard]] bool wants_pages() const {
+        return pages_wanted > 0 ||
+               std::ranges::any_of(beside, [](const FramePlan& other) { return other.pages_wanted > 0; });
+    }
 };
 
 // Device address of a page's block, 0 where it is not on the GPU.

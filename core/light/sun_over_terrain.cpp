@@ -22,11 +22,10 @@ double sea_horizon_deg(const Sight& sight, double above_sea_m) {
 
 }  // namespace
 
-SunOverTerrain::SunOverTerrain(const TrueSurface& surface, const Geodetic& eye, const Air& air,
-                               double sea_h_m)
+SunOverTerrain::SunOverTerrain(const TrueGround& ground, const Geodetic& eye, const Air& air, double sea_h_m)
     : eye_(eye),
       ecef_from_enu_(ecef_from_enu(eye.lat_deg, eye.lon_deg)),
-      oracle_(surface, sight_from(eye, air)),
+      oracle_(ground, sight_from(eye, air)),
       reach_m_(sight_reach_m(eye.h_m)),
       sea_horizon_deg_(sea_horizon_deg(sight_from(eye, air), eye.h_m - sea_h_m)) {}
 

@@ -14,7 +14,7 @@ class SunOverTerrain {
   public:
     // `surface` outlives it. sea_h_m: the sea's height above the ellipsoid at the eye (N). Where the data end
     // the sea bounds the view: the plain horizon, which lies below level for an eye above the sea.
-    SunOverTerrain(const TrueSurface& surface, const Geodetic& eye, const Air& air, double sea_h_m);
+    SunOverTerrain(const TrueGround& ground, const Geodetic& eye, const Air& air, double sea_h_m);
 
     [[nodiscard]] const Geodetic& eye() const { return eye_; }
     // Whether anything of the disc is seen: asks for 65 places along its upper limb, half a minute of arc

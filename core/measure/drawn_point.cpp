@@ -61,4 +61,10 @@ DrawnPoint drawn_point(const gpu::DrawnTriangle& triangle, const glm::dvec3& ray
     return point;
 }
 
+DrawnPoint drawn_point(const ShownTriangle& shown, const glm::dvec3& ray_view) {
+    DrawnPoint point = drawn_point(shown.triangle, ray_view);
+    point.grid = shown.grid;
+    return point;
+}
+
 }  // namespace oro

@@ -34,8 +34,8 @@ PostPlace place_at(const PostGrid& grid, double row, double column) {
 
 }  // namespace
 
-GroundMeter::GroundMeter(const TrueSurface& surface, const Sight& sight, const Camera& camera)
-    : surface_(surface),
+GroundMeter::GroundMeter(const TrueGround& ground, const Sight& sight, const Camera& camera)
+    : ground_(ground),
       sight_(sight),
       view_from_ecef_(camera.view_from_ecef()),
       tangent_(camera.half_fov_tangent()),
@@ -50,11 +50,40 @@ glm::dvec3 GroundMeter::offset_m(const glm::dvec2& point_px, double z_m) const {
     return z_m * (ray_view(point_px) * view_from_ecef_);
 }
 
-std::optional<glm::dvec3> GroundMeter::seen_m(double row, double column) const {
-    const std::optional<double> h_m = surface_.h_at_m(row, column);
+namespace {
+
+// Heights that a grid has at a place or beside it, where the place is rounded off its rim: all of them.
+void add_heights(const TrueSurface& surface, const Geodetic& place, std::vector<double>& heights_m) {
+    constexpr double beside_posts = 0.02;
+    const PostNumber post = surface.field().grid.post_at(place.lat_deg, place.lon_deg);
+    for (const double down : {0.0, beside_posts, -beside_posts}) {
+        for (const double right : {0.0, beside_posts, -beside_posts})
+            if (const auto h_m = surface.h_at_m(post.row + down, post.column + right))
+                heights_m.push_back(*h_m);
+    }
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> GroundMeter::seen_between_m(const glm::dvec2& point_px,
+                                                      const DrawnPoint& point) const {
+    Geodetic drawn =
+        geodetic_from_ecef({sight_.eye.m + sight_.refraction.true_m(offset_m(point_px, point.z_m))});
+    std::vector<double> heights_m;
+    for (std::size_t grid = 0; grid < ground_.grids(); ++grid)
+        add_heights(ground_.surface(grid), drawn, heights_m);
+    if (heights_m.empty()) return std::nullopt;
+    const auto [lowest, highest] = std::minmax_element(heights_m.begin(), heights_m.end());
+    drawn.h_m = std::clamp(drawn.h_m, *lowest, *highest);
+    return sight_.refraction.apparent_m(ecef_from_geodetic(drawn).m - sight_.eye.m);
+}
+
+std::optional<glm::dvec3> GroundMeter::seen_m(const glm::dvec2& point_px, const DrawnPoint& point) const {
+    if (is_between(point)) return seen_between_m(point_px, point);
+    const TrueSurface& surface = ground_.surface(point.grid);
+    const std::optional<double> h_m = surface.h_at_m(point.row, point.column);
     if (!h_m) return std::nullopt;
-    const PostGrid& grid = surface_.field().grid;
-    const PostPlace at = place_at(grid, row, column);
+    const PostPlace at = place_at(surface.field().grid, point.row, point.column);
     const Ecef place = ecef_from_geodetic({at.lat_deg, at.lon_deg, *h_m});
     return sight_.refraction.apparent_m(place.m - sight_.eye.m);
 }
@@ -78,17 +107,21 @@ double GroundMeter::apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m
 // on: each is a point of the surface, so the nearest of them is near enough.
 Distance GroundMeter::from_surface(const glm::dvec2& point_px, const DrawnPoint& point,
                                    const Distance& displacement) const {
-    const PostGrid& grid = surface_.field().grid;
     const glm::dvec3 drawn_m = offset_m(point_px, point.z_m);
     const glm::dvec3 drawn_ecef = sight_.eye.m + sight_.refraction.true_m(drawn_m);
     const Geodetic drawn = geodetic_from_ecef({drawn_ecef});
+    // Over no ground of any: over where the point's own grid ends.
+    const std::size_t below =
+        ground_.grids() == 1 ? 0 : ground_.grid_at(drawn.lat_deg, drawn.lon_deg).value_or(point.grid);
+    const TrueSurface& surface = ground_.surface(below);
+    const PostGrid& grid = surface.field().grid;
     auto [row, column] = grid.post_at(drawn.lat_deg, drawn.lon_deg);
     Distance nearest = displacement;
     constexpr int steps = 4;
     constexpr double close_enough_m = 1.0e-4;
     constexpr double even = 0.05;  // the foot is as good as found: nearer by 0.2 % at most
     for (int step = 0; step < steps; ++step) {
-        const std::optional<double> h_m = surface_.h_at_m(row, column);
+        const std::optional<double> h_m = surface.h_at_m(row, column);
         if (!h_m) break;
         const PostPlace place = place_at(grid, row, column);
         const Geodetic foot{place.lat_deg, place.lon_deg, *h_m};
@@ -96,7 +129,7 @@ Distance GroundMeter::from_surface(const glm::dvec2& point_px, const DrawnPoint&
         nearest.m = std::min(nearest.m, glm::length(drawn_ecef - foot_ecef));
         nearest.px =
             std::min(nearest.px, apart_px(drawn_m, sight_.refraction.apparent_m(foot_ecef - sight_.eye.m)));
-        const auto slope = surface_.slope_at(row, column);
+        const auto slope = surface.slope_at(row, column);
         if (!slope || nearest.m < close_enough_m) break;
         const glm::dvec3 up =
             glm::transpose(ecef_from_enu(foot.lat_deg, foot.lon_deg)) * (drawn_ecef - foot_ecef);
@@ -112,14 +145,14 @@ Distance GroundMeter::from_surface(const glm::dvec2& point_px, const DrawnPoint&
 
 std::optional<Distance> GroundMeter::displacement(const glm::dvec2& point_px, const DrawnPoint& point) const {
     assert(!point.background());
-    const std::optional<glm::dvec3> seen = seen_m(point.row, point.column);
+    const std::optional<glm::dvec3> seen = seen_m(point_px, point);
     if (!seen) return std::nullopt;
     const glm::dvec3 drawn = offset_m(point_px, point.z_m);
     return Distance{glm::length(sight_.refraction.true_m(drawn) - sight_.refraction.true_m(*seen)),
                     apart_px(drawn, *seen)};
 }
 
-GroundErrors ground_errors(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const Camera& camera,
                            std::span<const DrawnPoint> points, int threads, GroundMeasures measures) {
     const std::size_t width = static_cast<std::size_t>(camera.width_px);
     const std::size_t height = static_cast<std::size_t>(camera.height_px);
@@ -128,14 +161,15 @@ GroundErrors ground_errors(const TrueSurface& surface, const Sight& sight, const
     for (auto* const values :
          {&errors.displacement_m, &errors.displacement_px, &errors.surface_m, &errors.surface_px})
         values->assign(width * height, not_measured);
-    const GroundMeter meter(surface, sight, camera);
-    std::vector<std::uint64_t> drawn_in_row(height), beyond_in_row(height);
+    const GroundMeter meter(ground, sight, camera);
+    std::vector<std::uint64_t> drawn_in_row(height), beyond_in_row(height), between_in_row(height);
     in_parallel(camera.height_px, threads, [&](int row) {
         const std::size_t r = static_cast<std::size_t>(row);
         for (std::size_t column = 0; column < width; ++column) {
             const std::size_t pixel = r * width + column;
             if (points[pixel].background()) continue;
             ++drawn_in_row[r];
+            if (meter.is_between(points[pixel])) ++between_in_row[r];
             const glm::dvec2 centre_px(static_cast<double>(column) + 0.5, row + 0.5);
             const auto moved = meter.displacement(centre_px, points[pixel]);
             if (!moved) {
@@ -144,7 +178,7 @@ GroundErrors ground_errors(const TrueSurface& surface, const Sight& sight, const
             }
             errors.displacement_m[pixel] = static_cast<float>(moved->m);
             errors.displacement_px[pixel] = static_cast<float>(moved->px);
-            if (measures == GroundMeasures::displacement) continue;
+            if (measures == GroundMeasures::displacement || meter.is_between(points[pixel])) continue;
             const Distance away = meter.from_surface(centre_px, points[pixel], *moved);
             errors.surface_m[pixel] = static_cast<float>(away.m);
             errors.surface_px[pixel] = static_cast<float>(away.px);
@@ -152,6 +186,7 @@ GroundErrors ground_errors(const TrueSurface& surface, const Sight& sight, const
     });
     errors.drawn = std::accumulate(drawn_in_row.begin(), drawn_in_row.end(), std::uint64_t{0});
     errors.beyond_data = std::accumulate(beyond_in_row.begin(), beyond_in_row.end(), std::uint64_t{0});
+    errors.between = std::accumulate(between_in_row.begin(), between_in_row.end(), std::uint64_t{0});
     errors.summary_displacement_m = summary_of(errors.displacement_m);
     errors.summary_displacement_px = summary_of(errors.displacement_px);
     errors.summary_surface_m = summary_of(errors.surface_m);

@@ -12,7 +12,7 @@
 #include "core/measure/drawn_point.h"
 #include "core/truth/oracle.h"
 #include "core/truth/picture_error.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 
 namespace oro {
 
@@ -26,14 +26,16 @@ struct Distance {
 class GroundMeter {
   public:
     // `sight` is the true one: where the eye really is, and the air really bends light.
-    GroundMeter(const TrueSurface& surface, const Sight& sight, const Camera& camera);
+    GroundMeter(const TrueGround& ground, const Sight& sight, const Camera& camera);
 
     // Direction through a place of the picture in view coordinates, z = -1.
     [[nodiscard]] glm::dvec3 ray_view(const glm::dvec2& point_px) const;
     // Where a point is seen that lies so far along the view axis: offset from the eye, ECEF axes, metres.
     [[nodiscard]] glm::dvec3 offset_m(const glm::dvec2& point_px, double z_m) const;
-    // Where a ground point is truly seen; nothing over no data.
-    [[nodiscard]] std::optional<glm::dvec3> seen_m(double row, double column) const;
+    // Where the ground point of a pixel is truly seen; nothing over no data. What is drawn between grids
+    // belongs to none: it should be at its own place, at a height between those that the grids have there.
+    [[nodiscard]] std::optional<glm::dvec3> seen_m(const glm::dvec2& point_px, const DrawnPoint& point) const;
+    [[nodiscard]] bool is_between(const DrawnPoint& point) const { return point.grid >= ground_.grids(); }
     // Where an offset from the eye is on the picture; nothing behind the picture's plane.
     [[nodiscard]] std::optional<glm::dvec2> place_px(const glm::dvec3& seen_m) const;
     // How far apart two offsets from the eye are on the picture. Of one behind the picture's plane: as far as
@@ -53,7 +55,9 @@ class GroundMeter {
                                         const Distance& displacement) const;
 
   private:
-    const TrueSurface& surface_;
+    TrueGround ground_;
+    [[nodiscard]] std::optional<glm::dvec3> seen_between_m(const glm::dvec2& point_px,
+                                                           const DrawnPoint& point) const;
     const Sight& sight_;
     glm::dmat3 view_from_ecef_;
     glm::dvec2 tangent_;
@@ -69,9 +73,10 @@ struct GroundErrors {
     ErrorSummary summary_surface_m, summary_surface_px;
     std::uint64_t drawn{};        // pixels with ground
     std::uint64_t beyond_data{};  // of them those whose ground point has no true height
+    std::uint64_t between{};      // of them those that are drawn between grids
 };
 enum class GroundMeasures { both, displacement };  // without the surface its values are not_measured
-GroundErrors ground_errors(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const Camera& camera,
                            std::span<const DrawnPoint> points, int threads,
                            GroundMeasures measures = GroundMeasures::both);
 

@@ -8,13 +8,13 @@
 
 namespace oro {
 
-TruePicture::TruePicture(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads)
-    : surface_(surface),
+TruePicture::TruePicture(const TrueGround& ground, const Sight& sight, const Camera& camera, int threads)
+    : ground_(ground),
       sight_(sight),
       camera_(camera),
-      oracle_(surface, sight),
+      oracle_(ground, sight),
       hits_(oracle_.cast_picture(camera, threads)),
-      skyline_(true_skyline(surface, sight, camera, threads)) {}
+      skyline_(true_skyline(ground, sight, camera, threads)) {}
 
 double PictureErrors::largest_px() const {
     return std::max({ground.summary_displacement_px.largest, ground.summary_surface_px.largest,
@@ -25,19 +25,20 @@ double PictureErrors::largest_px() const {
 PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoint> points,
                              std::span<const DrawnDepths> samples, int threads) {
     PictureErrors errors;
-    errors.ground = ground_errors(truth.surface_, truth.sight_, truth.camera_, points, threads);
-    errors.seen = seen_errors(truth.oracle_, {truth.surface_, truth.sight_, truth.camera_}, truth.hits_,
+    errors.ground = ground_errors(truth.ground_, truth.sight_, truth.camera_, points, threads);
+    errors.seen = seen_errors(truth.oracle_, {truth.ground_, truth.sight_, truth.camera_}, truth.hits_,
                               truth.camera_, points, threads);
     errors.skyline = skyline_error(truth.skyline_, truth.camera_, samples, &truth.oracle_);
-    const PostGrid& grid = truth.surface_.field().grid;
-    errors.slack_px = drawing_slack_px(truth.camera_, grid, 0.0, 0.0);
+    errors.slack_px = drawing_slack_px(truth.camera_, truth.ground_.surface(0).field().grid, 0.0, 0.0);
     for (const DrawnPoint& point : points) {
         if (point.background()) continue;
         if (errors.nearest_m == 0.0 || point.z_m < errors.nearest_m) errors.nearest_m = point.z_m;
-        const auto slope = truth.surface_.slope_at(point.row, point.column);
+        if (point.grid >= truth.ground_.grids()) continue;
+        const TrueSurface& surface = truth.ground_.surface(point.grid);
+        const auto slope = surface.slope_at(point.row, point.column);
         const double steepness = slope ? slope->steepness() : 0.0;
-        errors.slack_px =
-            std::max(errors.slack_px, drawing_slack_px(truth.camera_, grid, point.z_m, steepness));
+        errors.slack_px = std::max(
+            errors.slack_px, drawing_slack_px(truth.camera_, surface.field().grid, point.z_m, steepness));
     }
     return errors;
 }

@@ -11,7 +11,7 @@
 #include "core/measure/seen_error.h"
 #include "core/measure/skyline_error.h"
 #include "core/truth/oracle.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 
 namespace oro {
 
@@ -19,15 +19,14 @@ namespace oro {
 // outlives it.
 class TruePicture {
   public:
-    TruePicture(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads);
+    TruePicture(const TrueGround& ground, const Sight& sight, const Camera& camera, int threads);
 
     [[nodiscard]] const Skyline& skyline() const { return skyline_; }
-    [[nodiscard]] const PostGrid& grid() const { return surface_.field().grid; }
 
   private:
     friend struct PictureErrors picture_errors(const TruePicture&, std::span<const DrawnPoint>,
                                                std::span<const DrawnDepths>, int);
-    const TrueSurface& surface_;
+    TrueGround ground_;
     const Sight& sight_;
     Camera camera_;
     Oracle oracle_;

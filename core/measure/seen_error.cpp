@@ -169,7 +169,7 @@ Away away_from(const TruthPicture& picture, const GroundMeter& meter, int x, int
     const double between_px = picture.away_px(x, y, drawn);
     if (between_px <= seen_resolution_px) return {between_px, false};
     if (!point.background()) {
-        const std::optional<glm::dvec3> seen_m = meter.seen_m(point.row, point.column);
+        const std::optional<glm::dvec3> seen_m = meter.seen_m(centre_px, point);
         const double moved_px =
             seen_m ? meter.apart_px(meter.offset_m(centre_px, point.z_m), *seen_m) : between_px;
         if (moved_px >= between_px) return {between_px, true};
@@ -183,7 +183,7 @@ double fine_px(const TruthPicture& picture, const GroundMeter& meter, const glm:
                const DrawnPoint& point, double at_most_px) {
     const Nearness drawn = drawn_nearness(meter, centre_px, point);
     const double found_px = picture.fine_circle_px(centre_px, drawn, at_most_px);
-    const auto seen_m = point.background() ? std::nullopt : meter.seen_m(point.row, point.column);
+    const auto seen_m = point.background() ? std::nullopt : meter.seen_m(centre_px, point);
     const auto true_px = seen_m ? meter.place_px(*seen_m) : std::nullopt;
     if (!true_px) return found_px;
     const double moved_px = glm::length(*true_px - centre_px);

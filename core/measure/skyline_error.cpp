@@ -169,12 +169,12 @@ void look_closely(const Oracle& oracle, const Camera& camera, std::vector<Apart>
 
 }  // namespace
 
-Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads) {
+Skyline true_skyline(const TrueGround& ground, const Sight& sight, const Camera& camera, int threads) {
     Skyline skyline;
     skyline.y_px.assign(static_cast<std::size_t>(camera.width_px), not_measured);
     skyline.from_below.assign(skyline.y_px.size(), 0);
     const double reach_m = sight_reach_m(geodetic_from_ecef(sight.eye).h_m);
-    const Oracle oracle(surface, sight);
+    const Oracle oracle(ground, sight);
     in_parallel(camera.width_px, threads, [&](int column) {
         const auto found = column_skyline(oracle, camera, column, reach_m);
         if (!found) return;
@@ -218,10 +218,10 @@ SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span
     return error;
 }
 
-SkylineError skyline_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+SkylineError skyline_error(const TrueGround& ground, const Sight& sight, const Camera& camera,
                            std::span<const DrawnDepths> samples, int threads) {
-    const Oracle oracle(surface, sight);
-    return skyline_error(true_skyline(surface, sight, camera, threads), camera, samples, &oracle);
+    const Oracle oracle(ground, sight);
+    return skyline_error(true_skyline(ground, sight, camera, threads), camera, samples, &oracle);
 }
 
 }  // namespace oro

@@ -8,7 +8,7 @@
 #include "core/earth/camera.h"
 #include "core/truth/oracle.h"
 #include "core/truth/picture_error.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 
 namespace oro {
 
@@ -26,7 +26,7 @@ struct Skyline {
 // Along the middles of the columns; by bisection to 1/64 px between the first ray with ground, of those that
 // drawn skylines are looked for with (`skyline_samples` a pixel) and the picture's edges, and the ray above
 // it. Ground that no such ray meets is not found.
-Skyline true_skyline(const TrueSurface& surface, const Sight& sight, const Camera& camera, int threads);
+Skyline true_skyline(const TrueGround& ground, const Sight& sight, const Camera& camera, int threads);
 
 // The skyline: how far the drawn one lies from the truth's, in pixels, by the shortest way. The drawn one is
 // known to lie between two samples of a column; what is not known is not counted as an error.
@@ -43,7 +43,7 @@ struct SkylineError {
 // one picture or the other by chance. Without an oracle such columns count as they look.
 SkylineError skyline_error(const Skyline& truth, const Camera& camera, std::span<const DrawnDepths> samples,
                            const Oracle* oracle = nullptr);
-SkylineError skyline_error(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+SkylineError skyline_error(const TrueGround& ground, const Sight& sight, const Camera& camera,
                            std::span<const DrawnDepths> samples, int threads);
 
 }  // namespace oro

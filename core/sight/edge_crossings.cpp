@@ -112,4 +112,31 @@ std::vector<double> edge_crossings(const PostGrid& grid, const Way& way, double 
     return crossings.take();
 }
 
+std::vector<double> edge_crossings(const TrueGround& ground, const Way& way, double from_m, double to_m) {
+    if (ground.grids() == 1) return edge_crossings(ground.surface(0).field().grid, way, from_m, to_m);
+    std::vector<double> all;
+    for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
+        const std::vector<double> its = edge_crossings(ground.surface(grid).field().grid, way, from_m, to_m);
+        all.insert(all.end(), its.begin(), its.end());
+    }
+    std::ranges::sort(all);
+    const auto grid_at = [&](double along_m) {
+        const Geodetic place = way(along_m);
+        return ground.grid_at(place.lat_deg, place.lon_deg);
+    };
+    std::vector<double> stops;
+    for (const double along_m : all) {
+        const double before_m = along_m - beside_rim_m, after_m = along_m + beside_rim_m;
+        const bool at_rim = before_m > from_m && after_m < to_m && grid_at(before_m) != grid_at(after_m);
+        if (at_rim) {
+            stops.push_back(before_m);
+            stops.push_back(after_m);
+        } else {
+            stops.push_back(along_m);
+        }
+    }
+    std::ranges::sort(stops);
+    return stops;
+}
+
 }  // namespace oro

@@ -6,6 +6,7 @@
 
 #include "core/earth/ellipsoid.h"
 #include "core/terrain/post_grid.h"
+#include "core/truth/true_ground.h"
 
 namespace oro {
 
@@ -16,5 +17,9 @@ using Way = std::function<Geodetic(double along_m)>;
 // column, or a diagonal of a cell from its north-west to its south-east post. In order; those of one place
 // may be there twice. Nothing outside the grid. Error: 1e-4 of a cell; over a pole, a cell.
 std::vector<double> edge_crossings(const PostGrid& grid, const Way& way, double from_m, double to_m);
+// The same of all grids of the ground. Where another grid begins to be the ground there is a place on either
+// side of its rim, beside_rim_m from it: heights may differ.
+inline constexpr double beside_rim_m = 0.02;
+std::vector<double> edge_crossings(const TrueGround& ground, const Way& way, double from_m, double to_m);
 
 }  // namespace oro

@@ -4,28 +4,28 @@
 
 namespace oro {
 
-ProfilePoint profile_point(const TrueSurface& surface, const Geodetic& place, double along_m) {
+ProfilePoint profile_point(const TrueGround& ground, const Geodetic& place, double along_m) {
     ProfilePoint point{along_m, place.lat_deg, place.lon_deg, false, 0.0, 0.0};
-    if (const std::optional<double> h_m = surface.h_m(place.lat_deg, place.lon_deg)) {
+    if (const std::optional<double> h_m = ground.h_m(place.lat_deg, place.lon_deg)) {
         point.has_ground = true;
         point.h_m = *h_m;
-        point.H_m = *h_m - surface.field().undulation.at_m(place.lat_deg, place.lon_deg);
+        point.H_m = *h_m - ground.N_m(place.lat_deg, place.lon_deg);
     }
     return point;
 }
 
-void add_profile(const TrueSurface& surface, const Way& way, double from_m, double to_m,
+void add_profile(const TrueGround& ground, const Way& way, double from_m, double to_m,
                  std::vector<ProfilePoint>& points) {
     // A post lies on three edges: their crossings are one place.
     constexpr double same_m = 1.0e-3;
     const auto add = [&](double along_m) {
-        points.push_back(profile_point(surface, way(along_m), along_m));
+        points.push_back(profile_point(ground, way(along_m), along_m));
         ProfilePoint& point = points.back();
         // On the rim of the data, or of a void, a rounded place may lie beyond it.
         constexpr double beside_m = 0.02;
         for (const double at_m : {along_m - beside_m, along_m + beside_m}) {
             if (point.has_ground || at_m < from_m || at_m > to_m) continue;
-            const ProfilePoint beside = profile_point(surface, way(at_m), at_m);
+            const ProfilePoint beside = profile_point(ground, way(at_m), at_m);
             point.has_ground = beside.has_ground;
             point.H_m = beside.H_m;
             point.h_m = beside.h_m;
@@ -33,16 +33,16 @@ void add_profile(const TrueSurface& surface, const Way& way, double from_m, doub
     };
     if (points.empty()) add(from_m);
     double last_m = from_m;
-    for (const double along_m : edge_crossings(surface.field().grid, way, from_m, to_m)) {
+    for (const double along_m : edge_crossings(ground, way, from_m, to_m)) {
         if (along_m - last_m < same_m || to_m - along_m < same_m) continue;
         // What lies between two crossings over no ground is told by a place in it: its ends are on the rim.
         const Geodetic middle = way(0.5 * (last_m + along_m));
-        if (!surface.h_m(middle.lat_deg, middle.lon_deg)) add(0.5 * (last_m + along_m));
+        if (!ground.h_m(middle.lat_deg, middle.lon_deg)) add(0.5 * (last_m + along_m));
         add(along_m);
         last_m = along_m;
     }
     const Geodetic middle = way(0.5 * (last_m + to_m));
-    if (!surface.h_m(middle.lat_deg, middle.lon_deg)) add(0.5 * (last_m + to_m));
+    if (!ground.h_m(middle.lat_deg, middle.lon_deg)) add(0.5 * (last_m + to_m));
     if (to_m > from_m) add(to_m);
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/sight/edge_crossings.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 
 namespace oro {
 
@@ -20,12 +20,13 @@ struct ProfilePoint {
 };
 
 // Appends the points of a way from from_m to to_m, its begin and its end among them (the begin only where
-// `points` is empty): each place where it crosses an edge of the ground's triangles. Between two neighbours h
-// is linear in latitude and longitude. `way` gives places by along_m; its heights do not count.
-void add_profile(const TrueSurface& surface, const Way& way, double from_m, double to_m,
+// `points` is empty): each place where it crosses an edge of the ground's triangles, and both sides of the
+// rim of a grid (edge_crossings). Between two neighbours h is linear in latitude and longitude. `way` gives
+// places by along_m; its heights do not count.
+void add_profile(const TrueGround& ground, const Way& way, double from_m, double to_m,
                  std::vector<ProfilePoint>& points);
 
-ProfilePoint profile_point(const TrueSurface& surface, const Geodetic& place, double along_m);
+ProfilePoint profile_point(const TrueGround& ground, const Geodetic& place, double along_m);
 
 // What a profile comes to.
 struct ProfileSums {

@@ -68,8 +68,8 @@ const Sample* lowest(const std::vector<Sample>& samples) {
 
 }  // namespace
 
-Lookout::Lookout(const TrueSurface& surface, const Geodetic& eye, const Air& air)
-    : surface_(surface), eye_(eye), sight_(sight_from(eye, air)), oracle_(surface, sight_) {}
+Lookout::Lookout(const TrueGround& ground, const Geodetic& eye, const Air& air)
+    : ground_(ground), eye_(eye), sight_(sight_from(eye, air)), oracle_(ground, sight_) {}
 
 std::optional<SightHit> Lookout::obstacle(const Geodetic& target) const {
     const glm::dvec3 seen_m = sight_.refraction.apparent_m(ecef_from_geodetic(target).m - sight_.eye.m);
@@ -82,9 +82,9 @@ std::optional<double> Lookout::missed_by_m(const Geodetic& target) const {
     return least_rise_m([&](double by_m) { return sees(raised(target, by_m)); });
 }
 
-std::optional<double> eye_missed_by_m(const TrueSurface& surface, const Geodetic& eye, const Air& air,
+std::optional<double> eye_missed_by_m(const TrueGround& ground, const Geodetic& eye, const Air& air,
                                       const Geodetic& target) {
-    return least_rise_m([&](double by_m) { return Lookout(surface, raised(eye, by_m), air).sees(target); });
+    return least_rise_m([&](double by_m) { return Lookout(ground, raised(eye, by_m), air).sees(target); });
 }
 
 LineOverGround Lookout::line_to(const Geodetic& target) const {
@@ -95,13 +95,13 @@ LineOverGround Lookout::line_to(const Geodetic& target) const {
     };
     const auto sample_at = [&](double along_m) {
         const Geodetic place = place_at(along_m);
-        const std::optional<double> ground_m = surface_.h_m(place.lat_deg, place.lon_deg);
+        const std::optional<double> ground_m = ground_.h_m(place.lat_deg, place.lon_deg);
         return Sample{along_m, place,
                       ground_m ? std::optional(place.h_m - *ground_m) : std::optional<double>()};
     };
     LineOverGround line;
     if (distance_m < least_above_m) return line;
-    std::vector<double> stops = edge_crossings(surface_.field().grid, place_at, 0.0, distance_m);
+    std::vector<double> stops = edge_crossings(ground_, place_at, 0.0, distance_m);
     stops.push_back(distance_m);
     std::vector<Sample> samples{sample_at(0.0)};
     for (const double stop_m : stops) {

@@ -22,12 +22,12 @@ struct LineOverGround {
 
 // An eye. Curvature is that of the ellipsoid; light bends by the air, as in pictures. Safe to ask from
 // several threads.
-//     const Lookout lookout(surface, eye, standard_air);
+//     const Lookout lookout(ground, eye, standard_air);
 //     if (const auto hit = lookout.obstacle(target)) std::printf("%f\n", *lookout.missed_by_m(target));
 class Lookout {
   public:
-    // `surface` outlives it.
-    Lookout(const TrueSurface& surface, const Geodetic& eye, const Air& air);
+    // What `ground` is made of outlives it.
+    Lookout(const TrueGround& ground, const Geodetic& eye, const Air& air);
 
     // The first ground on the line from the eye to where `target` is seen; nothing: it is seen. As exact as
     // Oracle::first_hit.
@@ -46,14 +46,14 @@ class Lookout {
     [[nodiscard]] const Sight& sight() const { return sight_; }
 
   private:
-    const TrueSurface& surface_;
+    TrueGround ground_;
     Geodetic eye_;
     Sight sight_;
     Oracle oracle_;
 };
 
 // How much higher the eye would have to be to see the target; as Lookout::missed_by_m.
-std::optional<double> eye_missed_by_m(const TrueSurface& surface, const Geodetic& eye, const Air& air,
+std::optional<double> eye_missed_by_m(const TrueGround& ground, const Geodetic& eye, const Air& air,
                                       const Geodetic& target);
 
 }  // namespace oro

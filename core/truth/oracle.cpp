@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/base/parallel.h"
 #include "core/truth/oracle_scenery.h"
+#include "core/truth/piece_tree.h"
 
 namespace oro {
 namespace {
@@ -43,7 +42,7 @@ class Oracle::Search {
   public:
     // start_m: where the line begins, from the eye, ECEF axes.
     Search(const Oracle::Scenery& scenery, const glm::dvec3& direction, double reach_m,
-           const glm::dvec3& start_m = glm::dvec3(0.0))
+           const glm::dvec3& start_m)
         : scenery_(scenery),
           surface_(scenery.surface),
           grid_(scenery.surface.field().grid),
@@ -343,43 +342,23 @@ bool Oracle::Search::take_root(const Triangle& triangle, const Piece& piece, dou
     constexpr double residual_m = 1.0e-4;
     if (t_m < 0.0 || t_m >= nearest_m_ || std::abs(above_m) > residual_m || !triangle.holds(here, rim_slack))
         return false;
+    if (!scenery_.ground.shows(scenery_.grid, here.point.lat_deg, here.point.lon_deg)) return false;
     nearest_m_ = t_m;
-    hit_ = SightHit{here.point, t_m, triangle.row, triangle.column, triangle.south_west, rise > 0.0, above_m};
+    hit_ = SightHit{here.point,          t_m,        triangle.row, triangle.column,
+                    triangle.south_west, rise > 0.0, above_m,      scenery_.grid};
     return true;
 }
 
-Oracle::Oracle(const TrueSurface& surface, const Sight& sight)
-    : scenery_(std::make_unique<const Scenery>(surface, sight)) {}
-
-Oracle::~Oracle() = default;
-
-std::optional<SightHit> Oracle::first_hit(const glm::dvec3& direction, double reach_m) const {
-    return Search(*scenery_, direction, reach_m).first_hit();
-}
-
-std::optional<SightHit> Oracle::first_hit_from(const Ecef& from, const glm::dvec3& direction,
-                                               double reach_m) const {
-    assert(scenery_->sight.refraction.straight() && scenery_->sight.earth == Earth::ellipsoid);
-    return Search(*scenery_, direction, reach_m, from.m - scenery_->sight.eye.m).first_hit();
-}
-
-std::vector<std::optional<SightHit>> Oracle::cast_picture(const Camera& camera, int threads) const {
-    const double reach_m = sight_reach_m(camera.eye.h_m);
-    std::vector<std::optional<SightHit>> hits(static_cast<std::size_t>(camera.width_px) *
-                                              static_cast<std::size_t>(camera.height_px));
-    in_parallel(camera.height_px, threads, [&](int y) {
-        for (int x = 0; x < camera.width_px; ++x) {
-            const glm::dvec3 direction = camera.ecef_direction_at({x + 0.5, y + 0.5});
-            hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
-                 static_cast<std::size_t>(x)] = first_hit(direction, reach_m);
-        }
-    });
-    return hits;
-}
-
-std::optional<SightHit> first_hit(const TrueSurface& surface, const Sight& sight, const glm::dvec3& direction,
-                                  double reach_m) {
-    return Oracle(surface, sight).first_hit(direction, reach_m);
+std::optional<SightHit> Oracle::first_hit_after(const glm::dvec3& start_m, const glm::dvec3& direction,
+                                                double reach_m) const {
+    std::optional<SightHit> nearest;
+    for (const auto& scenery : sceneries_) {
+        auto hit = Search(*scenery, direction, nearest ? nearest->distance_m : reach_m, start_m).first_hit();
+        if (hit) nearest = hit;
+    }
+    if (!pieces_) return nearest;
+    const auto t_m = pieces_->first_hit(start_m, direction, nearest ? nearest->distance_m : reach_m);
+    return t_m ? hit_of_piece(start_m + *t_m * direction, *t_m) : nearest;
 }
 
 }  // namespace oro

@@ -11,9 +11,11 @@
 #include "core/earth/camera.h"
 #include "core/earth/ellipsoid.h"
 #include "core/earth/world_model.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 
 namespace oro {
+
+class PieceTree;
 
 // From where and through what air one looks, and at what Earth: the true one is the ellipsoid; on others the
 // oracle sees what a picture of them shows.
@@ -35,6 +37,9 @@ struct SightHit {
     bool south_west{};    // of the cell's two triangles
     bool from_below{};    // it is met from beneath: through a hole, or over the data's rim
     double residual_m{};  // of the root: height of the point above its triangle
+    std::size_t grid{};   // of the ground's: whose cell it is
+    // On a step between two grids: the cell is the first grid's that the place is on.
+    bool between_grids{};
 };
 
 // Sight lines from one eye: tells where each truly meets the ground. Safe to ask from several threads.
@@ -44,8 +49,9 @@ struct SightHit {
 //     if (hit) std::printf("%f %f\n", hit->point.lat_deg, hit->point.lon_deg);
 class Oracle {
   public:
-    // `surface` outlives the oracle. Costs a sine and a cosine for each fourth row and column of posts.
-    Oracle(const TrueSurface& surface, const Sight& sight);
+    // What `ground` is made of outlives the oracle. Costs a sine and a cosine for each fourth row and column
+    // of posts, and a tree of the pieces between grids.
+    Oracle(const TrueGround& ground, const Sight& sight);
     ~Oracle();
     Oracle(const Oracle&) = delete;
     Oracle& operator=(const Oracle&) = delete;
@@ -53,7 +59,10 @@ class Oracle {
     // First crossing of a sight line (unit ECEF direction at the eye) with the surface, from either side;
     // nothing when it meets none within reach_m. Exact: the nearest root over all cells, its residual below
     // 1e-8 m within 1,000 km (1e-4 m at worst, from the Moon's distance and beyond). Touches narrower than
-    // 1 cm over cells of kilometres, or 1e-6 m over cells of metres, may be missed.
+    // 1 cm over cells of kilometres, or 1e-6 m over cells of metres, may be missed. Of several grids that is
+    // met which is the ground there. Steps between grids are flat, where cells are as curved as the
+    // ellipsoid: they reach out over their rims by as much, 0.2 mm of edges of 100 m, and no line slips
+    // through.
     [[nodiscard]] std::optional<SightHit> first_hit(const glm::dvec3& direction, double reach_m) const;
 
     // The same of a straight line that begins elsewhere; for an oracle of straight light over the ellipsoid.
@@ -67,11 +76,18 @@ class Oracle {
   private:
     class Scenery;
     class Search;
-    std::unique_ptr<const Scenery> scenery_;
+    [[nodiscard]] std::optional<SightHit> first_hit_after(const glm::dvec3& start_m,
+                                                          const glm::dvec3& direction, double reach_m) const;
+    [[nodiscard]] SightHit hit_of_piece(const glm::dvec3& apparent_m, double t_m) const;
+
+    TrueGround ground_;
+    Sight sight_;
+    std::vector<std::unique_ptr<const Scenery>> sceneries_;  // of each grid
+    std::unique_ptr<const PieceTree> pieces_;                // nothing: there are none
 };
 
 // For one sight line.
-std::optional<SightHit> first_hit(const TrueSurface& surface, const Sight& sight, const glm::dvec3& direction,
+std::optional<SightHit> first_hit(const TrueGround& ground, const Sight& sight, const glm::dvec3& direction,
                                   double reach_m);
 
 // Farther than any sight line over the Earth from this height.

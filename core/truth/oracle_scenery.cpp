@@ -23,18 +23,18 @@ std::uint64_t next_number() {
 
 }  // namespace
 
-Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from)
-    : surface(of), sight(from), number_(next_number()) {
-    const PostGrid& grid = surface.field().grid;
+Oracle::Scenery::Scenery(const TrueGround& of, std::size_t number, const Sight& from)
+    : ground(of), grid(number), surface(of.surface(number)), sight(from), number_(next_number()) {
+    const PostGrid& posts = surface.field().grid;
     // Boxes are tight where the ground lies along the frame's axes.
     const bool flat = sight.earth == Earth::flat;
-    const double lat_deg = flat ? sight.place.lat_deg : 0.5 * (grid.north_deg() + grid.south_deg());
-    const double lon_deg = flat ? sight.place.lon_deg : 0.5 * (grid.west_deg() + grid.east_deg());
+    const double lat_deg = flat ? sight.place.lat_deg : 0.5 * (posts.north_deg() + posts.south_deg());
+    const double lon_deg = flat ? sight.place.lon_deg : 0.5 * (posts.west_deg() + posts.east_deg());
     frame_from_ecef = glm::transpose(ecef_from_enu(lat_deg, lon_deg));
     constexpr int step = TrueSurface::block_cells;
-    if (grid.net) return;
-    for (int row = 0; row - step < grid.rows() - 1; row += step) {
-        const double at_deg = row_lat_deg(grid, std::min(row, grid.rows() - 1));
+    if (posts.net) return;
+    for (int row = 0; row - step < posts.rows() - 1; row += step) {
+        const double at_deg = row_lat_deg(posts, std::min(row, posts.rows() - 1));
         const SineCosine angle = sine_cosine_deg(at_deg);
         const double normal_m =
             sight.earth == Earth::sphere ? mean_radius_m : prime_vertical_radius_m(at_deg);
@@ -43,8 +43,8 @@ Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from)
             rows_north_m.push_back(meridian_radius_m(sight.place.lat_deg) *
                                    radians_from_deg(at_deg - sight.place.lat_deg).rad);
     }
-    for (int column = 0; column - step < grid.columns() - 1; column += step) {
-        const double at_deg = grid.lon.at_deg(std::min(column, grid.columns() - 1));
+    for (int column = 0; column - step < posts.columns() - 1; column += step) {
+        const double at_deg = posts.lon.at_deg(std::min(column, posts.columns() - 1));
         columns.push_back(sine_cosine_deg(at_deg));
         if (sight.earth == Earth::flat)
             columns_east_m.push_back(
@@ -56,11 +56,11 @@ Oracle::Scenery::Scenery(const TrueSurface& of, const Sight& from)
 // Between its corners a patch of a net strays from straight ways by at most an eighth of its angle squared
 // times how much it bends; on a parallel these angles are wider. Near a pole it may have any longitude.
 Oracle::Scenery::PlaneBox Oracle::Scenery::net_on_plane(const Patch& patch) const {
-    const PostGrid& grid = surface.field().grid;
+    const PostGrid& posts = surface.field().grid;
     const TrueSurface::Corners& corners = surface.corners();
     const double cells = TrueSurface::block_cells;
-    const double angle = (patch.south - patch.north) * cells * grid.row_step_rad() +
-                         (patch.east - patch.west) * cells * grid.column_step_rad();
+    const double angle = (patch.south - patch.north) * cells * posts.row_step_rad() +
+                         (patch.east - patch.west) * cells * posts.column_step_rad();
     double south_deg = 90.0, north_deg = -90.0, first_deg = 0.0, west_deg = 0.0, east_deg = 0.0;
     for (const auto& [row, column] : {std::pair{patch.north, patch.west},
                                       {patch.north, patch.east},
@@ -80,7 +80,7 @@ Oracle::Scenery::PlaneBox Oracle::Scenery::net_on_plane(const Patch& patch) cons
     const bool any_meridian = !(highest_deg < near_pole_deg);
     const SineCosine highest = sine_cosine_deg(std::min(highest_deg, near_pole_deg));
     const double stray_deg = deg_from_radians(
-        Radians(grid.net->bend() * angle * angle / 8.0 * 1.1 * (1.0 + highest.sine / highest.cosine)));
+        Radians(posts.net->bend() * angle * angle / 8.0 * 1.1 * (1.0 + highest.sine / highest.cosine)));
     const double lat_pad_deg = any_meridian ? deg_from_radians(Radians(angle)) : stray_deg;
     const double lon_pad_deg = stray_deg / highest.cosine;
     const double from_eye_deg = std::remainder(first_deg - sight.place.lon_deg, 360.0);
@@ -108,9 +108,9 @@ Oracle::Scenery::PlaneBox Oracle::Scenery::on_plane(const Patch& patch) const {
                                sine_cosine_deg(sight.place.lat_deg).cosine;
     // Not as wide as its columns: on both sides of the meridian where the plane is cut, and so at both its
     // ends.
-    const PostGrid& grid = surface.field().grid;
+    const PostGrid& posts = surface.field().grid;
     const auto at_deg = [&](int column) {
-        return grid.lon.at_deg(std::min(column * TrueSurface::block_cells, grid.columns() - 1));
+        return posts.lon.at_deg(std::min(column * TrueSurface::block_cells, posts.columns() - 1));
     };
     const double width_deg = at_deg(patch.east) - at_deg(patch.west);
     if (east_m - west_m < (width_deg / 180.0 - 1.0) * half_turn_m) {
@@ -179,10 +179,10 @@ bool Oracle::Scenery::box(const TrueSurface::Block& block, glm::dvec3& low, glm:
     // Between its corners a patch bulges by at most an eighth of its angles squared times their radii (along
     // the parallel its own, or near a pole every line would meet every patch); refraction, a parabola, by
     // another eighth.
-    const PostGrid& grid = surface.field().grid;
+    const PostGrid& posts = surface.field().grid;
     const double cells = TrueSurface::block_cells;
-    const double tall = (south - north) * cells * grid.row_step_rad();
-    const double wide = (east - west) * cells * grid.column_step_rad();
+    const double tall = (south - north) * cells * posts.row_step_rad();
+    const double wide = (east - west) * cells * posts.column_step_rad();
     const double radius_m = 1.02 * (wgs84_a_m + std::max(0.0, layer.highest_h_m));
     // The cosine of a latitude changes by at most its angle.
     const double cosine = on_net ? 1.0
@@ -191,7 +191,7 @@ bool Oracle::Scenery::box(const TrueSurface::Block& block, glm::dvec3& low, glm:
                                                      tall);
     const glm::dvec3 across = high - low;
     const double bulge =
-        on_net ? grid.net->bend() * (tall + wide) * (tall + wide) : tall * tall + wide * wide * cosine;
+        on_net ? posts.net->bend() * (tall + wide) * (tall + wide) : tall * tall + wide * wide * cosine;
     const double pad_m = bulge / 8.0 * radius_m * 1.1 +
                          std::abs(sight.refraction.curvature_per_m()) * glm::dot(across, across) / 8.0 +
                          1.0e-3;

@@ -21,8 +21,11 @@ class Oracle::Scenery {
         double sine;
     };
 
-    Scenery(const TrueSurface& surface, const Sight& sight);
+    // `ground` outlives it.
+    Scenery(const TrueGround& ground, std::size_t grid, const Sight& sight);
 
+    const TrueGround& ground;
+    const std::size_t grid;  // of the ground's
     const TrueSurface& surface;
     const Sight sight;
     glm::dmat3 frame_from_ecef;

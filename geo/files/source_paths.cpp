@@ -82,11 +82,22 @@ class Search {
         return add_file(path, true);
     }
 
+    // The same, and keeps the path's number with what it finds.
+    Result<void> add_path(const std::string& path, std::size_t number) {
+        const std::size_t before = found_.size();
+        ORO_CHECK(add(path));
+        for (std::size_t i = before; i < found_.size(); ++i) found_[i].path = number;
+        return {};
+    }
+
     std::vector<SourcePath> take() {
         // A file reached in two ways is one source, and a named one when any way names it.
         std::ranges::sort(found_, [](const SourcePath& a, const SourcePath& b) {
             return std::tie(a.file, b.named) < std::tie(b.file, a.named);
         });
+        for (std::size_t i = 1; i < found_.size(); ++i)
+            if (found_[i].file == found_[i - 1].file)
+                found_[i].path = found_[i - 1].path = std::min(found_[i].path, found_[i - 1].path);
         // Not std::ranges::unique: what it returns is beyond clang 14, with which the fuzzers are built.
         found_.erase(std::unique(found_.begin(), found_.end(),
                                  [](const SourcePath& a, const SourcePath& b) { return a.file == b.file; }),
@@ -170,7 +181,7 @@ Result<std::vector<SourcePath>> searched(const std::vector<std::string>& paths,
     start_gdal();
     Search search(unreadable);
     try {
-        for (const std::string& path : paths) ORO_CHECK(search.add(path));
+        for (std::size_t i = 0; i < paths.size(); ++i) ORO_CHECK(search.add_path(paths[i], i));
     } catch (const fs::filesystem_error& fault) {
         return Error{ErrorKind::failed, fault.path1().string(), fault.code().message()};
     }

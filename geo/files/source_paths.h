@@ -15,6 +15,7 @@ struct SourcePath {
     std::string archive;  // name of the archive that holds it, or ""
     bool named{};         // by the user, not found in a folder or archive
     bool hgt{};           // by its name's ending, any case
+    std::size_t path{};   // number of the path that it was found by, the first of several
 };
 
 // Files under the paths, sorted by the byte order of their names, each once. In folders and archives only

@@ -18,8 +18,8 @@ std::string_view file_name(std::string_view path) {
 Precedence precedence_of(const SourceReport& source) {
     // Files of one lattice have the same, wherever on it they lie.
     const double nominal_deg = source.nominal_spacing_deg;
-    if (nominal_deg > 0.0) return {nominal_deg, nominal_deg, source.path};
-    return {source.lat_spacing_deg, source.lon_spacing_deg, source.path};
+    if (nominal_deg > 0.0) return {source.listed, nominal_deg, nominal_deg, source.path};
+    return {source.listed, source.lat_spacing_deg, source.lon_spacing_deg, source.path};
 }
 
 std::vector<std::size_t> by_precedence(std::span<const Precedence> sources) {
@@ -41,6 +41,7 @@ std::vector<std::size_t> by_precedence(std::span<const Precedence> sources) {
         spacing_class[i] = current;
     }
     std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+        if (sources[a].listed != sources[b].listed) return sources[a].listed < sources[b].listed;
         if (spacing_class[a] != spacing_class[b]) return spacing_class[a] < spacing_class[b];
         const std::string_view name_a = file_name(sources[a].path);
         const std::string_view name_b = file_name(sources[b].path);

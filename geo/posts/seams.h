@@ -15,15 +15,16 @@ namespace oro {
 
 // What decides which of several sources wins.
 struct Precedence {
+    int listed{};  // SourceReport::listed
     double lat_spacing_deg{};
     double lon_spacing_deg{};
     std::string_view path;  // as found
 };
 // Of a source.
 Precedence precedence_of(const SourceReport& source);
-// The order in which sources take posts: the finer spacing first (the
-// geometric mean of both axes' degrees; equal when within a millionth), among
-// equals by the byte order of file names, then of whole paths.
+// The order in which sources take posts: as they are listed, where that counts; else the finer spacing first
+// (the geometric mean of both axes' degrees; equal when within a millionth), among equals by the byte order
+// of file names, then of whole paths.
 std::vector<std::size_t> by_precedence(std::span<const Precedence> sources);
 std::vector<std::size_t> by_precedence(std::span<const Source> sources);
 

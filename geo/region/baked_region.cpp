@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/baked/file_pages.h"
+#include "core/baked/grids_file.h"
 #include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
 #include "geo/posts/holes.h"
@@ -28,6 +29,7 @@ Result<void> check_request(const RegionRequest& request, const std::string& path
                                : !request.source_vertical.empty() ? "--source-vertical"
                                : request.fill_voids               ? "--fill-voids"
                                : request.strict_datum             ? "--strict-datum"
+                               : request.listed_first             ? "--order"
                                                                   : nullptr;
     if (option == nullptr) return {};
     return Error{ErrorKind::usage, option,
@@ -225,15 +227,16 @@ std::optional<std::string> baked_path(const std::vector<std::string>& paths) {
         std::error_code ignored;
         const bool named =
             lower_case(path).ends_with(".oro") && !std::filesystem::is_directory(path, ignored);
-        if (named || looks_like_region_file(path)) return path;
+        if (named || looks_like_region_file(path) || looks_like_grids_file(path)) return path;
     }
     return std::nullopt;
 }
 
-Result<Region> open_baked_region(const RegionRequest& request, const Progress& progress) {
-    const std::string path = baked_path(request.paths).value_or("");
-    ORO_CHECK(check_request(request, path));
-    ORO_TRY(RegionFile opened, RegionFile::open(path));
+namespace {
+
+// The region that one region file holds, whole or cut to the request's box.
+Result<Region> region_in(RegionFile opened, const RegionRequest& request, const Progress& progress) {
+    const std::string path = opened.path();
     const auto file = std::make_shared<const RegionFile>(std::move(opened));
     ORO_TRY(Region region, region_from_description(file->outline().description, path));
     if (region.voids != file->outline().voids)
@@ -257,7 +260,51 @@ Result<Region> open_baked_region(const RegionRequest& request, const Progress& p
         region.file = file;
     }
     region.geoid_print = undulation_print(region.field.undulation);
-    if (progress) progress(1.0, "region read");
+    return region;
+}
+
+// All grids of a file that holds several; of a box those that it meets.
+Result<Region> regions_in(const std::string& path, const RegionRequest& request, const Progress& progress) {
+    ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    ORO_TRY(const std::vector<GridInFile> grids, grids_in(file));
+    if (!request.grids_apart)
+        return Error{ErrorKind::usage, path,
+                     "holds " + std::to_string(grids.size()) +
+                         " grids of posts, and this takes one: bake the files with --resample"};
+    std::vector<Region> regions;
+    std::optional<Error> none;
+    for (const GridInFile& grid : grids) {
+        ORO_TRY(OpenFile part, file.part(grid.offset, grid.bytes));
+        ORO_TRY(RegionFile opened, RegionFile::open(std::move(part)));
+        Result<Region> region = region_in(std::move(opened), request, progress);
+        if (!region && region.error().kind == ErrorKind::no_data && request.box) {
+            if (!none) none = region.error();
+            continue;
+        }
+        if (!region) return region.error();
+        region->rank = static_cast<int>(grid.rank);
+        regions.push_back(std::move(*region));
+    }
+    if (regions.empty()) return *none;
+    Region first = std::move(regions.front());
+    regions.erase(regions.begin());
+    first.beside = std::move(regions);
+    return first;
+}
+
+}  // namespace
+
+Result<Region> open_baked_region(const RegionRequest& request, const Progress& progress) {
+    const std::string path = baked_path(request.paths).value_or("");
+    ORO_CHECK(check_request(request, path));
+    Result<Region> region = Region{};
+    if (looks_like_grids_file(path)) {
+        region = regions_in(path, request, progress);
+    } else {
+        ORO_TRY(RegionFile opened, RegionFile::open(path));
+        region = region_in(std::move(opened), request, progress);
+    }
+    if (region.ok() && progress) progress(1.0, "region read");
     return region;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <new>
 #include <numeric>
 #include <optional>
@@ -210,17 +211,19 @@ std::vector<std::vector<Source>> grids_of(std::vector<Source> sources, const Reg
     return {std::move(all)};
 }
 
-// Which of the groups wins where several have ground: the finest first, among equals the one named first.
+// Which of the groups wins where several have ground: as their first files are listed, where that counts;
+// else the finest first, among equals the one named first.
 std::vector<std::size_t> ranks_of(const std::vector<std::vector<Source>>& groups) {
     std::vector<std::size_t> order(groups.size()), ranks(groups.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto spacing_deg = [&](std::size_t group) {
-        double finest_deg = 1.0e9;
+        std::pair<int, double> first{std::numeric_limits<int>::max(), 1.0e9};
         for (const Source& source : groups[group]) {
             const Precedence rank = precedence_of(source.report);
-            finest_deg = std::min(finest_deg, std::sqrt(rank.lat_spacing_deg * rank.lon_spacing_deg));
+            first.first = std::min(first.first, rank.listed);
+            first.second = std::min(first.second, std::sqrt(rank.lat_spacing_deg * rank.lon_spacing_deg));
         }
-        return finest_deg;
+        return first;
     };
     std::ranges::stable_sort(order,
                              [&](std::size_t a, std::size_t b) { return spacing_deg(a) < spacing_deg(b); });
@@ -275,6 +278,12 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
 }
 
 }  // namespace
+
+Result<void> Region::health() const {
+    ORO_CHECK(field.health());
+    for (const Region& other : beside) ORO_CHECK(other.field.health());
+    return {};
+}
 
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
     try {

@@ -32,6 +32,9 @@ struct RegionRequest {
         false};            // fill void posts from their neighbours (GDALFillNodata) instead of leaving holes
     bool resample{false};  // bring the posts of files in a CRS of their own onto latitudes and longitudes,
                            // instead of keeping them where they are
+    // Where several have ground for a place, the one named first wins (of a folder by the byte order of
+    // names), not the finest.
+    bool listed_first{false};
     std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
     // For files that do not say themselves: where they lie ("EPSG:2056", or whatever PROJ knows), and what
     // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). ""
@@ -84,8 +87,10 @@ struct Region {
     // the notes are those of all.
     std::vector<Region> beside;
     // Where several have ground for a place, that with the smallest rank is the ground (geo/together): the
-    // finest.
+    // finest, or the one named first.
     int rank{};
+    // Of all grids. Errors: posts that could not be read, and so counted as void.
+    [[nodiscard]] Result<void> health() const;
 };
 
 // Told how far reading is, 0..1, from the calling thread.

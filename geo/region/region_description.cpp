@@ -225,6 +225,7 @@ SourceReport source_of(const Field& field) {
     s.vertical_datum = datum_of_words(field["vertical_datum"].text());
     s.height_unit = unit_of_words(field["height_unit"].text());
     s.posts_are = known(field["posts_are"], posts_of_words);
+    if (field.has("listed")) s.listed = field["listed"].side();
     s.attribution = field["attribution"].text();
     s.rows = field["rows"].side();
     s.columns = field["columns"].side();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "geo/files/source_paths.h"
@@ -13,6 +14,15 @@ namespace oro {
 namespace {
 
 constexpr std::size_t no_limit_notes = 8;
+
+// In the order of the paths that they were found by; those of one path stay in the order of their names.
+void number_as_listed(RegionSources& found) {
+    std::vector<std::size_t> order(found.sources.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return found.named_by[i]; });
+    for (std::size_t i = 0; i < order.size(); ++i)
+        found.sources[order[i]].report.listed = static_cast<int>(i) + 1;
+}
 
 }  // namespace
 
@@ -51,12 +61,14 @@ Result<RegionSources> look_at_sources(const RegionRequest& request, const Progre
         for (const std::string& doubt : finding.doubts) found.notes.push_back(doubt);
         if (finding.source) {
             found.sources.push_back(std::move(*finding.source));
+            found.named_by.push_back(path.path);
             continue;
         }
         if (path.named) return finding.unfit;
         if (++skipped <= no_limit_notes) found.notes.push_back(passed_over + finding.unfit.line());
         if (found.first_skipped.empty()) found.first_skipped = finding.unfit.line();
     }
+    if (request.listed_first) number_as_listed(found);
     if (skipped > no_limit_notes)
         found.notes.push_back(passed_over + std::to_string(skipped - no_limit_notes) +
                               " more files that hold no elevation");

@@ -80,6 +80,7 @@ void put_source_words(Json& object, const SourceReport& source) {
     object["vertical_datum"] = datum_words(source.vertical_datum);
     object["height_unit"] = unit_words(source.height_unit);
     object["posts_are"] = posts_words(source.posts_are);
+    if (source.listed > 0) object["listed"] = source.listed;
 }
 
 // What was found in it.

@@ -135,6 +135,8 @@ struct SourceReport {
     // As its CRS counts it, the mean of both ways, in degrees of the equator: equal for all files of one
     // lattice. 0 where posts lie on degrees, and in a baked region.
     double nominal_spacing_deg{};
+    // Where the one named first wins (RegionRequest::listed_first): its number among all, from 1. Else 0.
+    int listed{};
     std::optional<PartOfGrid> part;  // of a region on a net, where it is known
     BoundingBox box;                 // of the posts
     double lowest_m{};               // of posts of the region that have its heights, H in metres

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <map>
+#include <set>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -12,14 +14,6 @@
 
 namespace oro {
 namespace {
-
-// The grids that cut a part out of one, by what CutOut counts from 1.
-std::vector<const Region*> over(const Region& region, const Region& one) {
-    std::vector<const Region*> finer;
-    for (const Region* other : all_grids(region))
-        if (other->rank < one.rank) finer.push_back(other);
-    return finer;
-}
 
 // Posts of one grid as they are drawn; each is placed once.
 class DrawnPosts {
@@ -66,12 +60,27 @@ class DrawnPosts {
     std::unordered_map<std::size_t, SeamCorner> drawn_;
 };
 
+// The ground that `one` bounds lies on the right hand; the closer's foot goes to the left.
+SeamCloser closer_between(const std::array<SeamCorner, 2>& one, const std::array<SeamCorner, 2>& other) {
+    SeamCloser closer;
+    for (std::size_t end = 0; end < 2; ++end) {
+        const bool higher = one[end].h_m >= other[end].h_m;
+        closer.top[end] = higher ? one[end] : other[end];
+        closer.foot[end] = higher ? other[end] : one[end];
+    }
+    const glm::dvec3 along = one[1].at.m - one[0].at.m;
+    closer.up = glm::normalize(one[0].at.m / glm::dvec3(1.0, 1.0, 1.0 - wgs84_e2));
+    const glm::dvec3 left = glm::cross(closer.up, along);
+    closer.side = glm::length(left) > 0.0 ? glm::normalize(left) : glm::dvec3(0.0);
+    return closer;
+}
+
 // The corners of one grid's cut as they are drawn.
 class SeamBuilder {
   public:
     SeamBuilder(const Region& region, const Region& one, double exaggeration) {
         posts_.emplace_back(one.field, exaggeration);
-        for (const Region* finer : over(region, one)) posts_.emplace_back(finer->field, exaggeration);
+        for (const Region* finer : finer_than(region, one)) posts_.emplace_back(finer->field, exaggeration);
     }
     void add(const CutOut& cut, Seam& seam);
 
@@ -81,7 +90,6 @@ class SeamBuilder {
     using Key = std::pair<std::int64_t, std::int64_t>;
     static Key key(const SeamPoint& point);
     void close_outer_sides(const CutOut& cut, Seam& seam);
-    void add_closer(std::array<SeamCorner, 2> one, std::array<SeamCorner, 2> other, Seam& seam) const;
 
     std::vector<DrawnPosts> posts_;
 };
@@ -110,22 +118,6 @@ SeamBuilder::Key SeamBuilder::key(const SeamPoint& point) {
     return {std::llround(row * steps), std::llround(column * steps)};
 }
 
-// The ground that `one` bounds lies on the right hand; the closer's foot goes to the left.
-void SeamBuilder::add_closer(std::array<SeamCorner, 2> one, std::array<SeamCorner, 2> other,
-                             Seam& seam) const {
-    SeamCloser closer;
-    for (std::size_t end = 0; end < 2; ++end) {
-        const bool higher = one[end].h_m >= other[end].h_m;
-        closer.top[end] = higher ? one[end] : other[end];
-        closer.foot[end] = higher ? other[end] : one[end];
-    }
-    const glm::dvec3 along = one[1].at.m - one[0].at.m;
-    closer.up = glm::normalize(one[0].at.m / glm::dvec3(1.0, 1.0, 1.0 - wgs84_e2));
-    const glm::dvec3 left = glm::cross(closer.up, along);
-    closer.side = glm::length(left) > 0.0 ? glm::normalize(left) : glm::dvec3(0.0);
-    seam.closers.push_back(closer);
-}
-
 // Sides of pieces that neither another piece nor a wall shares: there the grid's own triangles go on, as
 // placed by another program.
 void SeamBuilder::close_outer_sides(const CutOut& cut, Seam& seam) {
@@ -142,7 +134,7 @@ void SeamBuilder::close_outer_sides(const CutOut& cut, Seam& seam) {
             if (shared.contains({key(to), key(from)})) continue;
             // Anticlockwise: the piece lies on the left hand.
             const std::array<SeamCorner, 2> side{corner(to), corner(from)};
-            add_closer(side, side, seam);
+            seam.closers.push_back(closer_between(side, side));
         }
     }
 }
@@ -151,9 +143,32 @@ void SeamBuilder::add(const CutOut& cut, Seam& seam) {
     for (const SeamTriangle& piece : cut.ground)
         seam.pieces.push_back({{corner(piece.points[0]), corner(piece.points[1]), corner(piece.points[2])}});
     for (const SeamWall& wall : cut.walls)
-        add_closer({corner(wall.cut[0]), corner(wall.cut[1])}, {corner(wall.over[0]), corner(wall.over[1])},
-                   seam);
+        seam.closers.push_back(closer_between({corner(wall.cut[0]), corner(wall.cut[1])},
+                                              {corner(wall.over[0]), corner(wall.over[1])}));
     close_outer_sides(cut, seam);
+}
+
+// What joins grids, and what closes its sides to them.
+void add_bridges(const std::vector<const Region*>& grids, const std::vector<GapBridge>& bridges,
+                 double exaggeration, Seam& seam) {
+    std::vector<DrawnPosts> posts;
+    for (const Region* const grid : grids) posts.emplace_back(grid->field, exaggeration);
+    const auto corner = [&](const BridgePost& post) { return posts[post.grid].at(post.post); };
+    using Key = std::tuple<std::size_t, int, int>;
+    const auto key = [](const BridgePost& post) { return Key{post.grid, post.post.row, post.post.column}; };
+    std::set<std::pair<Key, Key>> sides;
+    for (const GapBridge& bridge : bridges)
+        for (std::size_t i = 0; i < 3; ++i)
+            sides.insert({key(bridge.posts[i]), key(bridge.posts[(i + 1) % 3])});
+    for (const GapBridge& bridge : bridges) {
+        seam.pieces.push_back({{corner(bridge.posts[0]), corner(bridge.posts[1]), corner(bridge.posts[2])}});
+        for (std::size_t i = 0; i < 3; ++i) {
+            const BridgePost &from = bridge.posts[i], &to = bridge.posts[(i + 1) % 3];
+            if (sides.contains({key(to), key(from)})) continue;
+            const std::array<SeamCorner, 2> side{corner(to), corner(from)};
+            seam.closers.push_back(closer_between(side, side));
+        }
+    }
 }
 
 }  // namespace
@@ -164,27 +179,36 @@ std::vector<const Region*> all_grids(const Region& region) {
     return grids;
 }
 
-Result<std::vector<CutOut>> cut_regions(const Region& region) {
-    std::vector<CutOut> cuts;
+std::vector<const Region*> finer_than(const Region& region, const Region& one) {
+    std::vector<const Region*> finer;
+    for (const Region* other : all_grids(region))
+        if (other->rank < one.rank) finer.push_back(other);
+    return finer;
+}
+
+Result<RegionCuts> cut_regions(const Region& region) {
+    RegionCuts cuts;
     for (const Region* one : all_grids(region)) {
         std::vector<const HeightField*> finer;
-        for (const Region* other : over(region, *one)) finer.push_back(&other->field);
+        for (const Region* other : finer_than(region, *one)) finer.push_back(&other->field);
         CutOut none;
         if (finer.empty()) {
-            cuts.push_back(std::move(none));
+            cuts.grids.push_back(std::move(none));
             continue;
         }
         ORO_TRY(CutOut cut, cut_out(one->field, finer));
-        cuts.push_back(std::move(cut));
+        cuts.grids.push_back(std::move(cut));
     }
+    ORO_TRY(cuts.bridges, gap_bridges(region));
     return cuts;
 }
 
-Seam seam_between(const Region& region, const std::vector<CutOut>& cuts, double exaggeration) {
+Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggeration) {
     Seam seam;
     const std::vector<const Region*> grids = all_grids(region);
     for (std::size_t i = 0; i < grids.size(); ++i)
-        SeamBuilder(region, *grids[i], exaggeration).add(cuts[i], seam);
+        SeamBuilder(region, *grids[i], exaggeration).add(cuts.grids[i], seam);
+    add_bridges(grids, cuts.bridges, exaggeration, seam);
     return seam;
 }
 

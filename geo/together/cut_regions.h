@@ -6,16 +6,25 @@
 #include "core/seam/seam.h"
 #include "geo/region/region.h"
 #include "geo/together/cut_out.h"
+#include "geo/together/gap_bridges.h"
 
 namespace oro {
 
 // The grids of a region: its own, then those beside it.
 std::vector<const Region*> all_grids(const Region& region);
 
-// What is cut out of each of them by those with a smaller rank. Errors: as cut_out().
-Result<std::vector<CutOut>> cut_regions(const Region& region);
+// Those that cut a part out of one of them, in the order that CutOut counts them from 1.
+std::vector<const Region*> finer_than(const Region& region, const Region& one);
+
+// What makes the grids of a region one surface.
+struct RegionCuts {
+    std::vector<CutOut> grids;       // what is cut out of each (all_grids()) by those with a smaller rank
+    std::vector<GapBridge> bridges;  // ... and what joins those that lie beside each other
+};
+// Errors: as cut_out() and gap_bridges().
+Result<RegionCuts> cut_regions(const Region& region);
 
 // What is drawn between them.
-Seam seam_between(const Region& region, const std::vector<CutOut>& cuts, double exaggeration);
+Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggeration);
 
 }  // namespace oro

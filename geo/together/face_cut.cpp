@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -140,6 +141,34 @@ Result<std::vector<PlaneTriangle>> FaceCutter::triangles(const PlaneFace& face) 
     for (int i = 0; i < count; ++i) {
         const auto rings = geos_->rings(GEOSGetGeometryN_r(context, parts.get(), i));
         triangles.push_back({rings[0][0], rings[0][2], rings[0][1]});  // anticlockwise
+    }
+    return triangles;
+}
+
+Result<std::vector<std::array<std::size_t, 3>>> triangles_between(std::span<const glm::dvec2> points) {
+    std::vector<std::array<std::size_t, 3>> triangles;
+    if (points.size() < 3) return triangles;
+    const FaceCutter::Geos geos;
+    GEOSContextHandle_t context = geos.context.get();
+    const auto all = geos.own(geos.line(points));
+    if (!all) return geos.error();
+    const auto made = geos.own(GEOSDelaunayTriangulation_r(context, all.get(), 0.0, 0));
+    if (!made) return geos.error();
+    // Corners are the points themselves, to the bit.
+    std::map<std::pair<double, double>, std::size_t> number_of;
+    for (std::size_t i = 0; i < points.size(); ++i) number_of.try_emplace({points[i].x, points[i].y}, i);
+    const int count = GEOSGetNumGeometries_r(context, made.get());
+    for (int i = 0; i < count; ++i) {
+        const auto rings = geos.rings(GEOSGetGeometryN_r(context, made.get(), i));
+        if (rings.empty() || rings.front().size() != 4) continue;
+        std::array<std::size_t, 3> triangle{};
+        bool known = true;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const auto found = number_of.find({rings.front()[corner].x, rings.front()[corner].y});
+            known = known && found != number_of.end();
+            if (known) triangle[corner] = found->second;
+        }
+        if (known) triangles.push_back(triangle);
     }
     return triangles;
 }

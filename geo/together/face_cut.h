@@ -15,6 +15,10 @@ namespace oro {
 using PlaneLine = std::array<glm::dvec2, 2>;
 using PlaneTriangle = std::array<glm::dvec2, 3>;
 
+// The triangles between points so that no point lies in the circle around one of them (Delaunay), by the
+// points' numbers; of points at one place one counts. Anticlockwise where y goes up. Errors: what GEOS says.
+Result<std::vector<std::array<std::size_t, 3>>> triangles_between(std::span<const glm::dvec2> points);
+
 // A part of the triangle that no line crosses. Its rings are closed: the last point is the first. It lies on
 // the right hand of each of them.
 struct PlaneFace {
@@ -37,8 +41,9 @@ class FaceCutter {
     // Triangles that a face is made of, with all points of its rings as corners, and no others.
     Result<std::vector<PlaneTriangle>> triangles(const PlaneFace& face);
 
-  private:
     struct Geos;
+
+  private:
     std::unique_ptr<Geos> geos_;
     double snap_;
 };

@@ -91,7 +91,7 @@ Result<std::vector<DrawnPoint>> read_points(FrameRenderer& renderer, const Camer
     const int step = static_cast<int>(renderer.triangle_rows());
     for (int first = 0; first < tile.height_px; first += step) {
         const int rows = std::min(step, tile.height_px - first);
-        ORO_TRY(const std::vector<gpu::DrawnTriangle> triangles,
+        ORO_TRY(const std::vector<ShownTriangle> triangles,
                 renderer.read_triangles(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(rows)));
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const int x = tile.x_px + static_cast<int>(i) % tile.width_px;

@@ -112,23 +112,34 @@ std::uint32_t FrameRenderer::triangle_rows() const {
     return std::max(8U, pixels / options_.extent.width / 8U * 8U);
 }
 
-Result<std::vector<gpu::DrawnTriangle>> FrameRenderer::read_triangles(std::uint32_t first_row,
-                                                                      std::uint32_t rows) {
-    assert(options_.keep_triangles && first_row % triangle_rows() == 0 && rows <= triangle_rows());
+// What one of the frame's grids shows: the others' pixels are background to it.
+Result<void> FrameRenderer::add_triangles(std::uint32_t grid, std::uint32_t first_row, std::uint32_t rows,
+                                          std::vector<ShownTriangle>& shown) {
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-        grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        grids_[grid].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->triangles.get());
         vkCmdDispatchBase(commands, 0, first_row / 8, 0, (last_width_px_ + 7) / 8, (rows + 7) / 8, 1);
     }));
-    const std::size_t count = std::size_t{rows} * last_width_px_;
-    ORO_TRY(const std::vector<std::uint32_t> words,
-            read_words(triangles_, 0, count * sizeof(gpu::DrawnTriangle) / sizeof(std::uint32_t)));
-    std::vector<gpu::DrawnTriangle> triangles(count);
-    std::memcpy(triangles.data(), words.data(), count * sizeof(gpu::DrawnTriangle));
-    return triangles;
+    constexpr std::size_t words_each = sizeof(gpu::DrawnTriangle) / sizeof(std::uint32_t);
+    ORO_TRY(const std::vector<std::uint32_t> words, read_words(triangles_, 0, shown.size() * words_each));
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        gpu::DrawnTriangle triangle;
+        std::memcpy(&triangle, words.data() + i * words_each, sizeof(triangle));
+        if (grid == 0 || triangle.rows[0] != gpu::no_triangle) shown[i] = {triangle, grid};
+    }
+    return {};
+}
+
+Result<std::vector<ShownTriangle>> FrameRenderer::read_triangles(std::uint32_t first_row,
+                                                                 std::uint32_t rows) {
+    assert(options_.keep_triangles && first_row % triangle_rows() == 0 && rows <= triangle_rows());
+    std::vector<ShownTriangle> shown(std::size_t{rows} * last_width_px_);
+    for (std::uint32_t grid = 0; grid < last_grids_.size(); ++grid)
+        if (last_grids_[grid] != 0) ORO_CHECK(add_triangles(grid, first_row, rows, shown));
+    return shown;
 }
 
 Result<std::vector<std::uint32_t>> FrameRenderer::read_accepted(std::size_t pages) {

@@ -291,6 +291,8 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     for (std::size_t i = 0; i < plan.beside.size(); ++i)
         ORO_CHECK(upload(grids_[i + 1], plan.beside[i], false, asked));
     last_width_px_ = plan.constants.width_px;
+    last_grids_.assign(1, 1);
+    for (const FramePlan& other : plan.beside) last_grids_.push_back(other.pages.empty() ? 0 : 1);
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/frame/frame_plan.h"
+#include "core/measure/drawn_point.h"
 #include "render/device/resources.h"
 #include "render/frame/compute_raster.h"
 #include "render/frame/grid_frame.h"
@@ -74,7 +75,7 @@ class FrameRenderer {
     Result<std::vector<float>> read_depths(std::uint32_t width, std::uint32_t height);
     // With keep_triangles: what each pixel of some of its rows shows, row by row. first_row: a multiple of
     // triangle_rows(), which is the most that are read at a time.
-    Result<std::vector<gpu::DrawnTriangle>> read_triangles(std::uint32_t first_row, std::uint32_t rows);
+    Result<std::vector<ShownTriangle>> read_triangles(std::uint32_t first_row, std::uint32_t rows);
     [[nodiscard]] std::uint32_t triangle_rows() const;
     // Of each page of the last frame, 256 x 4 bits: the edges (shaders/choose/levels.glsl) of the nodes that
     // were drawn.
@@ -104,6 +105,8 @@ class FrameRenderer {
         DrapeStore* drape;
     };
     Result<void> upload(GridFrame& grid, FramePlan& plan, bool first, const FrameAsked& asked);
+    Result<void> add_triangles(std::uint32_t grid, std::uint32_t first_row, std::uint32_t rows,
+                               std::vector<ShownTriangle>& shown);
     Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
                                                   std::size_t count);
     void record(VkCommandBuffer commands, const FramePlan& plan);
@@ -138,6 +141,7 @@ class FrameRenderer {
     Buffer counts_read_;  // for the host
     Buffer recorded_;
     std::uint32_t last_width_px_{};
+    std::vector<char> last_grids_;  // of the last frame: 1 where a grid had pages in it
 };
 
 }  // namespace oro

@@ -8,7 +8,7 @@ namespace {
 
 // The rows of a tile that were read at a time.
 struct ReadRows {
-    const std::vector<gpu::DrawnTriangle>& triangles;
+    const std::vector<ShownTriangle>& triangles;
     int first;
     int count;
 };
@@ -38,7 +38,7 @@ Result<void> shown_ground(const Gpu& gpu, Scene& scene, const Camera& camera, co
     assert(step_px > 0);
     return shown_triangles(
         gpu, scene, camera, options,
-        [&](const Tile& tile, int first_row, int rows, const std::vector<gpu::DrawnTriangle>& triangles) {
+        [&](const Tile& tile, int first_row, int rows, const std::vector<ShownTriangle>& triangles) {
             tell_rows({triangles, first_row, rows}, camera, tile, step_px, sink);
         });
 }
@@ -66,7 +66,7 @@ Result<void> shown_triangles(const Gpu& gpu, Scene& scene, const Camera& camera,
             ORO_CHECK(renderer.draw(std::move(plan), gpu::FrameStyle{}));
             for (int first = 0; first < tile.height_px; first += rows_at_once) {
                 const int count = std::min(rows_at_once, tile.height_px - first);
-                ORO_TRY(const std::vector<gpu::DrawnTriangle> triangles,
+                ORO_TRY(const std::vector<ShownTriangle> triangles,
                         renderer.read_triangles(static_cast<std::uint32_t>(first),
                                                 static_cast<std::uint32_t>(count)));
                 sink(tile, first, count, triangles);

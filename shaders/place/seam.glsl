@@ -13,7 +13,10 @@ vec3 beside_quad(FramePage page, uvec2 post) {
 // first row, another for its second. position: from the eye, along the axes of ECEF, metres.
 vec3 gap_reach_m(FramePage page, uvec2 post, vec3 position) {
     uvec2 quad = quad_of_post(post);
-    precise float reach_m = max(FRAME.tau_px, least_gap_px) / FRAME.pixels_per_tangent * length(position);
+    // A metre is the more pixels the farther it lies from the picture's middle: levels leave out the less (levels.glsl).
+    precise float away_m = length(position), depth_m = -(FRAME.view_from_ecef * position).z;
+    precise float stretch = min(depth_m > 0.0 ? away_m * away_m / (depth_m * depth_m) : 1.0e30, 1.0 + FRAME.corner_tangent * FRAME.corner_tangent);
+    precise float reach_m = max(FRAME.tau_px, least_gap_px) / FRAME.pixels_per_tangent * away_m / stretch;
     return reach_m * beside_quad(page, quad + uvec2(2u, post.x == quad.x ? 1u : 2u));
 }
 

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
 #include "tests/support/test_data.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using oro::test::expect_refusal;
+using Words = std::vector<std::string>;
+using oro::test::object_said_by;
 using oro::test::Outcome;
 using oro::test::run_orograph;
 
@@ -91,15 +93,19 @@ TEST_F(FilesFarApart, AreListedAsRegionsOfTheirOwn) {
 }
 
 // What measures a picture does so on one grid yet: it refuses such a picture, and says why.
-TEST_F(FilesFarApart, AreNotMeasuredYet) {
+TEST_F(FilesFarApart, AreMeasured) {
     const fs::path both = folder_ / "both.png";
     const Outcome drawn = run_orograph({"shot", north_, south_, "--at", "46.5,8.5", "--above", "900",
                                         "--size", "80x60", "--out", both.string(), "-q"});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
-    expect_refusal(run_orograph({"compare", both.string()}), 2, {"both.png", "several grids"});
-    expect_refusal(
-        run_orograph({"shot", "--view", both.string(), "--verify", "--out", (folder_ / "x.png").string()}), 2,
-        {"both.png", "several grids"});
+    for (const Words& words : {Words{"compare", both.string(), "--json", "-q"},
+                               Words{"shot", "--view", both.string(), "--verify", "--json", "-q", "--out",
+                                     (folder_ / "x.png").string()}}) {
+        const json told = object_said_by(words);
+        EXPECT_GT(told["error"]["drawn_pixels"].get<int>(), 1000);
+        EXPECT_EQ(told["error"]["pixels_beyond_data"], 0);
+        EXPECT_LE(told["error"]["largest_px"].get<double>(), 1.0 + told["error"]["slack_px"].get<double>());
+    }
 }
 
 // What was measured was drawn as one grid, and is drawn again so.

@@ -1,8 +1,13 @@
 // Files that lie over each other with posts of their own: each is drawn as it is, the finer over the coarser.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -102,6 +107,117 @@ TEST_F(GridsOverEachOther, AreToldOneByOne) {
     EXPECT_EQ(told["apart"][0]["region"]["posts"]["rows"], 125);
     const json one = object_said_by({"info", coarse_, fine_, "--resample", "--json"});
     EXPECT_FALSE(one.contains("apart"));
+}
+
+// What is named first is the ground, however far apart its posts are.
+TEST_F(GridsOverEachOther, AreInTheOrderThatIsAskedFor) {
+    const std::string inside = "36.56,-84.265";
+    const double coarse_m = ground_H_m({coarse_}, inside), fine_m = ground_H_m({fine_}, inside);
+    EXPECT_NEAR(ground_H_m({coarse_, fine_, "--order", "listed"}, inside), coarse_m, 0.001);
+    EXPECT_NEAR(ground_H_m({fine_, coarse_, "--order", "listed"}, inside), fine_m, 0.001);
+    EXPECT_NEAR(ground_H_m({coarse_, fine_, "--order", "finest"}, inside), fine_m, 0.001);
+    const fs::path picture = folder_ / "listed.png", again = folder_ / "again.png";
+    ASSERT_EQ(run_orograph({"shot", coarse_, fine_, "--order", "listed", "--at", "36.53,-84.35", "--above",
+                            "900", "--heading", "70", "--size", "96x64", "-q", "--out", picture})
+                  .exit_code,
+              0);
+    EXPECT_EQ(json::parse(oro::test::view_in(picture))["order"], "listed");
+    ASSERT_EQ(run_orograph({"shot", "--view", picture, "-q", "--out", again}).exit_code, 0);
+    EXPECT_EQ(json::parse(oro::test::view_in(picture))["fingerprints"]["pixels"],
+              json::parse(oro::test::view_in(again))["fingerprints"]["pixels"]);
+    EXPECT_NE(
+        run_orograph({"info", coarse_, fine_, "--order", "listed"}).out.find("the one named first is drawn"),
+        std::string::npos);
+}
+
+// Against the oracle, which sees both grids and the step between them.
+TEST_F(GridsOverEachOther, AreMeasured) {
+    const fs::path picture = folder_ / "measured.png";
+    for (const char* pipeline : {"mesh", "compute"}) {
+        for (const char* tau : {"0.5", "2"}) {
+            const json told = object_said_by(
+                {"shot", coarse_,    fine_,    "--at",   "36.53,-84.35", "--above",    "400",    "--heading",
+                 "70",   "--fov",    "50",     "--size", "160x120",      "--pipeline", pipeline, "--tau",
+                 tau,    "--verify", "--json", "-q",     "--overwrite",  "--out",      picture});
+            const json& error = told["error"];
+            EXPECT_GT(error["drawn_pixels"].get<int>(), 8000);
+            EXPECT_GT(error["pixels_between_grids"].get<int>(), 10);
+            EXPECT_EQ(error["pixels_beyond_data"], 0);
+            EXPECT_LE(error["largest_px"].get<double>(), std::stod(tau) + error["slack_px"].get<double>());
+        }
+    }
+}
+
+// From west of the raised inset over its rim: the ground alone would leave the line free.
+TEST_F(GridsOverEachOther, HideWhatLiesBehindTheStep) {
+    const json alone = object_said_by({"sight", coarse_, "--from", "36.555,-84.33", "--to", "36.555,-84.28",
+                                       "--above", "900", "--target", "150", "--json", "-q"});
+    ASSERT_EQ(alone["visible"], true) << alone.dump(1);
+    // As high above sea level, over both.
+    const auto point = [&](const char* end) {
+        return "geo:" + std::to_string(alone[end]["lat_deg"].get<double>()) + "," +
+               std::to_string(alone[end]["lon_deg"].get<double>()) + "," +
+               std::to_string(alone[end]["h_m"].get<double>());
+    };
+    const json over = object_said_by(
+        {"sight", coarse_, fine_, "--from", point("from"), "--to", point("to"), "--json", "-q"});
+    const double free_m = alone["clearance"]["least_m"].get<double>();
+    std::printf("%f\n", free_m);
+    EXPECT_EQ(over["visible"], free_m > 115.0);
+}
+
+TEST_F(GridsOverEachOther, HaveAStepInTheirProfile) {
+    const fs::path csv = folder_ / "profile.csv";
+    ASSERT_EQ(run_orograph(
+                  {"profile", coarse_, fine_, "--along", "36.555,-84.33;36.555,-84.28", "-q", "--out", csv})
+                  .exit_code,
+              0);
+    std::ifstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    std::vector<std::string> names;
+    std::stringstream head(line);
+    for (std::string name; std::getline(head, name, ',');) names.push_back(name);
+    const auto column = [&](const std::string& name) {
+        return std::find(names.begin(), names.end(), name) - names.begin();
+    };
+    double step_m = 0.0, before_m = 0.0, at_m = -1.0e9;
+    while (std::getline(lines, line)) {
+        std::vector<double> values;
+        std::stringstream row(line);
+        for (std::string value; std::getline(row, value, ',');)
+            values.push_back(value.empty() ? 0.0 : std::stod(value));
+        const double along_m = values.at(static_cast<std::size_t>(column("distance_m"))),
+                     H_m = values.at(static_cast<std::size_t>(column("H_m")));
+        if (along_m - at_m < 0.1) step_m = std::max(step_m, std::abs(H_m - before_m));
+        at_m = along_m;
+        before_m = H_m;
+    }
+    // 100 m, but for what a cubic curve makes of the ground.
+    EXPECT_NEAR(step_m, 100.0, 15.0);
+}
+
+TEST_F(GridsOverEachOther, AreToldApartByLayers) {
+    const fs::path picture = folder_ / "layers.png";
+    const json told =
+        object_said_by({"shot",      coarse_,    fine_,     "--at", "36.53,-84.35", "--above", "900",
+                        "--heading", "70",       "--pitch", "-15",  "--size",       "96x64",   "--tau",
+                        "0",         "--layers", "--json",  "-q",   "--out",        picture});
+    ASSERT_EQ(told["sources"].size(), 2U);
+    const Outcome info = run_program({"gdalinfo", "-mm", (folder_ / "layers.source.tif").string()});
+    EXPECT_NE(info.out.find("Computed Min/Max=0.000,1.000"), std::string::npos) << info.out;
+    const Outcome heights = run_program({"gdalinfo", "-mm", (folder_ / "layers.height.tif").string()});
+    EXPECT_EQ(heights.exit_code, 0);
+}
+
+TEST_F(GridsOverEachOther, StandInPanoramasWithNames) {
+    const fs::path names = folder_ / "names.geojson", picture = folder_ / "around.png";
+    std::ofstream(names) << R"({"type":"FeatureCollection","features":[
+        {"type":"Feature","properties":{"name":"Inside"},"geometry":{"type":"Point","coordinates":[-84.30,36.555]}},
+        {"type":"Feature","properties":{"name":"Near"},"geometry":{"type":"Point","coordinates":[-84.34,36.535]}}]})";
+    const json told = object_said_by({"panorama", coarse_, fine_, "--at", "36.53,-84.37", "--above", "600",
+                                      "--width", "360", "--names", names, "--json", "-q", "--out", picture});
+    EXPECT_EQ(told["names"]["named"].size(), 2U) << told["names"].dump(1);
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ View view_from(double h_m, const Attitude& attitude) {
 }
 
 std::optional<SeenPlace> seen_in_middle(const View& view, const Region& region) {
-    const TrueSurface surface(region.field, view.exaggeration, 1);
-    return place_seen(view, region, surface, {50.5, 50.5}).value();
+    const auto ground = RegionGround::of(region, view.exaggeration).value();
+    return place_seen(view, *ground, {50.5, 50.5}).value();
 }
 
 TEST(Picking, StraightDown) {
@@ -51,7 +51,7 @@ TEST(Picking, StraightDown) {
     EXPECT_EQ(place->row, 4);
     EXPECT_EQ(place->column, 3);
     EXPECT_EQ(place->source, "folder/flat.tif");
-    const auto middle = place_in_middle(view, region).value();
+    const auto middle = place_in_middle(view, *RegionGround::of(region, 1.0).value()).value();
     ASSERT_TRUE(middle);
     EXPECT_EQ(middle->lat_deg, place->lat_deg);
     EXPECT_EQ(middle->lon_deg, place->lon_deg);
@@ -77,8 +77,8 @@ TEST(Picking, APointOfThePictureAsideOfItsMiddle) {
     View view = view_from(1150.0, {0.0, -90.0, 0.0});
     view.camera.vertical_fov_deg = 90.0;
     view.camera.width_px = view.camera.height_px = 100;
-    const TrueSurface surface(region.field, 1.0, 1);
-    const auto place = place_seen(view, region, surface, {75.0, 50.0}).value();
+    const auto ground = RegionGround::of(region, 1.0).value();
+    const auto place = place_seen(view, *ground, {75.0, 50.0}).value();
     ASSERT_TRUE(place);
     EXPECT_NEAR(place->lon_deg, 8.33 + 0.0065141, 1e-5);
     EXPECT_NEAR(place->lat_deg, 46.52, 1e-5);
@@ -134,7 +134,8 @@ TEST(Picking, GroundThatCannotBeReadIsNotNothing) {
     region.field.H_m.clear();
     region.field.posts = std::make_shared<UnreadablePosts>();
     region.field.range = HeightRange{100.0F, 100.0F, 0};
-    const auto middle = place_in_middle(view_from(1150.0, {0.0, -90.0, 0.0}), region);
+    const auto ground = RegionGround::of(region, 1.0).value();
+    const auto middle = place_in_middle(view_from(1150.0, {0.0, -90.0, 0.0}), *ground);
     ASSERT_FALSE(middle.ok());
     EXPECT_EQ(middle.error().line(), "flat.oro: is damaged at byte 4711: made up");
 }

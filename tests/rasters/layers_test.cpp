@@ -133,7 +133,8 @@ class LayersOfPictures : public test::GpuTest {
             view.model.air = air;
             Style style{};
             style.sun = {135.0, 20.0, {}};
-            const auto layers = picture_layers(*gpu_, *scene, view, region, style, RasterPath::compute, {});
+            const auto layers = picture_layers(*gpu_, *scene, view, *RegionGround::of(region, 1.0).value(),
+                                               style, RasterPath::compute, {});
             ASSERT_TRUE(layers.ok()) << layers.error().line();
             Tally tally;
             compare(*layers, surface, view, tally);
@@ -205,7 +206,8 @@ TEST_F(LayersOfPictures, OfCoarserPicturesLieOnTheirRays) {
     view.model.air = standard_air;
     Style style{};
     style.sun = {135.0, 20.0, {}};
-    const auto layers = picture_layers(*gpu_, *scene, view, region, style, RasterPath::compute, {});
+    const auto layers = picture_layers(*gpu_, *scene, view, *RegionGround::of(region, 1.0).value(), style,
+                                       RasterPath::compute, {});
     ASSERT_TRUE(layers.ok()) << layers.error().line();
     const Sight sight = sight_from(view.camera.eye, view.model.air);
     const double px_per_rad = height_px / (2.0 * view.camera.half_fov_tangent().y);

@@ -11,6 +11,7 @@
 
 #include "apps/drawing/region_scene.h"
 #include "apps/maps/ortho_map.h"
+#include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
 #include "tests/styles/drawn_style.h"
 
@@ -125,7 +126,8 @@ class OrthoMaps : public test::GpuTest {
             create_scene(*gpu_, region, 1.0, {}, {}, HeightStorage::f32, asks_for_means(style->frame));
         if (!scene.ok()) ADD_FAILURE() << scene.error().line();
         if (!scene.ok()) return map;
-        const auto report = draw_map(*gpu_, *scene, view, region, *style, RasterPath::compute,
+        const TrueSurface surface(region.field, 1.0, thread_count());
+        const auto report = draw_map(*gpu_, *scene, view, surface, *style, RasterPath::compute,
                                      [&](std::span<const std::uint8_t> row) {
                                          map.rgba.insert(map.rgba.end(), row.begin(), row.end());
                                          return Result<void>();

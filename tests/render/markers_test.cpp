@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "core/effects/effects.h"
 #include "core/measure/ground_error.h"
-#include "core/truth/effects.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/gpu_fixture.h"
 
@@ -235,7 +235,7 @@ class Markers : public test::GpuTest {
         for (const glm::ivec2& at : blob.pixels) {
             const std::size_t pixel = pixel_of(picture, at.x, at.y);
             const DrawnPoint& shown = picture.points[pixel];
-            const auto truth = meter.seen_m(shown.row, shown.column);
+            const auto truth = meter.seen_m(glm::dvec2(at) + 0.5, shown);
             const auto seen_at = truth ? project(to, to.view_from_ecef * *truth) : std::nullopt;
             ASSERT_TRUE(seen_at) << "px " << at.x << "," << at.y;
             const glm::dvec2 moved = glm::dvec2(at) + 0.5 - *seen_at;

@@ -7,45 +7,20 @@
 #include <limits>
 #include <random>
 
+#include "core/measure/picture_errors.h"
 #include "core/seam/seam_pages.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/ground.h"
 #include "geo/together/cut_regions.h"
+#include "geo/together/region_ground.h"
+#include "render/frame/depth_picture.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/net_terrain.h"
-#include "tests/support/rough_terrain.h"
+#include "tests/support/three_grids.h"
 
 namespace oro {
 namespace {
-
-// A grid on degrees, another turned over its middle with a step and holes, a third of closer posts over a
-// corner of that.
-Region three_grids(int coarse_posts) {
-    Region region;
-    region.field = test::rough_field(47.0, 8.0, coarse_posts, coarse_posts);
-    region.rank = 2;
-    const double middle = 0.5 * coarse_posts / 1200.0;
-    const auto over = [&](const test::PlaneOfPosts& plane, double step_m, int rank) {
-        Region other;
-        other.field = test::net_field(plane, [&](double row, double column) {
-            const PostPlace at = plane.place_of(row, column);
-            return static_cast<float>(test::rough_H_m(at.lat_deg, at.lon_deg) + step_m);
-        });
-        other.rank = rank;
-        region.beside.push_back(std::move(other));
-    };
-    const PostPlace at{47.0 - middle, 8.0 + middle};
-    over({81, 121, at, 40.0, 27.0}, 15.0, 1);
-    over({101, 91, {at.lat_deg + 0.008, at.lon_deg + 0.02}, 15.0, -51.0}, -10.0, 0);
-    HeightField& holed = region.beside[0].field;
-    for (const auto& [first_row, first_column] : {std::pair{20, 30}, std::pair{55, 100}, std::pair{0, 60}})
-        for (int row = first_row; row < first_row + 7; ++row)
-            for (int column = first_column; column < first_column + 9; ++column)
-                holed.H_m[static_cast<std::size_t>(row * holed.grid.columns() + column)] = void_height_m;
-    return region;
-}
 
 HeightField rest_of(const HeightField& field, const CutOut& cut) {
     HeightField rest = field;
@@ -75,7 +50,7 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         seam_ = seam_between(region_, cuts_, 1.0);
         std::vector<const Region*> grids = all_grids(region_);
         for (std::size_t i = 0; i < grids.size(); ++i) {
-            Scene scene = scene_of(pages_in_memory(rest_of(grids[i]->field, cuts_[i]), 1.0, 2));
+            Scene scene = scene_of(pages_in_memory(rest_of(grids[i]->field, cuts_.grids[i]), 1.0, 2));
             if (i == 0)
                 scene_.emplace(std::move(scene));
             else
@@ -131,7 +106,7 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
     }
 
     Region region_;
-    std::vector<CutOut> cuts_;
+    RegionCuts cuts_;
     Seam seam_;
     std::optional<Scene> scene_;
     std::optional<FrameRenderer> renderer_;
@@ -145,7 +120,7 @@ TEST_P(GridsTogether, LeaveNoGap) {
     const char* const asked = std::getenv("OROGRAPH_TEST_VIEWS");
     const int views = asked != nullptr ? std::max(1, std::atoi(asked)) : 500;
     std::mt19937 random(seed);
-    open(three_grids(700));
+    open(test::three_grids(700));
     std::size_t background = 0, pixels = 0;
     int shown = 0;
     for (int i = 0; i < views; ++i) {
@@ -162,6 +137,86 @@ TEST_P(GridsTogether, LeaveNoGap) {
     }
     std::printf("seed %u: %d views, %zu pixels, %zu of background; %zu pieces, %zu closers\n", seed, views,
                 pixels, background, seam_.pieces.size(), seam_.closers.size());
+    EXPECT_EQ(background, 0U);
+}
+
+// Two grids side by side, their rims one post apart, or less where they are turned; and a third whose posts
+// are the middles of its cells.
+Region beside_each_other() {
+    Region region;
+    region.field = test::rough_field(47.0, 8.0, 200, 200);
+    region.rank = 0;
+    const double east_deg = region.field.grid.east_deg(), step_deg = region.field.grid.lon.spacing_deg();
+    const auto add = [&](HeightField field, int rank) {
+        Region other;
+        other.field = std::move(field);
+        other.rank = rank;
+        region.beside.push_back(std::move(other));
+    };
+    add(test::rough_field(47.0 - 0.4 * step_deg, east_deg + 0.9 * step_deg, 200, 150), 1);
+    const PostPlace below{47.0 - 199.0 * step_deg - 1.2 * step_deg - 0.5 * 120 * 60.0 / 111'200.0,
+                          8.0 + 0.08};
+    const test::PlaneOfPosts plane{121, 181, below, 60.0, 0.0};
+    add(test::net_field(plane,
+                        [&](double row, double column) {
+                            const PostPlace at = plane.place_of(row, column);
+                            return static_cast<float>(test::rough_H_m(at.lat_deg, at.lon_deg));
+                        }),
+        2);
+    return region;
+}
+
+// No background shines through between grids that lie a post apart, and what is drawn there has no height
+// that the posts around have not.
+TEST_P(GridsTogether, JoinOverGaps) {
+    constexpr unsigned seed = 84;
+    std::mt19937 random(seed);
+    open(beside_each_other());
+    ASSERT_GT(cuts_.bridges.size(), 300U);
+    const std::vector<const Region*> grids = all_grids(region_);
+    double longest_m = 0.0;
+    std::size_t over_ground = 0;
+    for (const GapBridge& bridge : cuts_.bridges) {
+        glm::dvec3 middle(0.0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto place = [&](const BridgePost& post) {
+                return post_ecef(grids[post.grid]->field, post.post.row, post.post.column, 0.0).m;
+            };
+            longest_m =
+                std::max(longest_m, glm::length(place(bridge.posts[i]) - place(bridge.posts[(i + 1) % 3])));
+            middle += place(bridge.posts[i]) / 3.0;
+        }
+        const Geodetic at = geodetic_from_ecef({middle});
+        for (const Region* const grid : grids)
+            over_ground += ground_h_m(grid->field, at.lat_deg, at.lon_deg) ? 1U : 0U;
+    }
+    std::size_t background = 0, pixels = 0;
+    for (int i = 0; i < 200; ++i) {
+        // Over the joint between the first two, and that below the first; not near its ends.
+        const bool east = random() % 2 == 0;
+        const double share = std::uniform_real_distribution<double>(0.25, 0.75)(random);
+        const PostGrid& grid = region_.field.grid;
+        const double lat_deg = east ? std::lerp(grid.south_deg(), grid.north_deg(), share)
+                                    : grid.south_deg() - 0.0005,
+                     lon_deg =
+                         east ? grid.east_deg() + 0.0004 : std::lerp(grid.west_deg(), grid.east_deg(), share);
+        Camera camera;
+        const double above_m =
+            std::exp(std::uniform_real_distribution<double>(std::log(20.0), std::log(1500.0))(random));
+        camera.eye = {lat_deg, lon_deg, test::rough_H_m(lat_deg, lon_deg) + above_m};
+        camera.attitude = {std::uniform_real_distribution<double>(0.0, 360.0)(random), -90.0, 0.0};
+        camera.vertical_fov_deg = 35.0;
+        camera.width_px = camera.height_px = 64;
+        const double taus[] = {0.0, 0.5, 1.0, 4.0};
+        const std::vector<float> drawn = depths(camera, taus[random() % 4]);
+        background += static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), 0.0F));
+        pixels += drawn.size();
+    }
+    std::printf(
+        "seed %u: %zu bridges, sides of at most %.1f m, %zu over ground; %zu pixels, %zu of background\n",
+        seed, cuts_.bridges.size(), longest_m, over_ground, pixels, background);
+    EXPECT_EQ(over_ground, 0U);
+    EXPECT_LT(longest_m, std::hypot(2.0, 1.0) * 92.8);
     EXPECT_EQ(background, 0U);
 }
 
@@ -183,12 +238,12 @@ double hit(const Triangle& triangle, const glm::dvec3& ray) {
 
 // All that is drawn at full resolution, from an eye: the three grids' own triangles, whole or left out, and
 // the seam.
-std::vector<Triangle> all_triangles(const Region& region, const std::vector<CutOut>& cuts, const Seam& seam,
+std::vector<Triangle> all_triangles(const Region& region, const RegionCuts& cuts, const Seam& seam,
                                     const glm::dvec3& eye) {
     std::vector<Triangle> all;
     const std::vector<const Region*> grids = all_grids(region);
     for (std::size_t grid = 0; grid < grids.size(); ++grid) {
-        const HeightField rest = rest_of(grids[grid]->field, cuts[grid]);
+        const HeightField rest = rest_of(grids[grid]->field, cuts.grids[grid]);
         const auto there = [&](int row, int column) { return !is_void(rest.H_at_post_m(row, column)); };
         const auto at = [&](int row, int column) { return post_ecef(rest, row, column, 1.0).m - eye; };
         for (int row = 0; row + 1 < rest.grid.rows(); ++row) {
@@ -217,7 +272,7 @@ TEST_P(GridsTogether, AreWhatBruteForceFinds) {
     constexpr unsigned seed = 82;
     constexpr int side_px = 40;
     std::mt19937 random(seed);
-    open(three_grids(90));
+    open(test::three_grids(90));
     std::size_t pixels = 0, off = 0, beyond = 0;
     for (int i = 0; i < 12; ++i) {
         Camera camera = camera_over_rim(random, side_px, 1500.0);
@@ -271,6 +326,49 @@ TEST_P(GridsTogether, AreWhatBruteForceFinds) {
                 pixels, off, beyond);
     EXPECT_EQ(beyond, 0U);
     EXPECT_LE(off, pixels / 100);
+}
+
+// Each picture is as near to the truth of all three grids, with their steps, as tau says.
+TEST_P(GridsTogether, AreWithinTauOfTheTruth) {
+    constexpr unsigned seed = 83;
+    constexpr int views = 24;
+    std::mt19937 random(seed);
+    open(test::three_grids(300));
+    const auto grounds = RegionGround::of(region_, cuts_, 1.0);
+    ASSERT_TRUE(grounds.ok()) << grounds.error().line();
+    DepthPainter painter(*gpu_, GetParam());
+    std::size_t pixels = 0, between = 0, beyond = 0, other = 0;
+    double worst_share = 0.0;
+    for (int i = 0; i < views; ++i) {
+        Camera camera = camera_over_rim(random, 64, 3000.0);
+        camera.attitude.pitch_deg = std::uniform_real_distribution<double>(-80.0, -5.0)(random);
+        const double taus[] = {0.0, 0.5, 1.0, 2.0, 4.0};
+        DepthPictureOptions options;
+        options.tau_px = taus[i % 5];
+        const auto picture = painter.draw(*scene_, camera, plain_style(), options);
+        ASSERT_TRUE(picture.ok()) << picture.error().line();
+        const Sight sight = sight_from(camera.eye);
+        const TruePicture truth((*grounds)->ground(), sight, camera, 2);
+        const PictureErrors errors = picture_errors(truth, picture->points, picture->skylines(), 2);
+        const double allowed_px = options.tau_px + errors.slack_px;
+        worst_share = std::max(worst_share, errors.largest_px() / allowed_px);
+        pixels += errors.ground.drawn;
+        between += errors.ground.between;
+        beyond += errors.ground.beyond_data;
+        other += errors.seen.other;
+        EXPECT_LE(errors.largest_px(), allowed_px)
+            << "view " << i << ", tau " << options.tau_px << ": displacement "
+            << errors.ground.summary_displacement_px.largest << ", surface "
+            << errors.ground.summary_surface_px.largest << ", seen " << errors.seen.summary_px.largest
+            << ", skyline " << errors.skyline.summary_px.largest << "; eye " << camera.eye.lat_deg << ", "
+            << camera.eye.lon_deg << ", h " << camera.eye.h_m;
+    }
+    std::printf(
+        "seed %u: %d views, %zu pixels of ground, %zu on steps, %zu without true ground, %zu across an edge; "
+        "largest error %.2f of what is allowed\n",
+        seed, views, pixels, between, beyond, other, worst_share);
+    EXPECT_GT(between, 100U);
+    EXPECT_EQ(beyond, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, GridsTogether, ::testing::Values(RasterPath::mesh, RasterPath::compute),

@@ -38,8 +38,9 @@ class Areas : public test::StyleTest {
             rgb.insert(rgb.end(), row.begin(), row.end());
             return Result<void>();
         };
+        const TrueSurface surface(region.field, 1.0, thread_count());
         const auto picture =
-            render_labelled(*gpu_, *scene, view, region.field, *style, RasterPath::compute, take, {});
+            render_labelled(*gpu_, *scene, view, surface, *style, RasterPath::compute, take, {});
         EXPECT_TRUE(picture.ok()) << picture.error().line();
         return rgb;
     }

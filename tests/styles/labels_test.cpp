@@ -100,7 +100,8 @@ class Labels : public test::StyleTest {
             bytes.insert(bytes.end(), row.begin(), row.end());
             return Result<void>();
         };
-        auto picture = render_labelled(*gpu_, *scene, view, region.field, *style, path, take, {});
+        const TrueSurface surface(region.field, 1.0, thread_count());
+        auto picture = render_labelled(*gpu_, *scene, view, surface, *style, path, take, {});
         EXPECT_TRUE(picture.ok()) << picture.error().line();
         if (!picture.ok()) return std::nullopt;
         interval_m_ = static_cast<double>(style->frame.contours.interval_m);
@@ -210,9 +211,10 @@ TEST_F(Labels, AreTheSameInTilesAndNoneWhereTheyAreOff) {
     auto scene = create_scene(*gpu_, region, 1.0, MemoryOptions{});
     ASSERT_TRUE(scene.ok());
     PictureOptions options = picture_options(view, RasterPath::compute);
-    const auto whole = seen_heights(*gpu_, *scene, view.camera, options, 1.0, region.field);
+    const TrueSurface surface(region.field, 1.0, thread_count());
+    const auto whole = seen_heights(*gpu_, *scene, view.camera, options, surface);
     options.largest_tile_px = 100;
-    const auto tiles = seen_heights(*gpu_, *scene, view.camera, options, 1.0, region.field);
+    const auto tiles = seen_heights(*gpu_, *scene, view.camera, options, surface);
     ASSERT_TRUE(whole.ok() && tiles.ok());
     std::size_t differ = 0;
     for (std::size_t i = 0; i < whole->H_m.size(); ++i)

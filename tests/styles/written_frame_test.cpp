@@ -59,7 +59,7 @@ class WrittenFrame : public test::StyleTest {
         if (written) {
             const TrueSurface surface(field, 1.0, thread_count());
             const auto done =
-                write_over_frame(*gpu_, scene, view, field, surface, style, RasterPath::compute, *renderer);
+                write_over_frame(*gpu_, scene, view, surface, style, RasterPath::compute, *renderer);
             EXPECT_TRUE(done.ok()) << done.error().line();
         }
         auto rgba = renderer->read_picture(options.extent.width, options.extent.height);
@@ -82,8 +82,8 @@ TEST_F(WrittenFrame, IsThePictureOfTheView) {
         picture.insert(picture.end(), row.begin(), row.end());
         return Result<void>();
     };
-    const auto drawn =
-        render_labelled(*gpu_, *scene, view, region.field, *style, RasterPath::compute, take, {});
+    const TrueSurface surface(region.field, 1.0, thread_count());
+    const auto drawn = render_labelled(*gpu_, *scene, view, surface, *style, RasterPath::compute, take, {});
     ASSERT_TRUE(drawn.ok()) << drawn.error().line();
     EXPECT_FALSE(drawn->labels.empty());
     EXPECT_EQ(drawn->overlay.lines, 1U);

@@ -144,7 +144,7 @@ std::string note_of_skyline(const Elevations& found) {
 }
 
 // Completes the view's frame and its camera, which stands for the scene until the sheet is laid out.
-Result<void> set_frame(const AskedFrame& asked, const TrueSurface& surface, View& view, std::string& note) {
+Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, View& view, std::string& note) {
     PanoramaFrame frame = view.panorama.value_or(PanoramaFrame{});
     if (asked.sector) {
         frame.from_deg = asked.sector->first;
@@ -154,7 +154,7 @@ Result<void> set_frame(const AskedFrame& asked, const TrueSurface& surface, View
         frame.low_deg = asked.elevation->first;
         frame.high_deg = asked.elevation->second;
     } else if (!view.panorama) {
-        const Elevations found = elevations_for(surface, view.camera.eye, view.model, frame.from_deg,
+        const Elevations found = elevations_for(ground, view.camera.eye, view.model, frame.from_deg,
                                                 frame.sweep_deg, thread_count());
         frame.low_deg = found.low_deg;
         frame.high_deg = found.high_deg;
@@ -197,21 +197,23 @@ void say_notes_of(const PanoramaOptions& options, const PanoramaReport& report) 
     if (report.view.vectors_read) say_vectors(*report.view.vectors_read, report.view.vectors, options.quiet);
 }
 
-Result<void> draw(const PanoramaOptions& options, const TrueSurface& surface, const Style& style,
-                  ProgressBar& bar, PanoramaReport& report) {
+Result<void> draw(const PanoramaOptions& options, const RegionGround& ground, const RegionCuts& cuts,
+                  const Style& style, ProgressBar& bar, PanoramaReport& report) {
     const View& view = report.view;
     const auto drawing = Clock::now();
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(std::unique_ptr<RegionPages> pages,
-            region_pages(report.region, view.exaggeration,
+            region_pages(report.region, cuts.grids.front(), view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
-    ORO_TRY(Scene scene, create_scene(*gpu, std::move(pages), memory_of_pages(view, options.memory),
-                                      view.heights, asks_for_means(style.frame)));
+    ORO_TRY(RegionScene whole, scene_of_region(*gpu, report.region, cuts, std::move(pages),
+                                               {view.exaggeration, memory_of_pages(view, options.memory),
+                                                view.heights, asks_for_means(style.frame)}));
+    Scene& scene = whole.scene;
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
     ORO_CHECK(lay_images(view, report.region, options.memory, *gpu, scene, options.quiet));
-    ORO_TRY(report.scene, draw_scene(view, report.region, surface, report.laid.around, *gpu, scene, style,
-                                     [&](double share) { bar.show(share, "drawing"); }));
+    ORO_TRY(report.scene, draw_scene(view, report.region, ground.ground(), report.laid.around, *gpu, scene,
+                                     style, [&](double share) { bar.show(share, "drawing"); }));
     report.draw_s = seconds_since(drawing);
     return {};
 }
@@ -239,7 +241,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     View& view = report.view;
     const auto reading = Clock::now();
     ORO_CHECK(open_view(
-        options.view_file, with_air(options), options.region,
+        options.view_file, with_air(options), of_grids(options.region),
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
         report.region, PictureKind::panorama));
     ORO_CHECK(check_unchanged(view, report.region, options.data_changed, options.quiet));
@@ -249,16 +251,17 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     report.read_s = seconds_since(reading);
     bar.show(0.0, "looking around");
     const auto looking = Clock::now();
-    const TrueSurface surface(report.region.field, view.exaggeration, thread_count());
+    ORO_TRY(const RegionCuts cuts, cut_regions(report.region));
+    ORO_TRY(const auto ground, RegionGround::of(report.region, cuts, view.exaggeration));
     std::string note;
-    ORO_CHECK(set_frame(asked, surface, view, note));
+    ORO_CHECK(set_frame(asked, ground->ground(), view, note));
     ORO_TRY(const Style style, style_of(view, report.region));
     bar.clear();
     say_notes_of(options, report);
     if (!note.empty()) say(options.quiet, "note: " + note);
-    ORO_TRY(report.laid, lay_out(view, report.region, surface));
+    ORO_TRY(report.laid, lay_out(view, report.region, ground->ground()));
     report.layout_s = seconds_since(looking);
-    ORO_CHECK(draw(options, surface, style, bar, report));
+    ORO_CHECK(draw(options, *ground, cuts, style, bar, report));
     if (report.scene.report.ground_px == 0) {
         ORO_TRY(const std::string nothing, nothing_in_view(view, report.region, options.view_file));
         say(options.quiet, "note: " + nothing);

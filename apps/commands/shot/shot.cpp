@@ -38,13 +38,20 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
     if (shot.view.vectors_read) say_vectors(*shot.view.vectors_read, shot.view.vectors, options.quiet);
     const Geodetic& eye = shot.view.camera.eye;
-    const auto ground = ground_h_m(shot.region.field, eye.lat_deg, eye.lon_deg, shot.view.exaggeration);
+    const auto ground = ground_h_m(region_at(shot.region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg,
+                                   eye.lon_deg, shot.view.exaggeration);
     if (ground && eye.h_m < *ground) {
         char text[80];
         std::snprintf(text, sizeof text, "note: the eye is %.1f m below the ground", *ground - eye.h_m);
         say(options.quiet, text);
     }
 }
+
+// What a region's grids leave of each other, and the ground that they make.
+struct ShotGround {
+    RegionCuts cuts;
+    std::unique_ptr<const RegionGround> grids;
+};
 
 // Measures what was drawn, the same way, and makes the picture of its errors, which has no name yet.
 Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu,
@@ -62,12 +69,12 @@ Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& fi
 
 // The layers of what was drawn, the same way; files without names yet.
 Result<std::vector<WholeFile>> layers_of(const ShotOptions& options, const PictureFiles& files,
-                                         const Gpu& gpu, Scene& scene, const Style& style, ProgressBar& bar,
-                                         ShotResult& shot) {
+                                         const ShotGround& ground, const Gpu& gpu, Scene& scene,
+                                         const Style& style, ProgressBar& bar, ShotResult& shot) {
     const auto start = Clock::now();
     ORO_TRY(const RasterPath path, choose_path(shot.view.pipeline, gpu));
     ORO_TRY(const PictureLayers layers,
-            picture_layers(gpu, scene, shot.view, shot.region, style, path,
+            picture_layers(gpu, scene, shot.view, *ground.grids, style, path,
                            [&](double share) { bar.show(share, "measuring layers"); }));
     shot.layers = LayersReport{layers.ground_px, layers.beside_px};
     ORO_TRY(std::vector<WholeFile> written,
@@ -121,8 +128,9 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
 }
 
 // Plans and draws; nothing is written when nothing of the region can be in view.
-Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu,
-                               Scene& scene, const Style& style, ProgressBar& bar, ShotResult& shot) {
+Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& files,
+                               const RegionGround& ground, const Gpu& gpu, Scene& scene, const Style& style,
+                               ProgressBar& bar, ShotResult& shot) {
     const auto drawing = Clock::now();
     const Camera& camera = shot.view.camera;
     // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
@@ -131,12 +139,9 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
         ORO_TRY(const FramePlan first,
                 scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, shot.view.tau_px,
                            shot.view.model));
-        const bool any =
-            first.pages_wanted > 0 ||
-            std::ranges::any_of(first.beside, [](const FramePlan& plan) { return plan.pages_wanted > 0; });
-        if (!any && !nothing.ok()) return nothing.error();
+        if (!first.wants_pages() && !nothing.ok()) return nothing.error();
     }
-    ORO_TRY(shot.middle, place_in_middle(shot.view, shot.region));
+    ORO_TRY(shot.middle, place_in_middle(shot.view, ground));
     std::vector<std::uint8_t> strip;
     if (shot.view.legend) {
         ORO_TRY(strip, legend_strip(shot.view, shot.region, style, shot.middle));
@@ -146,7 +151,7 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     BesidePicture beside(checks ? files.picture : "", shot.view);
     ORO_TRY(DrawnPicture picture,
             draw_picture(
-                checks ? unnamed(files) : files, options.overwrite || checks, shot.view, shot.region,
+                checks ? unnamed(files) : files, options.overwrite || checks, shot.view, shot.region, ground,
                 shot.middle, gpu, scene, style, strip, [&](double share) { bar.show(share, "drawing"); },
                 [&](std::span<const std::uint8_t> row) { return beside.take(row), Result<void>(); }));
     shot.beside = beside.found();
@@ -191,39 +196,35 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
 
 // The region, ready to be drawn; what --tolerance chooses is chosen.
 Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
-                       ProgressBar& bar, ShotResult& shot) {
+                       const ShotGround& ground, ProgressBar& bar, ShotResult& shot) {
     const auto start = Clock::now();
-    ORO_TRY(const std::vector<CutOut> cuts, cut_regions(shot.region));
     ORO_TRY(std::unique_ptr<RegionPages> pages,
-            region_pages(shot.region, cuts.front(), shot.view.exaggeration,
+            region_pages(shot.region, ground.cuts.grids.front(), shot.view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
     if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
     if (!shot.view.map) {
-        const Geodetic& eye = shot.view.camera.eye;
-        ORO_TRY(shot.unseen,
-                unseen_in(shot.view, widest_at(shot.region, eye.lat_deg, eye.lon_deg), ceiling_m));
+        ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
-    ORO_TRY(Scene scene,
-            create_scene(gpu, std::move(pages), memory_of_pages(shot.view, options.memory), shot.view.heights,
-                         asks_for_means(style.frame), 1U + static_cast<unsigned>(shot.region.beside.size())));
+    ORO_TRY(RegionScene whole,
+            scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
+                            {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
+                             shot.view.heights, asks_for_means(style.frame)}));
+    Scene& scene = whole.scene;
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
     shot.has_means = asks_for_means(style.frame) && scene.pages().knows_means();
     ORO_CHECK(lay_images(shot.view, shot.region, options.memory, gpu, scene, options.quiet));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
-    ORO_TRY(const std::uint64_t beside, draw_beside(gpu, shot.region, cuts, shot.view.exaggeration,
-                                                    memory_of_pages(shot.view, options.memory),
-                                                    shot.view.heights, asks_for_means(style.frame), scene));
-    shot.triangles_at_full_resolution = scene.pages().facts().triangles + beside;
+    shot.triangles_at_full_resolution = whole.triangles;
     shot.times.pages_s = seconds_since(start);
-    return scene;
+    return std::move(whole.scene);
 }
 
 // The files beside the picture, as they are asked for: without names yet.
 Result<std::vector<WholeFile>> files_beside(const ShotOptions& options, const PictureFiles& files,
-                                            const Gpu& gpu, Scene& scene, const Style& style,
-                                            ProgressBar& bar, ShotResult& shot) {
+                                            const ShotGround& ground, const Gpu& gpu, Scene& scene,
+                                            const Style& style, ProgressBar& bar, ShotResult& shot) {
     std::vector<WholeFile> beside;
     if (shot.view.map && !is_check(options, files)) {
         ORO_TRY(WholeFile world, WholeFile::create(world_file_path(files.picture), options.overwrite));
@@ -232,7 +233,7 @@ Result<std::vector<WholeFile>> files_beside(const ShotOptions& options, const Pi
         beside.push_back(std::move(world));
     }
     if (options.layers) {
-        ORO_TRY(beside, layers_of(options, files, gpu, scene, style, bar, shot));
+        ORO_TRY(beside, layers_of(options, files, ground, gpu, scene, style, bar, shot));
     }
     if (options.verify) {
         bar.show(1.0, "measuring errors");
@@ -250,10 +251,14 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     bar.clear();
     say_notes(options, shot);
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
-    ORO_TRY(Scene scene, scene_of(options, ceiling_m, *gpu, style, bar, shot));
-    ORO_TRY(DrawnPicture picture, draw_shot(options, files, *gpu, scene, style, bar, shot));
+    ShotGround ground;
+    ORO_TRY(ground.cuts, cut_regions(shot.region));
+    ORO_TRY(ground.grids, RegionGround::of(shot.region, ground.cuts, shot.view.exaggeration));
+    ORO_TRY(Scene scene, scene_of(options, ceiling_m, *gpu, style, ground, bar, shot));
+    ORO_TRY(DrawnPicture picture, draw_shot(options, files, *ground.grids, *gpu, scene, style, bar, shot));
     const bool checks = is_check(options, files);
-    ORO_TRY(std::vector<WholeFile> beside, files_beside(options, files, *gpu, scene, style, bar, shot));
+    ORO_TRY(std::vector<WholeFile> beside,
+            files_beside(options, files, ground, *gpu, scene, style, bar, shot));
     bar.clear();
     const Result<void> finished =
         finish_shot(options, files, shot, std::move(picture.file), std::move(beside));
@@ -271,9 +276,8 @@ Result<void> run_shot(const ShotOptions& asked) {
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
     options.view.takes_maps = true;
-    // What these measure is measured on one grid.
-    options.region.grids_apart =
-        !options.verify && !options.layers && !options.view.tolerance && !options.ortho;
+    // What is predicted is predicted of one grid.
+    options.region.grids_apart = !options.view.tolerance && !options.ortho;
     if (!options.view_file.empty()) {
         ORO_TRY(const View told, read_view(options.view_file));
         options.ortho = told.map.has_value();

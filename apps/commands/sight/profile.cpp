@@ -54,7 +54,7 @@ Result<void> check_length(const ProfileOptions& options, const LineAlong& line) 
 }
 
 std::vector<ProfilePoint> points_of(const LineAlong& line, const std::optional<double>& step_m,
-                                    const TrueSurface& surface) {
+                                    const TrueGround& ground) {
     std::vector<ProfilePoint> points;
     const double length_m = line.distances_m.back();
     if (step_m) {
@@ -62,7 +62,7 @@ std::vector<ProfilePoint> points_of(const LineAlong& line, const std::optional<d
         for (std::size_t i = 0; i <= steps; ++i) {
             const double along_m = i == steps ? length_m : static_cast<double>(i) * *step_m;
             const LatLon place = place_on_line(line, along_m);
-            points.push_back(profile_point(surface, {place.lat_deg, place.lon_deg, 0.0}, along_m));
+            points.push_back(profile_point(ground, {place.lat_deg, place.lon_deg, 0.0}, along_m));
         }
         return points;
     }
@@ -76,7 +76,7 @@ std::vector<ProfilePoint> points_of(const LineAlong& line, const std::optional<d
             const LatLon place = place_on_leg(line, leg, along_m);
             return Geodetic{place.lat_deg, place.lon_deg, 0.0};
         };
-        if (to_m > from_m) add_profile(surface, way, from_m, to_m, points);
+        if (to_m > from_m) add_profile(ground, way, from_m, to_m, points);
     }
     return points;
 }
@@ -97,7 +97,8 @@ Result<void> run_profile(const ProfileOptions& options) {
     ORO_TRY(profile.line, line_along(options.along, options.line));
     ORO_CHECK(check_length(options, profile.line));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
+    ORO_TRY(const auto ground,
+            open_sight_ground(of_grids(options.region), [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
     if (!options.out.empty()) {
@@ -106,8 +107,8 @@ Result<void> run_profile(const ProfileOptions& options) {
             ORO_CHECK(spare_files({options.out}, {profile.line.file}, "which the line is read from"));
     }
     bar.show(1.0, "following the line");
-    profile.points = points_of(profile.line, options.step_m, *ground->surface);
-    ORO_CHECK(ground->region.field.health());
+    profile.points = points_of(profile.line, options.step_m, ground->ground());
+    ORO_CHECK(ground->region.health());
     profile.sums = sums_of(profile.points);
     bar.clear();
     if (!profile.sums.highest) {

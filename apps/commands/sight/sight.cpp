@@ -21,7 +21,7 @@ SightReport look(const Geodetic& from, const Geodetic& to, const Air& air, const
     report.to = to;
     report.air = air;
     report.path = geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg);
-    const Lookout lookout(*ground.surface, from, air);
+    const Lookout lookout(ground.ground(), from, air);
     const glm::dvec3 offset_m = ecef_from_geodetic(to).m - lookout.sight().eye.m;
     report.slant_m = glm::length(offset_m);
     const glm::dvec3 seen_m = lookout.sight().refraction.apparent_m(offset_m);
@@ -34,7 +34,7 @@ SightReport look(const Geodetic& from, const Geodetic& to, const Air& air, const
     report.obstacle_distance_m =
         geodesic_between(from.lat_deg, from.lon_deg, at.lat_deg, at.lon_deg).distance_m;
     report.target_missed_by_m = lookout.missed_by_m(to);
-    report.eye_missed_by_m = eye_missed_by_m(*ground.surface, from, air, to);
+    report.eye_missed_by_m = eye_missed_by_m(ground.ground(), from, air, to);
     return report;
 }
 
@@ -50,7 +50,8 @@ Result<void> run_sight(const SightOptions& options) {
     }
     ORO_TRY(const Air air, air_asked_for(options.air.refraction_k, options.air.air, standard_air));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
+    ORO_TRY(const auto ground,
+            open_sight_ground(of_grids(options.region), [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
     ORO_TRY(const Geodetic from,
@@ -61,7 +62,7 @@ Result<void> run_sight(const SightOptions& options) {
                                                  *ground));
     bar.show(1.0, "looking");
     const SightReport report = look(from, to, air, *ground);
-    ORO_CHECK(ground->region.field.health());
+    ORO_CHECK(ground->region.health());
     bar.clear();
     if (report.slant_m <= least_above_m)
         return refused("--to", options.to, "is where --from is: there is no line between them");

@@ -8,17 +8,16 @@
 #include "apps/report/json_object.h"
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
-#include "core/base/parallel.h"
 #include "core/sight/lookout.h"
 
 namespace oro {
 
 double SightGround::H_m(const Geodetic& point) const {
-    return point.h_m - region.field.undulation.at_m(point.lat_deg, point.lon_deg);
+    return point.h_m - ground().N_m(point.lat_deg, point.lon_deg);
 }
 
 std::optional<double> SightGround::above_m(const Geodetic& point) const {
-    const std::optional<double> ground_m = surface->h_m(point.lat_deg, point.lon_deg);
+    const std::optional<double> ground_m = ground().h_m(point.lat_deg, point.lon_deg);
     if (!ground_m) return std::nullopt;
     return point.h_m - *ground_m;
 }
@@ -28,7 +27,7 @@ Result<std::unique_ptr<const SightGround>> open_sight_ground(const RegionOptions
     ORO_TRY(const RegionRequest request, region_request(options));
     auto ground = std::make_unique<SightGround>();
     ORO_TRY(ground->region, open_region(request, progress));
-    ground->surface = std::make_unique<const TrueSurface>(ground->region.field, 1.0, thread_count());
+    ORO_TRY(ground->grids, RegionGround::of(ground->region, 1.0));
     return std::unique_ptr<const SightGround>(std::move(ground));
 }
 
@@ -41,7 +40,9 @@ Result<void> check_above(const char* option, const std::optional<double>& above_
 
 Result<Geodetic> point_over_ground(const Standing& standing, const SightGround& ground) {
     ORO_CHECK(check_above(standing.above_option, standing.above_m));
-    ORO_TRY(Geodetic point, standpoint(standing, ground.region.field));
+    ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
+    const Region& there = region_at(ground.region, place.lat_deg, place.lon_deg);
+    ORO_TRY(Geodetic point, standpoint(standing, there.field));
     if (!view_limits::sight_h_m.hold(point.h_m)) {
         char text[120];
         std::snprintf(text, sizeof text, "would be at h %g m, not between %g and %g", point.h_m,

@@ -9,15 +9,18 @@
 
 #include "apps/commands/options.h"
 #include "apps/eye/standpoint.h"
-#include "core/truth/true_surface.h"
-#include "geo/region/region.h"
+#include "core/truth/true_ground.h"
+#include "geo/together/region_ground.h"
 
 namespace oro {
 
-// A region and its full resolution. Stays where it is: the surface holds on to the field.
+// A region and its full resolution. Stays where it is: the ground holds on to the region.
 struct SightGround {
     Region region;
-    std::unique_ptr<const TrueSurface> surface;
+    std::unique_ptr<const RegionGround> grids;
+    [[nodiscard]] const TrueGround& ground() const { return grids->ground(); }
+    // Of a region of one grid.
+    [[nodiscard]] const TrueSurface& surface() const { return ground().surface(0); }
     // H of a point: above the geoid (of the region, as everywhere).
     [[nodiscard]] double H_m(const Geodetic& point) const;
     // Height of a point over the ground below it; nothing where there is none.

@@ -241,7 +241,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
         const ViewshedRequest request{report.eyes[i], report.air, report.target_m, report.radius_km * 1000.0,
                                       thread_count()};
         const auto of_all = static_cast<double>(report.eyes.size());
-        take_in(viewshed(*ground->surface, request,
+        take_in(viewshed(ground->surface(), request,
                          [&](double share) {
                              bar.show((static_cast<double>(i) + share) / of_all, "looking around");
                          }),

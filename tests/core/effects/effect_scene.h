@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/truth/effects.h"
+#include "core/effects/effects.h"
 #include "tests/core/truth/world_field.h"
 
 namespace oro::test {

@@ -6,9 +6,9 @@
 #include <glm/mat3x3.hpp>
 #include <numbers>
 
+#include "core/effects/effects.h"
 #include "core/frame/placement_promise.h"
 #include "core/terrain/drawn_heights.h"
-#include "core/truth/effects.h"
 
 namespace oro {
 

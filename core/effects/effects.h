@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/earth/camera.h"
+#include "core/effects/effect_table.h"
 #include "core/frame/region_pages.h"
 #include "core/terrain/flat_triangle.h"
-#include "core/truth/effect_table.h"
 #include "core/truth/oracle.h"
 #include "core/truth/picture_error.h"
 #include "core/truth/true_surface.h"

@@ -1,4 +1,4 @@
-#include "core/truth/effects.h"
+#include "core/effects/effects.h"
 
 #include <algorithm>
 #include <array>

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/effects/effects.h"
 #include "core/measure/ground_error.h"
-#include "core/truth/effects.h"
 #include "core/truth/view_set.h"
-#include "tests/core/truth/effect_scene.h"
+#include "tests/core/effects/effect_scene.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

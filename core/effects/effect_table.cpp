@@ -1,4 +1,4 @@
-#include "core/truth/effect_table.h"
+#include "core/effects/effect_table.h"
 
 #include <cassert>
 

@@ -1,5 +1,5 @@
 // Predicted effects against what they are by hand.
-#include "core/truth/effects.h"
+#include "core/effects/effects.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "tests/core/truth/effect_scene.h"
+#include "tests/core/effects/effect_scene.h"
 
 namespace oro {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using test::half_way_down, test::sea_level, test::undulation;
 using Scene = test::EffectScene;
 
-// The margins that bounds carry (core/truth/effects.cpp).
+// The margins that bounds carry (core/effects/effects.cpp).
 constexpr double between_samples = 1.5;
 constexpr double unlike_the_truth = 2.5;
 constexpr double nearer = 1.3;

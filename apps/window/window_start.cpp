@@ -1,0 +1,38 @@
+#include "apps/window/window_start.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "apps/command_line/refusals.h"
+#include "apps/drawing/finer_levels.h"
+#include "apps/report/json_text.h"
+#include "core/base/parallel.h"
+#include "core/lod/pyramid.h"
+
+namespace oro {
+
+std::string free_picture_name(std::int64_t time_utc_s) {
+    std::string stem = "orograph-" + time_text(time_utc_s);
+    std::erase_if(stem, [](char c) { return c == ':'; });
+    std::error_code ignored;
+    for (int i = 1;; ++i) {
+        const std::string name = stem + (i > 1 ? "-" + std::to_string(i) : "") + ".png";
+        if (!std::filesystem::exists(name, ignored)) return name;
+    }
+}
+
+Result<std::unique_ptr<RegionPages>> first_pages(const Region& region, const RegionCuts& cuts,
+                                                 const View& view, const RenderProgress& progress) {
+    if (!measures_long(region)) return region_pages(region, cuts.grids.front(), view.exaggeration, progress);
+    return pages_in_memory(coarse_field(region.field), view.exaggeration, thread_count());
+}
+
+Result<void> check_window_size(const Camera& camera, const DeviceReport& device) {
+    const auto most = static_cast<int>(device.max_picture_side_px);
+    if (camera.width_px <= most && camera.height_px <= most) return {};
+    return refused("--size", std::to_string(camera.width_px) + "x" + std::to_string(camera.height_px),
+                   "is too large for a window: " + device.name + " draws at most " + std::to_string(most) +
+                       " pixels a side");
+}
+
+}  // namespace oro

@@ -1,0 +1,24 @@
+// What a window begins with.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/drawing/region_scene.h"
+#include "apps/view/view.h"
+#include "render/device/device_report.h"
+
+namespace oro {
+
+// All levels of a region, or where measuring them takes long, those of every n-th post. cuts: of all grids.
+Result<std::unique_ptr<RegionPages>> first_pages(const Region& region, const RegionCuts& cuts,
+                                                 const View& view, const RenderProgress& progress);
+
+// A window is drawn in one piece, where a picture has tiles. Errors (usage): it is too large for that.
+Result<void> check_window_size(const Camera& camera, const DeviceReport& device);
+
+// The next free name for a picture of the window, from the time: orograph-20261121T090000Z.png, then -2, -3
+// ...
+std::string free_picture_name(std::int64_t time_utc_s);
+
+}  // namespace oro

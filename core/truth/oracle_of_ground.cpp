@@ -1,0 +1,119 @@
+// What the oracle is made of, and what it is asked.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/truth/oracle.h"
+#include "core/truth/oracle_scenery.h"
+#include "core/truth/piece_tree.h"
+
+namespace oro {
+namespace {
+
+// Where the model of the Earth puts a point: from the eye, straight light, ECEF axes.
+glm::dvec3 offset_m(const Sight& sight, const Geodetic& point) {
+    if (sight.earth == Earth::ellipsoid) return ecef_from_geodetic(point).m - sight.eye.m;
+    return model_offset_m(sight.earth, sight.place, point);
+}
+
+// Its sides are straight, and those of cells as curved as the ellipsoid: it is made higher and lower by the
+// difference, an eighth of its angle squared times the radius.
+std::array<glm::dvec3, 3> seen_corners(const Sight& sight, const GroundPiece& piece) {
+    double lowest_h_m = piece.corners[0].h_m, highest_h_m = lowest_h_m, length_m = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Geodetic &one = piece.corners[i], &next = piece.corners[(i + 1) % 3];
+        lowest_h_m = std::min(lowest_h_m, one.h_m);
+        highest_h_m = std::max(highest_h_m, one.h_m);
+        length_m = std::max(length_m, glm::length(ecef_from_geodetic({one.lat_deg, one.lon_deg, 0.0}).m -
+                                                  ecef_from_geodetic({next.lat_deg, next.lon_deg, 0.0}).m));
+    }
+    const double reach_m = 1.0e-5 + 1.1 * length_m * length_m / (8.0 * wgs84_a_m);
+    std::array<glm::dvec3, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        Geodetic corner = piece.corners[i];
+        corner.h_m += corner.h_m < 0.5 * (lowest_h_m + highest_h_m) ? -reach_m : reach_m;
+        corners[i] = sight.refraction.apparent_m(offset_m(sight, corner));
+    }
+    return corners;
+}
+
+// On the flat Earth the plane is cut at the meridian opposite to the eye.
+bool crosses_cut(const Sight& sight, const GroundPiece& piece) {
+    if (sight.earth != Earth::flat) return false;
+    constexpr double half_turn_deg = 180.0;
+    const auto from_eye_deg = [&](std::size_t i) {
+        return std::remainder(piece.corners[i].lon_deg - sight.place.lon_deg, 360.0);
+    };
+    return std::abs(from_eye_deg(0) - from_eye_deg(1)) > half_turn_deg ||
+           std::abs(from_eye_deg(1) - from_eye_deg(2)) > half_turn_deg;
+}
+
+std::unique_ptr<const PieceTree> tree_of(const TrueGround& ground, const Sight& sight) {
+    if (ground.pieces().empty()) return nullptr;
+    std::vector<std::array<glm::dvec3, 3>> triangles;
+    triangles.reserve(ground.pieces().size());
+    for (const GroundPiece& piece : ground.pieces())
+        if (!crosses_cut(sight, piece)) triangles.push_back(seen_corners(sight, piece));
+    return std::make_unique<const PieceTree>(std::move(triangles));
+}
+
+}  // namespace
+
+Oracle::Oracle(const TrueGround& ground, const Sight& sight) : ground_(ground), sight_(sight) {
+    for (std::size_t grid = 0; grid < ground_.grids(); ++grid)
+        sceneries_.push_back(std::make_unique<const Scenery>(ground_, grid, sight_));
+    pieces_ = tree_of(ground_, sight_);
+}
+
+Oracle::~Oracle() = default;
+
+SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m) const {
+    const glm::dvec3 true_m = sight_.refraction.true_m(apparent_m);
+    SightHit hit;
+    hit.point = sight_.earth == Earth::ellipsoid
+                    ? geodetic_from_ecef({sight_.eye.m + true_m})
+                    : model_point(sight_.earth, sight_.place, true_m).value_or(Geodetic{});
+    hit.distance_m = t_m;
+    hit.between_grids = true;
+    hit.grid = ground_.grid_at(hit.point.lat_deg, hit.point.lon_deg).value_or(0);
+    const PostGrid& posts = ground_.surface(hit.grid).field().grid;
+    const PostNumber post = posts.post_at(hit.point.lat_deg, hit.point.lon_deg);
+    hit.row = std::clamp(static_cast<int>(std::floor(post.row)), 0, posts.rows() - 2);
+    hit.column = std::clamp(static_cast<int>(std::floor(post.column)), 0, posts.columns() - 2);
+    hit.south_west = post.row - hit.row >= post.column - hit.column;
+    return hit;
+}
+
+std::optional<SightHit> Oracle::first_hit(const glm::dvec3& direction, double reach_m) const {
+    return first_hit_after(glm::dvec3(0.0), direction, reach_m);
+}
+
+std::optional<SightHit> Oracle::first_hit_from(const Ecef& from, const glm::dvec3& direction,
+                                               double reach_m) const {
+    assert(sight_.refraction.straight() && sight_.earth == Earth::ellipsoid);
+    return first_hit_after(from.m - sight_.eye.m, direction, reach_m);
+}
+
+std::vector<std::optional<SightHit>> Oracle::cast_picture(const Camera& camera, int threads) const {
+    const double reach_m = sight_reach_m(camera.eye.h_m);
+    std::vector<std::optional<SightHit>> hits(static_cast<std::size_t>(camera.width_px) *
+                                              static_cast<std::size_t>(camera.height_px));
+    in_parallel(camera.height_px, threads, [&](int y) {
+        for (int x = 0; x < camera.width_px; ++x) {
+            const glm::dvec3 direction = camera.ecef_direction_at({x + 0.5, y + 0.5});
+            hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
+                 static_cast<std::size_t>(x)] = first_hit(direction, reach_m);
+        }
+    });
+    return hits;
+}
+
+std::optional<SightHit> first_hit(const TrueGround& ground, const Sight& sight, const glm::dvec3& direction,
+                                  double reach_m) {
+    return Oracle(ground, sight).first_hit(direction, reach_m);
+}
+
+}  // namespace oro

@@ -1,0 +1,56 @@
+// The ground of one grid or of several: what sight lines are held against.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/earth/ellipsoid.h"
+#include "core/truth/true_surface.h"
+
+namespace oro {
+
+// A triangle of ground that belongs to no grid: an upright step along the rim of one that lies over another.
+// Straight between its corners.
+struct GroundPiece {
+    std::array<Geodetic, 3> corners;  // h above the ellipsoid, exaggerated as the surfaces are
+};
+
+// The surfaces of grids, and the pieces between them. Where several have ground for a place, that with the
+// smallest rank is the ground. A surface alone is ground too. Cheap to copy; what it is made of outlives it.
+class TrueGround {
+  public:
+    TrueGround(const TrueSurface& surface) : grids_{{&surface, 0}}, by_rank_{0} {}  // NOLINT: is ground
+    struct Grid {
+        const TrueSurface* surface;
+        int rank;
+    };
+    // At least one grid, all with the same exaggeration. They are numbered as they are given.
+    TrueGround(std::vector<Grid> grids, std::shared_ptr<const std::vector<GroundPiece>> pieces);
+
+    [[nodiscard]] std::size_t grids() const { return grids_.size(); }
+    [[nodiscard]] const TrueSurface& surface(std::size_t grid) const { return *grids_[grid].surface; }
+    [[nodiscard]] double exaggeration() const { return grids_.front().surface->exaggeration(); }
+    [[nodiscard]] const std::vector<GroundPiece>& pieces() const;
+
+    // Which grid is the ground at a place; nothing where there is none.
+    [[nodiscard]] std::optional<std::size_t> grid_at(double lat_deg, double lon_deg) const;
+    // Whether none of a smaller rank has ground there.
+    [[nodiscard]] bool shows(std::size_t grid, double lat_deg, double lon_deg) const;
+    // Height above the ellipsoid, as TrueSurface::h_m. On a step that of the smaller rank.
+    [[nodiscard]] std::optional<double> h_m(double lat_deg, double lon_deg) const;
+    // N at a place: as the grid has it that is the ground there, or else the first.
+    [[nodiscard]] double N_m(double lat_deg, double lon_deg) const;
+    // Errors: posts that could not be read, and so counted as void.
+    [[nodiscard]] Result<void> health() const;
+
+  private:
+    std::vector<Grid> grids_;
+    std::vector<std::size_t> by_rank_;
+    std::shared_ptr<const std::vector<GroundPiece>> pieces_;
+};
+
+}  // namespace oro

@@ -1,0 +1,45 @@
+// The true ground of a region: all its grids, and the steps between them.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "core/truth/true_ground.h"
+#include "geo/region/region.h"
+#include "geo/together/cut_regions.h"
+
+namespace oro {
+
+// Above which surface a view has its heights: its own, or WGS84 though it goes without a geoid.
+enum class GroundHeights { as_pictured, true_ones };
+
+// Holds on to the region, which outlives it. Its ground numbers the grids as all_grids() does.
+class RegionGround {
+  public:
+    // cuts: cut_regions(); empty for a region of one grid. Reads every post once where they are in
+    // memory; of a baked region with GroundHeights::true_ones into memory. Errors: damage in it.
+    static Result<std::unique_ptr<const RegionGround>> of(const Region& region, const RegionCuts& cuts,
+                                                          double exaggeration,
+                                                          GroundHeights heights = GroundHeights::as_pictured);
+    // The same, cutting the grids itself. Errors: those of cut_regions() as well.
+    static Result<std::unique_ptr<const RegionGround>> of(const Region& region, double exaggeration,
+                                                          GroundHeights heights = GroundHeights::as_pictured);
+    RegionGround(const RegionGround&) = delete;
+    RegionGround& operator=(const RegionGround&) = delete;
+
+    [[nodiscard]] const TrueGround& ground() const { return *ground_; }
+    // Which region one of the ground's grids is.
+    [[nodiscard]] const Region& region(std::size_t grid) const { return *regions_[grid]; }
+    // The region that is the ground at a place, or else the first.
+    [[nodiscard]] const Region& region_at(double lat_deg, double lon_deg) const;
+
+  private:
+    RegionGround() = default;
+    std::vector<const Region*> regions_;
+    std::deque<HeightField> fields_;  // where they are not the regions' own
+    std::deque<TrueSurface> surfaces_;
+    std::optional<TrueGround> ground_;
+};
+
+}  // namespace oro
