@@ -6,6 +6,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/maps/ortho_map.h"
 #include "apps/view/view_limits.h"
+#include "geo/together/cut_regions.h"
 
 namespace oro {
 namespace {
@@ -58,7 +59,9 @@ Result<void> check_map_options(const ShotOptions& options) {
 Result<void> make_map(View& view, const ShotOptions& options, const Region& region) {
     MapRequest request{options.crs, options.resolution, {}};
     if (options.view.size) request.size_px = {{view.camera.width_px, view.camera.height_px}};
-    ORO_TRY(view.map, map_frame(request, region.field.grid));
+    std::vector<const PostGrid*> grids;
+    for (const Region* const one : all_grids(region)) grids.push_back(&one->field.grid);
+    ORO_TRY(view.map, map_frame(request, grids));
     const MapFrame& map = *view.map;
     ORO_TRY(MapPlaces places, MapPlaces::of(map));
     const PostGrid& grid = region.field.grid;

@@ -39,9 +39,9 @@ bool keeps_own_posts(const Region& region) {
     return region.field.grid.net != nullptr || std::ranges::any_of(region.beside, keeps_own_posts);
 }
 
-// Images are of one grid yet, and so are maps, whose frame is that of one.
+// Images are of one grid yet.
 bool draws_grids_apart(const View& view) {
-    return !view.map && view.drape.empty();
+    return view.drape.empty();
 }
 
 // Where the data that a view names are gone: what to do about it.

@@ -24,20 +24,43 @@ Error refused_crs(const std::optional<std::string>& text, const std::string& wha
     return Error{ErrorKind::usage, text ? "--crs " + *text : "--crs", what};
 }
 
-std::string usual_crs(const PostGrid& grid) {
-    if (grid.east_deg() - grid.west_deg() > widest_utm_deg) return "EPSG:4326";
-    const double lat_deg = 0.5 * (grid.north_deg() + grid.south_deg());
-    const double lon_deg = std::remainder(0.5 * (grid.west_deg() + grid.east_deg()), 360.0);
+// What a grid covers; longitudes in a turn near those of the first.
+struct GridBox {
+    const PostGrid* grid;
+    double north_deg, south_deg, west_deg, east_deg;
+};
+std::vector<GridBox> boxes_of(std::span<const PostGrid* const> grids) {
+    std::vector<GridBox> boxes;
+    const auto middle_deg = [](const PostGrid& grid) { return 0.5 * (grid.west_deg() + grid.east_deg()); };
+    for (const PostGrid* const grid : grids) {
+        const double turn_deg = 360.0 * std::round((middle_deg(*grids.front()) - middle_deg(*grid)) / 360.0);
+        boxes.push_back({grid, grid->north_deg(), grid->south_deg(), grid->west_deg() + turn_deg,
+                         grid->east_deg() + turn_deg});
+    }
+    return boxes;
+}
+
+std::string usual_crs(const std::vector<GridBox>& boxes) {
+    GridBox all = boxes.front();
+    for (const GridBox& box : boxes) {
+        all.north_deg = std::max(all.north_deg, box.north_deg);
+        all.south_deg = std::min(all.south_deg, box.south_deg);
+        all.west_deg = std::min(all.west_deg, box.west_deg);
+        all.east_deg = std::max(all.east_deg, box.east_deg);
+    }
+    if (all.east_deg - all.west_deg > widest_utm_deg) return "EPSG:4326";
+    const double lat_deg = 0.5 * (all.north_deg + all.south_deg);
+    const double lon_deg = std::remainder(0.5 * (all.west_deg + all.east_deg), 360.0);
     if (lat_deg >= 84.0) return "EPSG:5041";
     if (lat_deg <= -80.0) return "EPSG:5042";
     const int zone = std::clamp(static_cast<int>(std::floor((lon_deg + 180.0) / 6.0)) + 1, 1, 60);
     return "EPSG:" + std::to_string((lat_deg >= 0.0 ? 32600 : 32700) + zone);
 }
 
-Result<SpatialReference> crs_named(const MapRequest& request, const PostGrid& grid) {
+Result<SpatialReference> crs_named(const MapRequest& request, const std::vector<GridBox>& boxes) {
     start_gdal();
     const GdalMessages messages;
-    const std::string text = request.crs ? *request.crs : usual_crs(grid);
+    const std::string text = request.crs ? *request.crs : usual_crs(boxes);
     const SpatialReference crs = crs_from_text(text);
     if (!crs)
         return refused_crs(request.crs, "is no coordinate reference system that PROJ knows; e.g. EPSG:32632");
@@ -47,11 +70,11 @@ Result<SpatialReference> crs_named(const MapRequest& request, const PostGrid& gr
     return horizontal_part(crs.get());
 }
 
-// Where in the CRS a grid's rim and inside lie; longitudes of a CRS of degrees in the grid's own turn.
+// Where in the CRS grids' rims and insides lie; longitudes of a CRS of degrees in the first grid's own turn.
 class GridInCrs {
   public:
-    GridInCrs(const PostGrid& grid, OGRSpatialReferenceH crs)
-        : grid_(grid), crs_(crs), to_crs_(OCTNewCoordinateTransformation(wgs84_degrees().get(), crs)) {}
+    explicit GridInCrs(OGRSpatialReferenceH crs)
+        : crs_(crs), to_crs_(OCTNewCoordinateTransformation(wgs84_degrees().get(), crs)) {}
 
     [[nodiscard]] bool usable() const { return to_crs_ != nullptr; }
 
@@ -70,14 +93,15 @@ class GridInCrs {
     }
 
     // False where a part of the grid has no place, or where the CRS is cut through it.
-    [[nodiscard]] bool measure() {
+    [[nodiscard]] bool measure(const GridBox& grid) {
         constexpr int steps = 128;
+        double longest = 0.0;
         for (int i = 0; i <= steps; ++i) {
-            const double lat_deg = mix(grid_.north_deg(), grid_.south_deg(), i, steps);
+            const double lat_deg = mix(grid.north_deg, grid.south_deg, i, steps);
             double last_x = 0.0, last_y = 0.0;
             for (int j = 0; j <= steps; ++j) {
                 double x = 0.0, y = 0.0;
-                if (!place(lat_deg, mix(grid_.west_deg(), grid_.east_deg(), j, steps), x, y)) return false;
+                if (!place(lat_deg, mix(grid.west_deg, grid.east_deg, j, steps), x, y)) return false;
                 low_x = std::min(low_x, x);
                 high_x = std::max(high_x, x);
                 low_y = std::min(low_y, y);
@@ -91,25 +115,24 @@ class GridInCrs {
         return longest < 0.5 * std::hypot(high_x - low_x, high_y - low_y);
     }
 
-    double low_x{1e300}, high_x{-1e300}, low_y{1e300}, high_y{-1e300}, longest{0.0};
+    double low_x{1e300}, high_x{-1e300}, low_y{1e300}, high_y{-1e300};
 
   private:
     static double mix(double from, double to, int i, int steps) { return from + (to - from) * i / steps; }
 
-    const PostGrid& grid_;
     OGRSpatialReferenceH crs_;
     CoordinateTransformation to_crs_;
 };
 
 // About a post's spacing from north to south, in the CRS's unit; of lengths two digits.
-double usual_resolution(const PostGrid& grid, const GridInCrs& in_crs, OGRSpatialReferenceH crs) {
-    const double lat_deg = 0.5 * (grid.north_deg() + grid.south_deg());
-    const double lon_deg = 0.5 * (grid.west_deg() + grid.east_deg());
+double usual_resolution(const GridBox& box, const GridInCrs& in_crs, OGRSpatialReferenceH crs) {
+    const PostGrid& grid = *box.grid;
+    const double lat_deg = 0.5 * (box.north_deg + box.south_deg);
+    const double lon_deg = 0.5 * (box.west_deg + box.east_deg);
     double x = 0.0, y = 0.0, next_x = 0.0, next_y = 0.0;
     const double step_deg =
         grid.net ? deg_from_radians(Radians(grid.row_step_rad())) : grid.lat.spacing_deg();
-    if (!in_crs.place(lat_deg, lon_deg, x, y) ||
-        !in_crs.place(lat_deg - step_deg, lon_deg, next_x, next_y))
+    if (!in_crs.place(lat_deg, lon_deg, x, y) || !in_crs.place(lat_deg - step_deg, lon_deg, next_x, next_y))
         return 0.0;
     const double spacing = std::hypot(next_x - x, next_y - y);
     if (OSRIsGeographic(crs)) return step_deg * spacing / std::abs(next_y - y);
@@ -152,18 +175,30 @@ Result<void> lay_pixels(const MapRequest& request, const GridInCrs& in_crs, doub
 
 }  // namespace
 
-Result<MapFrame> map_frame(const MapRequest& request, const PostGrid& grid) {
-    ORO_TRY(const SpatialReference crs, crs_named(request, grid));
+Result<MapFrame> map_frame(const MapRequest& request, std::span<const PostGrid* const> grids) {
+    const std::vector<GridBox> boxes = boxes_of(grids);
+    ORO_TRY(const SpatialReference crs, crs_named(request, boxes));
     const GdalMessages messages;
-    GridInCrs in_crs(grid, crs.get());
-    if (!in_crs.usable() || !in_crs.measure())
+    GridInCrs in_crs(crs.get());
+    if (!in_crs.usable() ||
+        !std::ranges::all_of(boxes, [&](const GridBox& box) { return in_crs.measure(box); }))
         return refused_crs(request.crs,
                            "cannot hold this region: a part of it has no place there, or the CRS is cut "
                            "through it; choose one made for the region");
     MapFrame frame;
     frame.crs = text_of_crs(crs.get());
-    ORO_CHECK(lay_pixels(request, in_crs, usual_resolution(grid, in_crs, crs.get()), frame));
+    double finest = 0.0;
+    for (const GridBox& box : boxes) {
+        const double resolution = usual_resolution(box, in_crs, crs.get());
+        if (resolution > 0.0 && (finest == 0.0 || resolution < finest)) finest = resolution;
+    }
+    ORO_CHECK(lay_pixels(request, in_crs, finest, frame));
     return frame;
+}
+
+Result<MapFrame> map_frame(const MapRequest& request, const PostGrid& grid) {
+    const PostGrid* const one = &grid;
+    return map_frame(request, {&one, 1});
 }
 
 SpatialReference crs_from_text(const std::string& text) {

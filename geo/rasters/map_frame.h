@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,13 @@ struct MapPlace {
     double lon_deg;
 };
 
-// A frame around all posts of a grid. Without a CRS: UTM on WGS84 of the grid's middle (UPS near the poles),
-// or longitude and latitude (EPSG:4326) for a grid more than 12 degrees wide. By resolution its rims lie on
+// A frame around all posts of some grids, at least one. Without a CRS: UTM on WGS84 of their middle (UPS near
+// the poles), or longitude and latitude (EPSG:4326) where they are more than 12 degrees wide. Without a
+// resolution that of the grid with the closest posts. By resolution its rims lie on
 // whole multiples of it, as `gdalwarp -tap` has them. Errors (usage): a CRS that PROJ does not know or that
-// lies nowhere on the Earth; one that cannot hold the grid; a resolution that is none; a map of more than
+// lies nowhere on the Earth; one that cannot hold the grids; a resolution that is none; a map of more than
 // 65,500 pixels a side.
+Result<MapFrame> map_frame(const MapRequest& request, std::span<const PostGrid* const> grids);
 Result<MapFrame> map_frame(const MapRequest& request, const PostGrid& grid);
 
 // "EPSG:32632 WGS 84 / UTM zone 32N", and the name of its unit: "metre", "degree".

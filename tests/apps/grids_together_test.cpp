@@ -162,7 +162,6 @@ TEST_F(GridsOverEachOther, HideWhatLiesBehindTheStep) {
     const json over = object_said_by(
         {"sight", coarse_, fine_, "--from", point("from"), "--to", point("to"), "--json", "-q"});
     const double free_m = alone["clearance"]["least_m"].get<double>();
-    std::printf("%f\n", free_m);
     EXPECT_EQ(over["visible"], free_m > 115.0);
 }
 
@@ -208,6 +207,30 @@ TEST_F(GridsOverEachOther, AreToldApartByLayers) {
     EXPECT_NE(info.out.find("Computed Min/Max=0.000,1.000"), std::string::npos) << info.out;
     const Outcome heights = run_program({"gdalinfo", "-mm", (folder_ / "layers.height.tif").string()});
     EXPECT_EQ(heights.exit_code, 0);
+}
+
+// From straight above: around both, each where it is the ground.
+TEST_F(GridsOverEachOther, AreMappedTogether) {
+    const std::string map = folder_ / "map.tif", coarse_map = folder_ / "coarse.tif";
+    for (const auto& [files, out] :
+         {std::pair{Words{coarse_, fine_}, map}, std::pair{Words{coarse_}, coarse_map}}) {
+        Words words{"shot"};
+        words.insert(words.end(), files.begin(), files.end());
+        for (const char* word :
+             {"--ortho", "--crs", "EPSG:32616", "--resolution", "200", "--style", "hillshade", "-q", "--out"})
+            words.push_back(word);
+        words.push_back(out);
+        const Outcome drawn = run_orograph(words);
+        ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    }
+    const auto value = [&](const std::string& file, const char* x, const char* y) {
+        return run_program({"gdallocationinfo", "-valonly", "-geoloc", "-b", "1", file, x, y}).out;
+    };
+    // The same frame; beside the inset the same ground, on its rim a step.
+    EXPECT_EQ(json::parse(run_program({"gdalinfo", "-json", map}).out)["size"],
+              json::parse(run_program({"gdalinfo", "-json", coarse_map}).out)["size"]);
+    EXPECT_EQ(value(map, "738000", "4042000"), value(coarse_map, "738000", "4042000"));
+    EXPECT_NE(value(map, "742100", "4048100"), value(coarse_map, "742100", "4048100"));
 }
 
 TEST_F(GridsOverEachOther, StandInPanoramasWithNames) {

@@ -277,7 +277,7 @@ Result<void> run_shot(const ShotOptions& asked) {
     ORO_TRY(const PictureFiles files, shot_files(options));
     options.view.takes_maps = true;
     // What is predicted is predicted of one grid.
-    options.region.grids_apart = !options.view.tolerance && !options.ortho;
+    options.region.grids_apart = !options.view.tolerance;
     if (!options.view_file.empty()) {
         ORO_TRY(const View told, read_view(options.view_file));
         options.ortho = told.map.has_value();
