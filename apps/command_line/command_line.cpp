@@ -130,7 +130,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     add_region_options(command, options.region);
     command.get_option("PATH")->description("The picture's elevation data, where they have moved.");
     hide(command, {"--bbox", "--tile", "--height-unit", "--source-crs", "--source-vertical", "--strict-datum",
-                   "--fill-voids", "--resample", "--order"});
+                   "--fill-voids", "--resample", "--order", "--feather"});
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the table and errors");

@@ -215,6 +215,9 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
         "--order", options.order, {"finest", "listed"},
         "Which file is the ground where several have some: the one with the closest points (finest, the "
         "default), or the one named first (listed; of a folder by the order of names).");
+    data.number("--feather", options.feather_m, "METRES",
+                "Let heights go over smoothly to those of a coarser file below, within so many metres inside the rim "
+                "of a finer one. Without this they meet in a step as high as they differ.");
     data.flag(
         "--fill-voids", options.fill_voids,
         "Give void posts (points that a file leaves empty) a height from their neighbours. Without this "

@@ -23,6 +23,7 @@ struct RegionOptions {
     bool fill_voids{false};
     bool resample{false};
     std::string order;        // finest, listed; "": not said
+    std::optional<double> feather_m;
     bool grids_apart{false};  // of a command that draws several: RegionRequest.grids_apart
 };
 

@@ -121,6 +121,7 @@ Result<void> leave_terrain_out(const SunOptions& options) {
                                            {"--strict-datum", region.strict_datum},
                                            {"--resample", region.resample},
                                            {"--order", !region.order.empty()},
+                                           {"--feather", region.feather_m.has_value()},
                                            {"--fill-voids", region.fill_voids}}) {
         if (is_given) return refused(option, "", "says nothing without elevation data: name them, too");
     }

@@ -77,6 +77,9 @@ ordered_json region_json(const Region& region) {
     }
     json["in_missing_cells"] = region.in_missing;
     json["filled"] = region.filled;
+    if (const auto& feathered = region.feathered)
+        json["feathered"] = json_object("width_m", feathered->width_m, "posts", feathered->posts, "most_m",
+                                        feathered->most_m, "rms_m", feathered->rms_m);
     json["void_method"] = void_method_words(region.void_method);
     json["seams"] = seam_fields<ordered_json>(region.seams);
     json["seam_rule"] = "the finer spacing wins; among equals the first in the byte order of file names";

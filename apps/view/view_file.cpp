@@ -215,6 +215,7 @@ View read_fields(const nlohmann::json& json) {
         if (json_string(json, "order") != "listed") throw JsonFault{"'order' is not 'listed'"};
         view.region.listed_first = true;
     }
+    if (json.contains("feather_m")) view.region.feather_m = number(json, "feather_m", limits::feather_m);
     view.several_grids = json.contains("several_grids") && json_flag(json, "several_grids");
     read_camera(json, view.camera);
     read_map(json, view);
@@ -291,6 +292,7 @@ std::string view_to_json(const View& view, bool pretty) {
     if (view.own_posts) json["own_posts"] = true;
     if (view.several_grids) json["several_grids"] = true;
     if (view.region.listed_first) json["order"] = "listed";
+    if (view.region.feather_m > 0.0) json["feather_m"] = view.region.feather_m;
     json["strict_datum"] = view.region.strict_datum;
     const Camera& camera = view.camera;
     json["eye"] =

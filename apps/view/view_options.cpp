@@ -183,6 +183,9 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
     request.resample = options.resample;
     request.grids_apart = options.grids_apart;
     request.listed_first = options.order == "listed";
+    if (options.feather_m) {
+        ORO_TRY(request.feather_m, within("--feather", *options.feather_m, view_limits::feather_m));
+    }
     request.height_unit = options.height_unit;
     request.source_crs = options.source_crs;
     request.source_vertical = options.source_vertical;
@@ -261,6 +264,7 @@ Result<void> change_region(View& view, const RegionOptions& options) {
                                            {"--strict-datum", options.strict_datum},
                                            {"--resample", options.resample},
                                            {"--order", !options.order.empty()},
+                                           {"--feather", options.feather_m.has_value()},
                                            {"--fill-voids", options.fill_voids}}) {
         if (is_given) return refused(option, "", "not together with a picture's view, which says it itself");
     }

@@ -30,6 +30,7 @@ Result<void> check_request(const RegionRequest& request, const std::string& path
                                : request.fill_voids               ? "--fill-voids"
                                : request.strict_datum             ? "--strict-datum"
                                : request.listed_first             ? "--order"
+                               : request.feather_m > 0.0          ? "--feather"
                                                                   : nullptr;
     if (option == nullptr) return {};
     return Error{ErrorKind::usage, option,

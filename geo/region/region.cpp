@@ -23,6 +23,7 @@
 #include "geo/region/region_sources.h"
 #include "geo/sources/library_faults.h"
 #include "geo/sources/raster_library.h"
+#include "geo/together/feather.h"
 #include "geo/together/lattices.h"
 
 namespace oro {
@@ -274,6 +275,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     if (progress) progress(1.0, "region read");
     Region region = joined(std::move(regions));
     for (const Error& error : empty) add_note(region.notes, "left out: " + error.what);
+    if (request.feather_m > 0.0 && !region.beside.empty()) ORO_CHECK(feather(region, request.feather_m));
     return region;
 }
 

@@ -35,6 +35,9 @@ struct RegionRequest {
     // Where several have ground for a place, the one named first wins (of a folder by the byte order of
     // names), not the finest.
     bool listed_first{false};
+    // Of several grids: heights go over to those of the coarser within so many metres of a finer one's rim;
+    // 0: they do not.
+    double feather_m{0.0};
     std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
     // For files that do not say themselves: where they lie ("EPSG:2056", or whatever PROJ knows), and what
     // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). ""
@@ -43,6 +46,14 @@ struct RegionRequest {
     // Whoever asks can do with several grids: files that lie far apart (lying_apart.h) are then a region
     // each. Otherwise one grid holds them all, with what lies between.
     bool grids_apart{false};
+};
+
+// What --feather did to a grid (geo/together/feather.h).
+struct Feathered {
+    double width_m{};
+    std::uint64_t posts{};  // that have other heights
+    double most_m{};        // by which one was changed
+    double rms_m{};         // of all of them
 };
 
 // What becomes of void posts: they are left out of the terrain, or filled from their neighbours.
@@ -89,6 +100,7 @@ struct Region {
     // Where several have ground for a place, that with the smallest rank is the ground (geo/together): the
     // finest, or the one named first.
     int rank{};
+    std::optional<Feathered> feathered;  // of this grid
     // Of all grids. Errors: posts that could not be read, and so counted as void.
     [[nodiscard]] Result<void> health() const;
 };

@@ -130,6 +130,23 @@ TEST_F(GridsOverEachOther, AreInTheOrderThatIsAskedFor) {
         std::string::npos);
 }
 
+// The step goes over into the ground below, which is told, and drawn again from the view.
+TEST_F(GridsOverEachOther, AreFeatheredWhereThatIsAskedFor) {
+    const fs::path picture = folder_ / "soft.png", again = folder_ / "again.png";
+    const json told =
+        object_said_by({"shot", coarse_, fine_, "--feather", "400", "--at", "36.53,-84.35", "--above", "900",
+                        "--heading", "70", "--size", "96x64", "-q", "--json", "--out", picture});
+    EXPECT_EQ(told["region"].contains("feathered") || told["apart"][0].contains("feathered"), true)
+        << told.dump(1);
+    EXPECT_EQ(json::parse(oro::test::view_in(picture))["feather_m"], 400.0);
+    ASSERT_EQ(run_orograph({"shot", "--view", picture, "-q", "--out", again}).exit_code, 0);
+    EXPECT_EQ(json::parse(oro::test::view_in(picture))["fingerprints"]["pixels"],
+              json::parse(oro::test::view_in(again))["fingerprints"]["pixels"]);
+    EXPECT_NE(
+        run_orograph({"info", coarse_, fine_, "--feather", "400"}).out.find("go over to the heights below"),
+        std::string::npos);
+}
+
 // Against the oracle, which sees both grids and the step between them.
 TEST_F(GridsOverEachOther, AreMeasured) {
     const fs::path picture = folder_ / "measured.png";

@@ -131,7 +131,7 @@ TEST(Help, HidesWhatDoesNothing) {
         {"view", {"--tolerance", "--time"}},
         {"compare",
          {"--bbox", "--tile", "--height-unit", "--source-crs", "--source-vertical", "--strict-datum",
-          "--fill-voids", "--resample", "--order"}}};
+          "--fill-voids", "--resample", "--order", "--feather"}}};
     const std::string shot = help_of({"shot"});
     for (const auto& [command, options] : hidden) {
         const std::string help = help_of({command});

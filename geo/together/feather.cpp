@@ -1,0 +1,114 @@
+#include "geo/together/feather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/terrain/post_spacing.h"
+#include "geo/together/coverage_rim.h"
+
+namespace oro {
+namespace {
+
+// Metres from post to post, along a column and along a row, at a row of the grid.
+struct PostsApart {
+    double row_m;
+    double column_m;
+};
+PostsApart apart_at(const PostGrid& grid, int row) {
+    if (grid.net) return {grid.net->row_m(), grid.net->column_m()};
+    const PostSpacing spacing = post_spacing(grid, grid.lat.at_deg(row));
+    return {spacing.row_m, spacing.column_m};
+}
+
+// Of each post how far the nearest one on the rim is, in metres; infinity from width_m on.
+std::vector<float> rim_distances_m(const HeightField& field, double width_m) {
+    const PostGrid& grid = field.grid;
+    std::vector<float> distances(grid.post_count(), std::numeric_limits<float>::infinity());
+    std::set<std::pair<int, int>> rim;
+    for (const RimEdge& edge : coverage_rim(field)) {
+        rim.insert({edge.from.row, edge.from.column});
+        rim.insert({edge.to.row, edge.to.column});
+    }
+    for (const auto& [rim_row, rim_column] : rim) {
+        const GridPost post{rim_row, rim_column};
+        const PostsApart apart = apart_at(grid, post.row);
+        const int down = static_cast<int>(width_m / apart.row_m),
+                  right = static_cast<int>(width_m / apart.column_m);
+        for (int row = std::max(0, post.row - down); row <= std::min(grid.rows() - 1, post.row + down);
+             ++row) {
+            for (int column = std::max(0, post.column - right);
+                 column <= std::min(grid.columns() - 1, post.column + right); ++column) {
+                const auto away_m = static_cast<float>(
+                    std::hypot((row - post.row) * apart.row_m, (column - post.column) * apart.column_m));
+                float& known =
+                    distances[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
+                              static_cast<std::size_t>(column)];
+                if (static_cast<double>(away_m) < width_m) known = std::min(known, away_m);
+            }
+        }
+    }
+    return distances;
+}
+
+// H of the ground below a grid: that of the smallest rank among the greater ones.
+std::optional<double> H_below_m(const std::vector<Region*>& below, const PostPlace& place) {
+    for (const Region* const other : below)
+        if (const auto H_m = other->field.surface_H_m(place.lat_deg, place.lon_deg)) return H_m;
+    return std::nullopt;
+}
+
+void feather_grid(Region& region, const std::vector<Region*>& below, double width_m) {
+    const PostGrid& grid = region.field.grid;
+    const std::vector<float> distances = rim_distances_m(region.field, width_m);
+    Feathered told{width_m, 0, 0.0, 0.0};
+    std::vector<float> changed = region.field.H_m;
+    double squares = 0.0;
+    for (int row = 0; row < grid.rows(); ++row) {
+        for (int column = 0; column < grid.columns(); ++column) {
+            const std::size_t post =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
+                static_cast<std::size_t>(column);
+            if (std::isinf(distances[post]) || is_void(region.field.H_m[post])) continue;
+            const auto H_m = H_below_m(below, grid.place_at(row, column));
+            if (!H_m) continue;
+            const double share = static_cast<double>(distances[post]) / width_m,
+                         weight = share * share * (3.0 - 2.0 * share),
+                         own_m = static_cast<double>(changed[post]);
+            changed[post] = static_cast<float>(std::lerp(*H_m, own_m, weight));
+            const double by_m = std::abs(static_cast<double>(changed[post]) - own_m);
+            ++told.posts;
+            told.most_m = std::max(told.most_m, by_m);
+            squares += by_m * by_m;
+        }
+    }
+    region.field.H_m = std::move(changed);
+    if (told.posts == 0) return;
+    told.rms_m = std::sqrt(squares / static_cast<double>(told.posts));
+    region.feathered = told;
+    char note[200];
+    std::snprintf(
+        note, sizeof note,
+        "--feather: %llu posts within %g m of a rim go over to the heights below, changed by up to %.2f m "
+        "(RMS %.2f m)",
+        static_cast<unsigned long long>(told.posts), width_m, told.most_m, told.rms_m);
+    region.notes.emplace_back(note);
+}
+
+}  // namespace
+
+// The coarsest first: what lies below a grid is then as it is drawn.
+Result<void> feather(Region& region, double width_m) {
+    std::vector<Region*> grids{&region};
+    for (Region& other : region.beside) grids.push_back(&other);
+    std::ranges::stable_sort(grids, {}, [](const Region* grid) { return grid->rank; });
+    for (std::size_t i = grids.size() - 1; i-- > 0;)
+        feather_grid(*grids[i], {grids.begin() + static_cast<std::ptrdiff_t>(i) + 1, grids.end()}, width_m);
+    return region.health();
+}
+
+}  // namespace oro
