@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/sight/lookout.h"
@@ -62,5 +63,16 @@ using ViewshedProgress = std::function<void(double share)>;
 // lies within the error of taking edges for straight is asked of the oracle.
 Viewshed viewshed(const TrueSurface& surface, const ViewshedRequest& request,
                   const ViewshedProgress& progress = {});
+
+// The grid whose posts cover most of the circles around the eyes; of several that cover as much, that which
+// is the ground in most of it. By 1,536 places a circle. Nothing: none has ground there.
+std::optional<std::size_t> grid_of_most(const TrueGround& ground, const std::vector<Geodetic>& eyes,
+                                        double radius_m);
+
+// The same over the ground of several grids, at the posts of one of them: a target stands on what is the
+// ground at the post's place, whichever grid that is. As exact as Lookout. Where other grids come within the
+// radius, each post takes a line of sight, and a hidden one some thirty.
+Viewshed viewshed_of_grids(const TrueGround& ground, std::size_t grid, const ViewshedRequest& request,
+                           const ViewshedProgress& progress = {});
 
 }  // namespace oro

@@ -213,6 +213,42 @@ TEST_F(GridsOverEachOther, HaveAStepInTheirProfile) {
     EXPECT_NEAR(step_m, 100.0, 15.0);
 }
 
+// What stands 100 m higher in the middle hides what lies behind, and sight says the same of each post.
+TEST_F(GridsOverEachOther, AreLookedOverTogether) {
+    const std::string out = folder_ / "seen.tif", eye = "36.53,-84.35";
+    const json told = object_said_by({"viewshed", coarse_, fine_, "-q", "--json", "--at", eye, "--above",
+                                      "20", "--target", "2", "--radius", "9", "--out", out});
+    EXPECT_EQ(told["posts_of"], coarse_);
+    EXPECT_GT(told["seen"].get<int>(), 100);
+    const json corners = json::parse(run_program({"gdalinfo", "-json", out}).out)["geoTransform"];
+    int seen = 0;
+    for (int step = -8; step <= 8; ++step) {
+        if (step == 0) continue;
+        const double column = told["columns"].get<int>() / 2 + step * 9,
+                     row = told["rows"].get<int>() / 2 - step * 4;
+        char to[80], lon[40], lat[40];
+        std::snprintf(lon, sizeof lon, "%.12f",
+                      corners[0].get<double>() + (column + 0.5) * corners[1].get<double>());
+        std::snprintf(lat, sizeof lat, "%.12f",
+                      corners[3].get<double>() + (row + 0.5) * corners[5].get<double>());
+        std::snprintf(to, sizeof to, "%s,%s", lat, lon);
+        std::istringstream values(run_program({"gdallocationinfo", "-valonly", "-wgs84", out, lon, lat}).out);
+        double is_seen = -1.0, missed_m = -1.0;
+        values >> is_seen >> missed_m;
+        const json sight = object_said_by({"sight", coarse_, fine_, "-q", "--json", "--from", eye, "--above",
+                                           "20", "--to", to, "--target", "2"});
+        EXPECT_EQ(is_seen == 1.0, sight["visible"].get<bool>()) << to;
+        EXPECT_NEAR(missed_m, sight["target_missed_by_m"].get<double>(), 0.001) << to;
+        seen += is_seen == 1.0;
+    }
+    EXPECT_GT(seen, 0);
+    EXPECT_LT(seen, 16);
+    const Outcome small = run_orograph({"viewshed", coarse_, fine_, "--at", "36.55,-84.265", "--radius",
+                                        "0.5", "--overwrite", "--out", out});
+    EXPECT_EQ(small.exit_code, 0) << small.err;
+    EXPECT_NE(small.err.find("note: the file has the posts of " + fine_), std::string::npos) << small.err;
+}
+
 TEST_F(GridsOverEachOther, AreToldApartByLayers) {
     const fs::path picture = folder_ / "layers.png";
     const json told =

@@ -19,8 +19,6 @@ struct SightGround {
     Region region;
     std::unique_ptr<const RegionGround> grids;
     [[nodiscard]] const TrueGround& ground() const { return grids->ground(); }
-    // Of a region of one grid.
-    [[nodiscard]] const TrueSurface& surface() const { return ground().surface(0); }
     // H of a point: above the geoid (of the region, as everywhere).
     [[nodiscard]] double H_m(const Geodetic& point) const;
     // Height of a point over the ground below it; nothing where there is none.

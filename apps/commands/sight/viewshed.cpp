@@ -36,6 +36,7 @@ struct ViewshedReport {
     Air air;
     double target_m{};
     double radius_km{};
+    std::size_t grid{};  // whose posts the file has
     PostWindow window;
     std::vector<float> missed_by_m;  // of the eye that misses it least
     std::vector<float> count;        // of eyes that see it
@@ -83,7 +84,10 @@ PostWindow around_both(const PostWindow& one, const PostWindow& other) {
     return both;
 }
 
-Result<void> make_window(const ViewshedOptions& options, const PostGrid& grid, ViewshedReport& report) {
+Result<void> make_window(const ViewshedOptions& options, const SightGround& ground, ViewshedReport& report) {
+    const auto most = grid_of_most(ground.ground(), report.eyes, report.radius_km * 1000.0);
+    report.grid = most.value_or(0);
+    const PostGrid& grid = ground.ground().surface(report.grid).field().grid;
     for (const Geodetic& eye : report.eyes)
         report.window = around_both(
             report.window, beside(window_around(grid, eye, report.radius_km * 1000.0), report.window, grid));
@@ -129,8 +133,9 @@ std::string eye_text(const Geodetic& eye, const SightGround& ground) {
 
 PostRaster raster_of(ViewshedReport& report, const SightGround& ground) {
     PostRaster raster;
-    raster.grid = ground.region.field.grid;
-    raster.crs = ground.region.posts_crs;
+    const Region& region = ground.grids->region(report.grid);
+    raster.grid = region.field.grid;
+    raster.crs = region.posts_crs;
     raster.first_row = report.window.first_row;
     raster.rows = report.window.rows;
     raster.first_column = report.window.first_column;
@@ -155,6 +160,12 @@ PostRaster raster_of(ViewshedReport& report, const SightGround& ground) {
     return raster;
 }
 
+// Of the grid whose posts the file has.
+std::string first_source(const SightGround& ground, const ViewshedReport& report) {
+    const Region& region = ground.grids->region(report.grid);
+    return region.sources.empty() ? std::string("the first grid") : region.sources.front().path;
+}
+
 void tell(const ViewshedOptions& options, const ViewshedReport& report, const SightGround& ground) {
     const double share =
         static_cast<double>(report.seen) / static_cast<double>(std::max<std::size_t>(1, report.cells));
@@ -167,6 +178,7 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const Si
         json["radius_km"] = report.radius_km;
         json["columns"] = report.window.columns;
         json["rows"] = report.window.rows;
+        json["posts_of"] = first_source(ground, report);
         json["asked_of_the_oracle"] = report.asked;
         json["looking_s"] = report.looking_s;
         json["light"] = light_json(report.air, report.eyes.front().h_m);
@@ -229,26 +241,27 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     report.radius_km = options.radius_km.value_or(usual_radius_km);
     ORO_TRY(report.air, air_asked_for(options.air.refraction_k, options.air.air, standard_air));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
+    ORO_TRY(const auto ground,
+            open_sight_ground(of_grids(options.region), [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
     ORO_CHECK(spare_ground({options.out}, options.region.paths, ground->region));
     ORO_CHECK(place_eyes(options, *ground, report));
-    const PostGrid& grid = ground->region.field.grid;
-    ORO_CHECK(make_window(options, grid, report));
+    ORO_CHECK(make_window(options, *ground, report));
+    const PostGrid& grid = ground->ground().surface(report.grid).field().grid;
     const auto looking = Clock::now();
     for (std::size_t i = 0; i < report.eyes.size(); ++i) {
         const ViewshedRequest request{report.eyes[i], report.air, report.target_m, report.radius_km * 1000.0,
                                       thread_count()};
         const auto of_all = static_cast<double>(report.eyes.size());
-        take_in(viewshed(ground->surface(), request,
-                         [&](double share) {
-                             bar.show((static_cast<double>(i) + share) / of_all, "looking around");
-                         }),
+        take_in(viewshed_of_grids(ground->ground(), report.grid, request,
+                                  [&](double share) {
+                                      bar.show((static_cast<double>(i) + share) / of_all, "looking around");
+                                  }),
                 grid, report);
     }
     report.looking_s = seconds_since(looking);
-    ORO_CHECK(ground->region.field.health());
+    ORO_CHECK(ground->ground().health());
     for (const float count : report.count) {
         report.cells += count != Viewshed::unknown;
         report.seen += count > 0.0F;
@@ -257,6 +270,9 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_CHECK(write_post_raster(options.out, options.overwrite, raster_of(report, *ground)));
     bar.clear();
     say_notes(ground->region, options.quiet);
+    if (ground->ground().grids() > 1)
+        say(options.quiet, "note: the file has the posts of " + first_source(*ground, report) +
+                               "; where other grids are the ground, it is their ground that is looked at");
     if (const std::string sides = sides_beyond(report, grid); !sides.empty())
         say(options.quiet, "note: the circle reaches beyond the data (" + sides +
                                "): what is seen there is not in the file");
