@@ -13,12 +13,13 @@
 #include "geo/datum/horizontal_datum.h"
 #include "geo/files/source_paths.h"
 #include "geo/listing/header_cache.h"
-#include "geo/region/lying_apart.h"
+#include "geo/posts/own_posts.h"
 #include "geo/region/region_grid.h"
 #include "geo/region/region_sources.h"
 #include "geo/sources/hgt_source.h"
 #include "geo/sources/raster_library.h"
 #include "geo/sources/raster_parts.h"
+#include "geo/together/lattices.h"
 
 namespace oro {
 namespace {
@@ -139,6 +140,19 @@ std::vector<std::pair<std::string, std::string>> to_leave_out(std::vector<Source
     return {};
 }
 
+// Why some sources make no grid; nothing where they do.
+std::optional<Error> fault_of_grid(std::span<const Source> sources, const RegionExtent& extent,
+                                   const RegionRequest& request) {
+    if (!request.resample && !std::ranges::all_of(sources, &Source::on_degrees)) {
+        const auto own = own_posts(sources, request.box);
+        if (!own) return own.error();
+        if (own->why_not.empty()) return std::nullopt;
+    }
+    const auto grid = region_grid(sources, extent);
+    if (grid.ok()) return std::nullopt;
+    return grid.error();
+}
+
 // What stands in the way of a region of these, as far as headers tell.
 void find_obstacle(const RegionRequest& request, std::vector<Source> sources, FileListing& listing) {
     const auto damaged = std::ranges::find_if(listing.files, &ListedFile::damaged);
@@ -148,15 +162,15 @@ void find_obstacle(const RegionRequest& request, std::vector<Source> sources, Fi
     if (!extent) return;
     std::vector<std::vector<Source>> groups;
     if (request.grids_apart)
-        groups = lying_apart(std::move(sources), request.box);
+        groups = grids_of_sources(std::move(sources), request);
     else
         groups.push_back(std::move(sources));
     for (const std::vector<Source>& group : groups) {
         const auto own = groups.size() == 1 ? extent : region_extent(group, request.box);
         if (!own) continue;
-        const auto grid = region_grid(group, *own);
-        if (grid.ok()) continue;
-        if (!listing.error) listing.error = grid.error();
+        const auto fault = fault_of_grid(group, *own, request);
+        if (!fault) continue;
+        if (!listing.error) listing.error = *fault;
         for (const auto& [path, why] : to_leave_out(group, request.box)) {
             const auto file = std::ranges::find(listing.files, path, &ListedFile::path);
             if (file != listing.files.end()) file->leave_out = why;

@@ -193,25 +193,6 @@ Region joined(std::vector<Region> regions) {
     return first;
 }
 
-// Sources that are to be a grid each: those that lie far apart, and of those that lie together those whose
-// posts are not each other's.
-std::vector<std::vector<Source>> grids_of(std::vector<Source> sources, const RegionRequest& request) {
-    std::vector<std::vector<Source>> grids;
-    for (std::vector<Source>& near : lying_apart(std::move(sources), request.box)) {
-        if (request.resample) {
-            grids.push_back(std::move(near));
-            continue;
-        }
-        for (std::vector<Source>& lattice : by_lattice(std::move(near), request.box))
-            for (std::vector<Source>& grid : lying_apart(std::move(lattice), request.box))
-                grids.push_back(std::move(grid));
-    }
-    if (grids.size() <= groups_max) return grids;
-    std::vector<Source> all;
-    for (std::vector<Source>& grid : grids) std::ranges::move(grid, std::back_inserter(all));
-    return {std::move(all)};
-}
-
 // Which of the groups wins where several have ground: as their first files are listed, where that counts;
 // else the finest first, among equals the one named first.
 std::vector<std::size_t> ranks_of(const std::vector<std::vector<Source>>& groups) {
@@ -244,7 +225,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
                      "its posts lie on a line or a point, and cover no area"};
     std::vector<std::vector<Source>> groups;
     if (request.grids_apart)
-        groups = grids_of(std::move(found.sources), request);
+        groups = grids_of_sources(std::move(found.sources), request);
     else
         groups.push_back(std::move(found.sources));
     std::vector<Region> regions;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "geo/posts/own_posts.h"
@@ -51,6 +52,23 @@ std::vector<std::vector<Source>> by_lattice(std::vector<Source> sources,
     const bool cheap = posts_of(sources, box) < apart_factor * alone;
     if (cheap && std::ranges::all_of(sources, &Source::on_degrees)) return {std::move(sources)};
     return lattices;
+}
+
+std::vector<std::vector<Source>> grids_of_sources(std::vector<Source> sources, const RegionRequest& request) {
+    std::vector<std::vector<Source>> grids;
+    for (std::vector<Source>& near : lying_apart(std::move(sources), request.box)) {
+        if (request.resample) {
+            grids.push_back(std::move(near));
+            continue;
+        }
+        for (std::vector<Source>& lattice : by_lattice(std::move(near), request.box))
+            for (std::vector<Source>& grid : lying_apart(std::move(lattice), request.box))
+                grids.push_back(std::move(grid));
+    }
+    if (grids.size() <= groups_max) return grids;
+    std::vector<Source> all;
+    for (std::vector<Source>& grid : grids) std::ranges::move(grid, std::back_inserter(all));
+    return {std::move(all)};
 }
 
 }  // namespace oro

@@ -109,6 +109,22 @@ TEST_F(GridsOverEachOther, AreToldOneByOne) {
     EXPECT_FALSE(one.contains("apart"));
 }
 
+// One grid of such posts over both would have 10^11: info told that of files that every picture opens.
+TEST_F(GridsOverEachOther, AreToldWhereOneHasFarCloserPosts) {
+    const std::string close = folder_ / "close.tif";
+    ASSERT_EQ(run_program({"gdalwarp", "-q", "-t_srs", "EPSG:32616", "-te", "744000", "4048000", "744010",
+                           "4048010", "-tr", "0.05", "0.05", "-r", "cubic", "-ot", "Float32", coarse_, close})
+                  .exit_code,
+              0);
+    const json told = object_said_by({"info", coarse_, close, "--json"});
+    ASSERT_TRUE(told.contains("apart")) << told.dump(1);
+    ASSERT_EQ(told["apart"].size(), 1U);
+    EXPECT_FALSE(told.contains("error"));
+    const Outcome one = run_orograph({"info", coarse_, close, "--resample"});
+    EXPECT_NE(one.exit_code, 0);
+    EXPECT_NE(one.err.find("0.05 m apart, are those of " + close), std::string::npos) << one.err;
+}
+
 // What is named first is the ground, however far apart its posts are.
 TEST_F(GridsOverEachOther, AreInTheOrderThatIsAskedFor) {
     const std::string inside = "36.56,-84.265";
@@ -217,7 +233,7 @@ TEST_F(GridsOverEachOther, HaveAStepInTheirProfile) {
 TEST_F(GridsOverEachOther, AreLookedOverTogether) {
     const std::string out = folder_ / "seen.tif", eye = "36.53,-84.35";
     const json told = object_said_by({"viewshed", coarse_, fine_, "-q", "--json", "--at", eye, "--above",
-                                      "20", "--target", "2", "--radius", "9", "--out", out});
+                                      "20", "--target", "2", "--radius", "7", "--out", out});
     EXPECT_EQ(told["posts_of"], coarse_);
     EXPECT_GT(told["seen"].get<int>(), 100);
     const json corners = json::parse(run_program({"gdalinfo", "-json", out}).out)["geoTransform"];

@@ -145,8 +145,7 @@ TEST_F(GridsBake, SparesFilesOfOthers) {
 
 TEST_F(GridsBake, IsRefusedWhereOneGridIsAskedFor) {
     ASSERT_EQ(bake().exit_code, 0);
-    const Outcome outcome =
-        run_orograph({"viewshed", out_, "--at", "36.53,-84.35", "--radius", "2", "--out", folder / "v.tif"});
+    const Outcome outcome = run_orograph({"plan", out_});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.err.find("holds 2 grids of posts, and this takes one"), std::string::npos)
         << outcome.err;
