@@ -9,6 +9,7 @@
 #include "apps/view/model_names.h"
 #include "core/base/parallel.h"
 #include "geo/measures/region_resampling.h"
+#include "geo/together/cut_regions.h"
 
 namespace oro {
 namespace {
@@ -22,6 +23,18 @@ std::optional<double> stated_le90_m(const Region& region) {
         if (source.format != SourceFormat::raster) return srtm_le90_m;
     }
     return std::nullopt;
+}
+
+// By how much resampling moved the heights of each grid; nothing where none of them were resampled.
+std::vector<HeightsOff> resampled_of(const Region& region) {
+    std::vector<HeightsOff> off;
+    bool any = false;
+    for (const Region* const grid : all_grids(region)) {
+        const auto resampled = region_resampling(*grid);
+        any |= resampled.has_value();
+        off.push_back(resampled ? HeightsOff{resampled->worst_m, resampled->rms_m} : HeightsOff{});
+    }
+    return any ? off : std::vector<HeightsOff>{};
 }
 
 // With its options written out.
@@ -88,21 +101,26 @@ Result<double> parse_tolerance(const std::string& text) {
     return px;
 }
 
-Result<TrueWorld> true_world(const View& view, const Region& region, const RegionPages& pages) {
+Result<TrueWorld> true_world(const View& view, const Region& region, const PagesOfGrids& pages) {
     TrueWorld world;
     if (view.model.air.k != 0.0) world.air = view.model.air;
-    world.source_le90_m = stated_le90_m(region);
-    ORO_TRY(world.sixteen, height_quantization(pages, HeightStorage::i16));
+    world.grids.clear();
+    for (const Region* const grid : all_grids(region)) {
+        ORO_TRY(const HeightQuantization sixteen,
+                height_quantization(pages[world.grids.size()], HeightStorage::i16));
+        world.grids.push_back({stated_le90_m(*grid), sixteen});
+    }
     return world;
 }
 
 DrawingModel drawing_model(const View& view, const TrueWorld& world) {
     return {view.model, view.has_geoid,
-            view.heights == HeightStorage::i16 ? world.sixteen : HeightQuantization{}, view.tau_px};
+            view.heights == HeightStorage::i16 ? world.grids.front().sixteen : HeightQuantization{},
+            view.tau_px};
 }
 
-Result<Budget> plan_view(const View& view, const Region& region, const TrueSurface& truth,
-                         const RegionPages& pages, double tolerance_px) {
+Result<Budget> plan_view(const View& view, const Region& region, const TrueGround& truth,
+                         const PagesOfGrids& pages, double tolerance_px) {
     ORO_TRY(const TrueWorld world, true_world(view, region, pages));
     const DrawingModel drawing = drawing_model(view, world);
     const Camera camera = true_camera(view, region);
@@ -133,14 +151,14 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueSurfa
         largest_px = size->worst_px;
         budget.dominant = effect.kind;
     }
-    if (const auto resampled = region_resampling(region); resampled && !budget.empty)
-        budget.resampling = prediction.heights_off(resampled->worst_m, resampled->rms_m);
+    if (const std::vector<HeightsOff> resampled = resampled_of(region); !resampled.empty() && !budget.empty)
+        budget.resampling = prediction.heights_off(resampled);
     ORO_TRY(budget.total, prediction.total(drawing));
     return budget;
 }
 
-Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueSurface& truth,
-                                       const RegionPages& pages, double tolerance_px,
+Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueGround& truth,
+                                       const PagesOfGrids& pages, double tolerance_px,
                                        const FixedAccuracy& fixed) {
     const auto with_fixed = [&](const AccuracyBundle& bundle) {
         return bundle_of(bundle.kind, bundle.name, fixed.tau_px.value_or(bundle.tau_px),

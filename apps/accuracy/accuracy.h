@@ -69,13 +69,14 @@ struct Budget {
     std::size_t sight_lines{};  // that estimates are made of
 };
 
-// The true world of a view: the air is the view's own, or standard air where light goes straight in it.
-Result<TrueWorld> true_world(const View& view, const Region& region, const RegionPages& pages);
+// The true world of a view, of all grids of its region: the air is the view's own, or standard air where
+// light goes straight in it.
+Result<TrueWorld> true_world(const View& view, const Region& region, const PagesOfGrids& pages);
 DrawingModel drawing_model(const View& view, const TrueWorld& world);
 
 // Errors: pages that cannot be read.
-Result<Budget> plan_view(const View& view, const Region& region, const TrueSurface& truth,
-                         const RegionPages& pages, double tolerance_px);
+Result<Budget> plan_view(const View& view, const Region& region, const TrueGround& truth,
+                         const PagesOfGrids& pages, double tolerance_px);
 
 // What single options fix, whatever a bundle says.
 struct FixedAccuracy {
@@ -93,8 +94,8 @@ struct AccuracyChoice {
     // What the view leaves out whatever its bundle, and is beyond the tolerance by itself.
     std::vector<EffectKind> left_out{};
 };
-Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueSurface& truth,
-                                       const RegionPages& pages, double tolerance_px,
+Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueGround& truth,
+                                       const PagesOfGrids& pages, double tolerance_px,
                                        const FixedAccuracy& fixed = {});
 
 }  // namespace oro

@@ -196,7 +196,7 @@ Result<BakeReport> bake_all(const Region& region, const BakingOptions& options, 
 }  // namespace
 
 Result<void> run_bake(const BakingOptions& options) {
-    ORO_TRY(const RegionRequest request, region_request(of_grids(options.region)));
+    ORO_TRY(const RegionRequest request, region_request(options.region));
     ORO_CHECK(check_out(options));
     ProgressBar bar(options.quiet);
     BakeResult baked;

@@ -97,7 +97,7 @@ Result<void> run_compare(const CompareOptions& options) {
     View view;
     Region region;
     ORO_CHECK(open_view(
-        options.view_file, {}, of_grids(options.region),
+        options.view_file, {}, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     ORO_CHECK(check_unchanged(view, region, options.data_changed, options.quiet));
     if (!options.out.empty()) {

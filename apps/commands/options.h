@@ -22,16 +22,9 @@ struct RegionOptions {
     bool strict_datum{false};
     bool fill_voids{false};
     bool resample{false};
-    std::string order;        // finest, listed; "": not said
+    std::string order;  // finest, listed; "": not said
     std::optional<double> feather_m;
-    bool grids_apart{false};  // of a command that draws several: RegionRequest.grids_apart
 };
-
-// The same for a command that can do with several grids.
-inline RegionOptions of_grids(RegionOptions options) {
-    options.grids_apart = true;
-    return options;
-}
 
 // From where, and how it looks.
 struct ViewOptions {

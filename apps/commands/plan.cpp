@@ -8,6 +8,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
 #include "apps/report/resampling_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view_changes.h"
@@ -144,18 +145,21 @@ Result<void> run_plan(const PlanOptions& options) {
     ORO_CHECK(open_view(
         options.view_file, view_options, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
-    ORO_TRY(
-        const std::unique_ptr<RegionPages> pages,
-        region_pages(region, view.exaggeration, [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(const RegionCuts cuts, cut_regions(region));
+    ORO_TRY(const GridPages pages, pages_of_grids(region, cuts, view.exaggeration, [&](double share) {
+                bar.show(share, "measuring levels");
+            }));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.clear();
     say_changes(view, options.quiet);
-    for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
-    if (const std::string sentence = resampling_sentence(region); !sentence.empty())
-        say(options.quiet, "note: " + sentence);
-    ORO_TRY(const Budget budget, plan_view(view, region, truth->surface(), *pages, tolerance_px));
+    say_notes(region, options.quiet);
+    for (const Region* const grid : all_grids(region))
+        if (const std::string sentence = resampling_sentence(*grid); !sentence.empty())
+            say(options.quiet, "note: " + sentence);
+    const PagesOfGrids of_grids = pointers_to(pages);
+    ORO_TRY(const Budget budget, plan_view(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const AccuracyChoice choice,
-            choose_accuracy(view, region, truth->surface(), *pages, tolerance_px));
+            choose_accuracy(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const UnseenGround unseen, unseen_in(view, region, *truth, ceiling_m));
     if (options.json) {
         std::printf("%s\n", json_text(plan_json(budget, view, choice, unseen), true).c_str());

@@ -55,12 +55,11 @@ std::string view_name(const Camera& camera, double ground_h_m) {
 
 // One that sees all of the region and those of the set; or the one that was asked for.
 std::vector<Camera> cameras_of(const TradeOptions& options, const View& view, const Region& region,
-                               const TrueSurface& surface) {
+                               const TrueGround& ground) {
     std::vector<Camera> cameras{true_camera(view, region)};
     if (options.view.at || !options.view_file.empty()) return cameras;
     const std::vector<Camera> made =
-        made_cameras(view_seed, surface.field(), options.views - 1, view.camera.width_px,
-                     view.camera.height_px, view.exaggeration);
+        made_cameras(view_seed, ground, options.views - 1, view.camera.width_px, view.camera.height_px);
     cameras.insert(cameras.end(), made.begin(), made.end());
     return cameras;
 }
@@ -177,16 +176,16 @@ Result<void> run_trade(const TradeOptions& options) {
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     Trade trade(view, region, *gpu, path, style.frame, options.repeats, options.memory);
     ORO_CHECK(trade.prepare());
-    if (const std::string note = note_of_means(style.frame, trade.pages()); !note.empty())
+    if (const std::string note = note_of_means(style.frame, trade.pages()[0]); !note.empty())
         say(options.quiet, note);
-    const std::vector<Camera> cameras = cameras_of(options, view, region, trade.surface());
+    const std::vector<Camera> cameras = cameras_of(options, view, region, trade.ground());
     TradeReport report;
     describe(options, view, *gpu, path, report);
     constexpr std::size_t with_pictures = 3;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         bar.show(static_cast<double>(i) / static_cast<double>(cameras.size()), "measuring views");
         const Geodetic& eye = cameras[i].eye;
-        const double ground_m = trade.surface().h_m(eye.lat_deg, eye.lon_deg).value_or(0.0);
+        const double ground_m = trade.ground().h_m(eye.lat_deg, eye.lon_deg).value_or(0.0);
         ORO_CHECK(trade.measure(cameras[i], view_name(cameras[i], ground_m), i < with_pictures, report));
     }
     sum_up(report);

@@ -1,7 +1,9 @@
 #include "apps/drawing/region_scene.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "apps/report/figures.h"
 #include "core/baked/file_pages.h"
@@ -73,41 +75,73 @@ Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, c
                          {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares}, heights, means);
 }
 
-Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
-                                  double exaggeration, const MemoryOptions& memory, HeightStorage heights,
-                                  bool means, Scene& scene) {
-    std::uint64_t triangles = 0;
-    for (std::size_t i = 0; i < region.beside.size(); ++i) {
-        ORO_TRY(std::unique_ptr<RegionPages> pages,
-                region_pages(region.beside[i], cuts.grids[i + 1], exaggeration));
-        triangles += pages->facts().triangles;
-        ORO_TRY(Scene more, create_scene(gpu, std::move(pages), memory, heights, means,
-                                         1U + static_cast<unsigned>(region.beside.size())));
-        scene.draw_beside(std::move(more));
+Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, double exaggeration,
+                                 const RenderProgress& progress) {
+    GridPages pages;
+    for (const Region* const grid : all_grids(region)) {
+        const std::size_t number = pages.size();
+        ORO_TRY(std::unique_ptr<RegionPages> more, region_pages(*grid, cuts.grids[number], exaggeration,
+                                                                number == 0 ? progress : RenderProgress{}));
+        pages.push_back(std::move(more));
     }
-    if (const Seam seam = seam_between(region, cuts, exaggeration); !seam.empty()) {
-        ORO_TRY(std::unique_ptr<RegionPages> pages,
-                seam_pages(seam, region.field.undulation, region_shape(region.field, exaggeration)));
-        triangles += pages->facts().triangles;
-        // Small beside the rest: not of the share of any.
-        ORO_TRY(Scene between,
-                create_scene(gpu, std::move(pages), MemoryOptions{}, HeightStorage::f32, false, 4));
-        scene.draw_beside(std::move(between));
-    }
+    return pages;
+}
+
+PagesOfGrids pointers_to(const GridPages& pages) {
+    std::vector<const RegionPages*> pointers;
+    for (const std::unique_ptr<RegionPages>& one : pages) pointers.push_back(one.get());
+    return PagesOfGrids(std::move(pointers));
+}
+
+namespace {
+
+// What is between a region's grids, into the frames of their scene. Gives the triangles that it has.
+Result<std::uint64_t> draw_between(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
+                                   double exaggeration, Scene& scene) {
+    const Seam seam = seam_between(region, cuts, exaggeration);
+    if (seam.empty()) return std::uint64_t{0};
+    ORO_TRY(std::unique_ptr<RegionPages> pages,
+            seam_pages(seam, region.field.undulation, region_shape(region.field, exaggeration)));
+    const std::uint64_t triangles = pages->facts().triangles;
+    // Small beside the rest: not of the share of any.
+    ORO_TRY(Scene between,
+            create_scene(gpu, std::move(pages), MemoryOptions{}, HeightStorage::f32, false, 4));
+    scene.draw_beside(std::move(between));
     return triangles;
+}
+
+}  // namespace
+
+Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
+                                    GridPages pages, const SceneRequest& request) {
+    std::optional<Scene> scene;
+    std::uint64_t triangles = 0;
+    for (std::unique_ptr<RegionPages>& one : pages) {
+        triangles += one->facts().triangles;
+        ORO_TRY(Scene made, create_scene(gpu, std::move(one), request.memory, request.heights, request.means,
+                                         static_cast<unsigned>(pages.size())));
+        if (scene)
+            scene->draw_beside(std::move(made));
+        else
+            scene = std::move(made);
+    }
+    if (pages.size() > 1) {
+        ORO_TRY(const std::uint64_t between, draw_between(gpu, region, cuts, request.exaggeration, *scene));
+        triangles += between;
+    }
+    return RegionScene{std::move(*scene), triangles};
 }
 
 Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                     std::unique_ptr<RegionPages> pages, const SceneRequest& request) {
-    const std::uint64_t own = pages->facts().triangles;
-    ORO_TRY(Scene scene, create_scene(gpu, std::move(pages), request.memory, request.heights, request.means,
-                                      1U + static_cast<unsigned>(region.beside.size())));
-    std::uint64_t beside = 0;
-    if (!region.beside.empty()) {
-        ORO_TRY(beside, draw_beside(gpu, region, cuts, request.exaggeration, request.memory, request.heights,
-                                    request.means, scene));
+    GridPages all;
+    all.push_back(std::move(pages));
+    for (std::size_t i = 0; i < region.beside.size(); ++i) {
+        ORO_TRY(std::unique_ptr<RegionPages> more,
+                region_pages(region.beside[i], cuts.grids[i + 1], request.exaggeration));
+        all.push_back(std::move(more));
     }
-    return RegionScene{std::move(scene), own + beside};
+    return scene_of_region(gpu, region, cuts, std::move(all), request);
 }
 
 std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages) {

@@ -3,6 +3,7 @@
 
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "apps/commands/options.h"
 #include "geo/region/region.h"
@@ -24,12 +25,12 @@ Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, c
 // The same of a region with a part cut out (geo/together).
 Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, const CutOut& cut,
                                                   double exaggeration, const RenderProgress& progress = {});
-// The regions beside one whose scene has 1 / (1 + their number) of the memory, and what is between them all,
-// into its frames. cuts: of all of them (cut_regions()). Gives the triangles that they have at full
-// resolution.
-Result<std::uint64_t> draw_beside(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
-                                  double exaggeration, const MemoryOptions& memory, HeightStorage heights,
-                                  bool means, Scene& scene);
+// Pages of all grids of a region (all_grids()): of what those that are the ground leave of each. progress: of
+// the first.
+using GridPages = std::vector<std::unique_ptr<RegionPages>>;
+Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, double exaggeration,
+                                 const RenderProgress& progress = {});
+PagesOfGrids pointers_to(const GridPages& pages);
 
 // A region with all its grids, ready for a GPU, and the triangles that it has at full resolution.
 struct RegionScene {
@@ -42,7 +43,10 @@ struct SceneRequest {
     HeightStorage heights{HeightStorage::f32};
     bool means{};
 };
-// pages: of the region's own grid (region_pages()), with cuts as draw_beside().
+// pages: of all grids (pages_of_grids()); or of the region's own alone (region_pages()), then those of others
+// are made. cuts: of all of them (cut_regions()).
+Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
+                                    GridPages pages, const SceneRequest& request);
 Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                     std::unique_ptr<RegionPages> pages, const SceneRequest& request);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "apps/drawing/region_scene.h"
 #include "core/base/median.h"
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
@@ -55,8 +54,9 @@ Result<void> add_pictures(const Verification& drawn, const TradeCase& one, const
 
 Result<void> Trade::prepare() {
     ORO_TRY(truth_, TrueScene::of(view_, region_));
-    ORO_TRY(pages_, region_pages(region_, view_.exaggeration));
-    ORO_TRY(world_, true_world(view_, region_, *pages_));
+    ORO_TRY(const RegionCuts cuts, cut_regions(region_));
+    ORO_TRY(pages_, pages_of_grids(region_, cuts, view_.exaggeration));
+    ORO_TRY(world_, true_world(view_, region_, pages()));
     // Whatever air the view asks for: settings are drawn in standard air, but those that leave it out.
     world_.air = standard_air;
     return {};
@@ -64,7 +64,7 @@ Result<void> Trade::prepare() {
 
 Camera Trade::camera_of(const Camera& camera, const TradeCase& one) const {
     Camera from = camera;
-    if (!one.has_geoid) from.eye.h_m -= region_.field.undulation.at_m(from.eye.lat_deg, from.eye.lon_deg);
+    if (!one.has_geoid) from.eye.h_m -= ground().N_m(from.eye.lat_deg, from.eye.lon_deg);
     return from;
 }
 
@@ -84,10 +84,12 @@ Result<Scene*> Trade::scene_of(const TradeCase& one) {
         leave_geoid_out(*without_geoid_);
     }
     const Region& region = one.has_geoid ? region_ : *without_geoid_;
-    ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(region, view_.exaggeration));
-    ORO_TRY(Scene scene,
-            create_scene(gpu_, std::move(pages), share_of_memory(), one.heights, asks_for_means(style_)));
-    return &scenes_.emplace(key, std::move(scene)).first->second;
+    ORO_TRY(const RegionCuts cuts, cut_regions(region));
+    ORO_TRY(GridPages pages, pages_of_grids(region, cuts, view_.exaggeration));
+    ORO_TRY(RegionScene whole,
+            scene_of_region(gpu_, region, cuts, std::move(pages),
+                            {view_.exaggeration, share_of_memory(), one.heights, asks_for_means(style_)}));
+    return &scenes_.emplace(key, std::move(whole.scene)).first->second;
 }
 
 Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const TruePicture& truth,
@@ -127,7 +129,7 @@ Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const
 
 Result<TradeEffect> Trade::predicted(const TradeCase& one, const EffectPrediction& prediction) const {
     DrawingModel drawing{one.world, one.has_geoid, {}, one.tau_px};
-    if (one.heights == HeightStorage::i16) drawing.coding = world_.sixteen;
+    if (one.heights == HeightStorage::i16) drawing.coding = world_.grids.front().sixteen;
     ORO_TRY(const EffectSize size, prediction.total(drawing));
     TradeEffect effect;
     effect.key = one.key;
@@ -139,9 +141,9 @@ Result<TradeEffect> Trade::predicted(const TradeCase& one, const EffectPredictio
 Result<void> Trade::measure(const Camera& camera, const std::string& name, bool pictures,
                             TradeReport& report) {
     const Sight sight = sight_from(camera.eye, world_.air);
-    const EffectPrediction prediction(surface(), *pages_, camera, world_, thread_count());
+    const EffectPrediction prediction(ground(), pages(), camera, world_, thread_count());
     Verification drawn;
-    const TruePicture truth(surface(), sight, camera, thread_count());
+    const TruePicture truth(ground(), sight, camera, thread_count());
     for (const TradeCase& one : cases_) {
         ORO_TRY(TradeShot shot, shoot(one, camera, truth, drawn));
         shot.view = name;

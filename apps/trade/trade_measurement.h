@@ -10,6 +10,7 @@
 #include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/verification.h"
 #include "apps/commands/options.h"
+#include "apps/drawing/region_scene.h"
 #include "apps/trade/trade_report.h"
 #include "apps/trade/trade_settings.h"
 #include "render/frame/depth_picture.h"
@@ -29,12 +30,12 @@ class Trade {
           repeats_(repeats),
           memory_(memory),
           painter_(gpu, path),
-          cases_(trade_cases(region.field.grid.net != nullptr)) {}
+          cases_(trade_cases(keeps_own_posts(region))) {}
 
     // Reads the truth. Errors: damage in a baked region; nothing to draw.
     Result<void> prepare();
-    [[nodiscard]] const TrueSurface& surface() const { return truth_->surface(); }
-    [[nodiscard]] const RegionPages& pages() const { return *pages_; }
+    [[nodiscard]] const TrueGround& ground() const { return truth_->ground(); }
+    [[nodiscard]] PagesOfGrids pages() const { return pointers_to(pages_); }
     // Adds a view's shots and effects to the report. camera: the true eye. `pictures`: put pictures of it in,
     // too. Errors: those of the device; terrain that it cannot hold.
     Result<void> measure(const Camera& camera, const std::string& name, bool pictures, TradeReport& report);
@@ -57,7 +58,7 @@ class Trade {
     std::vector<TradeCase> cases_;
     std::optional<Region> without_geoid_;
     std::unique_ptr<TrueScene> truth_;
-    std::unique_ptr<RegionPages> pages_;  // for predictions
+    GridPages pages_;  // for predictions
     TrueWorld world_;
     std::map<std::pair<bool, HeightStorage>, Scene> scenes_;
 };

@@ -130,6 +130,8 @@ Result<void> check_view_opens(const View& view, const std::string& where);
 
 // Takes N out of a region: heights are then above the ellipsoid, for the eye's place as for the terrain's.
 void leave_geoid_out(Region& region);
+// Whether one of its grids has posts where their own CRS has them.
+bool keeps_own_posts(const Region& region);
 
 // The view that a command's options ask for, and the region it looks at: from `view_file` where one is named,
 // changed as far as the options may, else from the options alone. Errors: all of the above and those of

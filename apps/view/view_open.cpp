@@ -19,6 +19,10 @@ void leave_geoid_out(Region& region) {
     for (Region& other : region.beside) leave_geoid_out(other);
 }
 
+bool keeps_own_posts(const Region& region) {
+    return region.field.grid.net != nullptr || std::ranges::any_of(region.beside, keeps_own_posts);
+}
+
 namespace {
 
 // Of several grids, the first is the one whose ground the eye is over, or else the nearest: what is told of
@@ -33,10 +37,6 @@ void begin_with_region_at(const Geodetic& eye, Region& region) {
     others[number] = std::move(region);
     first.beside = std::move(others);
     region = std::move(first);
-}
-
-bool keeps_own_posts(const Region& region) {
-    return region.field.grid.net != nullptr || std::ranges::any_of(region.beside, keeps_own_posts);
 }
 
 // Images are of one grid yet.
@@ -127,9 +127,6 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         auto opened = open_region(view.region, progress);
         if (!opened) return with_way_out(opened.error(), view, region_options);
         region = std::move(*opened);
-        if (!region.beside.empty() && !region_options.grids_apart)
-            return Error{ErrorKind::usage, view_file,
-                         "shows several grids of posts: shot draws it again, and compare measures it"};
         view.own_posts = keeps_own_posts(region);
         view.several_grids = !region.beside.empty();
         view.prints = prints_of(region);
@@ -144,7 +141,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
-    view.region.grids_apart = region_options.grids_apart && draws_grids_apart(view);
+    view.region.grids_apart = draws_grids_apart(view);
     ORO_TRY(region, open_region(view.region, progress));
     view.own_posts = keeps_own_posts(region);
     view.several_grids = !region.beside.empty();

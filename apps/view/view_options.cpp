@@ -181,7 +181,7 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
     request.strict_datum = options.strict_datum;
     request.fill_voids = options.fill_voids;
     request.resample = options.resample;
-    request.grids_apart = options.grids_apart;
+    request.grids_apart = true;
     request.listed_first = options.order == "listed";
     if (options.feather_m) {
         ORO_TRY(request.feather_m, within("--feather", *options.feather_m, view_limits::feather_m));

@@ -320,7 +320,7 @@ Result<void> run_loop(Viewer& viewer) {
 // The data, and the view that the flight begins with.
 Result<void> open_flight(const WindowOptions& options, ProgressBar& bar, View& view, Region& region) {
     ORO_CHECK(open_view(
-        options.view_file, options.view, of_grids(options.region),
+        options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     if (options.no_paths) view.tells_paths = false;
     // Its pictures are those of the window.

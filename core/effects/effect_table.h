@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/earth/world_model.h"
 #include "core/terrain/height_quantization.h"
@@ -63,8 +64,11 @@ struct DrawingModel {
 // What is known of the world and of the region, besides its posts.
 struct TrueWorld {
     Air air{standard_air};
-    std::optional<double> source_le90_m;  // half the height interval that holds 90 % of the source's errors
-    HeightQuantization sixteen;           // what i16 would be for the region
+    struct OfGrid {
+        std::optional<double> source_le90_m;  // half the interval that holds 90 % of the source's errors
+        HeightQuantization sixteen;           // what i16 would be for it
+    };
+    std::vector<OfGrid> grids{OfGrid{}};  // numbered as the ground's
 };
 
 struct EffectFacts {

@@ -2,70 +2,24 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
 
-#include "core/base/median.h"
 #include "core/base/parallel.h"
+#include "core/effects/effect_sizes.h"
 #include "core/frame/placement_promise.h"
-#include "core/lod/sampled_detail.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/flat_triangle.h"
 
 namespace oro {
-namespace {
 
-// What lies between the samples: bounds that come from samples are widened by this where the samples look
-// through gaps between hills as well, ...
-constexpr double between_samples = 1.5;
-// ... and where what is drawn was not looked at itself, but what is truly seen.
-constexpr double unlike_the_truth = 2.5;
-// Ground between the samples may be somewhat nearer than at them.
-constexpr double nearer = 1.3;
-// Ground behind edges that is farther from them comes out only where it is moved farther.
-constexpr double in_gaps_px = 1.5;
-
-// Collects one effect's sizes at the samples.
-class Sizes {
-  public:
-    // even: counts for the median.
-    void add(double metres, double px, bool even) {
-        worst_m_ = worse(worst_m_, metres);
-        worst_px_ = worse(worst_px_, px);
-        if (!even) return;
-        metres_.push_back(metres);
-        px_.push_back(px);
-    }
-    // The bound is the largest times `margin`. Uses the values up.
-    EffectSize size(double margin) {
-        EffectSize size{margin * worst_m_, 0.0, margin * worst_px_, 0.0, 0.0, worst_px_};
-        if (px_.empty()) return size;
-        const std::size_t p99 = (px_.size() - 1) * 99 / 100;
-        std::nth_element(px_.begin(), px_.begin() + static_cast<std::ptrdiff_t>(p99), px_.end());
-        size.p99_px = px_[p99];
-        size.typical_m = median_of(std::move(metres_));
-        size.typical_px = median_of(std::move(px_));
-        return size;
-    }
-
-  private:
-    // What is no number stays: a bound that leaves it out would hold nothing.
-    static double worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
-
-    double worst_m_{};
-    double worst_px_{};
-    std::vector<double> metres_;
-    std::vector<double> px_;
-};
-
-}  // namespace
-
-EffectPrediction::EffectPrediction(const TrueSurface& surface, const RegionPages& pages, const Camera& camera,
+EffectPrediction::EffectPrediction(const TrueGround& ground, const PagesOfGrids& pages, const Camera& camera,
                                    const TrueWorld& world, int threads)
-    : surface_(surface),
+    : ground_(ground),
       pages_(pages),
       camera_(camera),
       world_(world),
@@ -73,7 +27,10 @@ EffectPrediction::EffectPrediction(const TrueSurface& surface, const RegionPages
       sight_(sight_from(camera.eye, world.air)),
       view_from_ecef_(camera.view_from_ecef()),
       pixels_per_tangent_(0.5 * camera.height_px / camera.half_fov_tangent().y),
-      samples_(view_samples(surface, sight_, camera_, threads)) {}
+      samples_(view_samples(ground, sight_, camera_, threads)) {
+    assert(pages.size() == ground.grids() && world.grids.size() == ground.grids());
+    std::erase_if(samples_, &Sample::between_grids);
+}
 
 double EffectPrediction::nearest_m() const {
     double nearest_m = std::numeric_limits<double>::infinity();
@@ -144,7 +101,8 @@ const std::vector<EffectPrediction::Shown>& EffectPrediction::shown_by(EffectKin
     std::vector<Shown>& all = found->second;
     if (!is_new) return all;
     const Camera wide = rim_px > 0 ? widened(camera_, rim_px) : camera_;
-    for (const Sample& sample : view_samples(surface_, sight_of(model, camera_.eye), wide, threads_)) {
+    for (const Sample& sample : view_samples(ground_, sight_of(model, camera_.eye), wide, threads_)) {
+        if (sample.between_grids) continue;
         const glm::dvec3 offset_m = ecef_from_geodetic(sample.point).m - sight_.eye.m;
         const glm::dvec3 seen_m = sight_.refraction.apparent_m(offset_m);
         const double metres = glm::length(sight_.refraction.true_m(sample.apparent_m) - offset_m);
@@ -222,80 +180,24 @@ EffectSize EffectPrediction::anywhere(const Bound& bound_m, const Bound& typical
 }
 
 FlatTriangle EffectPrediction::flat_triangle(const Sample& sample, double posts) const {
-    return oro::flat_triangle(surface_.field().grid, sample.point.lat_deg, sample.point.h_m, sample.slope,
-                              posts);
+    return oro::flat_triangle(grid(sample), sample.point.lat_deg, sample.point.h_m, sample.slope, posts);
 }
 
-double EffectPrediction::left_out_N_m(double lat_deg, double lon_deg) const {
-    return pages_.facts().undulation.N_m.empty() ? surface_.field().undulation.at_m(lat_deg, lon_deg) : 0.0;
+double EffectPrediction::left_out_N_m(std::size_t grid, double lat_deg, double lon_deg) const {
+    return pages_[grid].facts().undulation.N_m.empty()
+               ? ground_.surface(grid).field().undulation.at_m(lat_deg, lon_deg)
+               : 0.0;
 }
 
 EffectSize EffectPrediction::without_geoid() const {
-    const UndulationField& undulation = surface_.field().undulation;
     Geodetic eye = camera_.eye;
-    eye.h_m -= undulation.at_m(eye.lat_deg, eye.lon_deg);
+    eye.h_m -= ground_.N_m(eye.lat_deg, eye.lon_deg);
     const auto drawn = [&](const Sample& sample) {
         Geodetic point = sample.point;
-        point.h_m -= undulation.at_m(point.lat_deg, point.lon_deg);
+        point.h_m -= surface(sample).field().undulation.at_m(point.lat_deg, point.lon_deg);
         return sight_.refraction.apparent_m(model_offset_m(Earth::ellipsoid, eye, point));
     };
     return moved(drawn, unlike_the_truth);
-}
-
-// From the posts around what is seen: how far each second one lies from the middle of its neighbours is how
-// far the ground may lie from the middle of posts twice as dense; half of that typically.
-EffectSize EffectPrediction::interpolation(int apart) const {
-    Sizes sizes;
-    for (const Sample& sample : samples_) {
-        if (sample.beside_px > 0.0) continue;  // what is seen
-        double bend_m = 0.0;
-        for (const auto& [down, right] : {std::pair(apart, 0), std::pair(0, apart)}) {
-            const PostGrid& grid = surface_.field().grid;
-            if (sample.row < down || sample.column < right || sample.row + down >= grid.rows() ||
-                sample.column + right >= grid.columns())
-                continue;
-            const auto before = surface_.post_h_m(sample.row - down, sample.column - right);
-            const auto here = surface_.post_h_m(sample.row, sample.column);
-            const auto after = surface_.post_h_m(sample.row + down, sample.column + right);
-            if (!before || !here || !after) continue;
-            bend_m = std::max(bend_m, std::abs(*here - 0.5 * (*before + *after)));
-        }
-        sizes.add(bend_m, vertical_px(sample, bend_m), sample.even);
-    }
-    EffectSize size = sizes.size(1.0);
-    size.typical_m *= 0.5;
-    size.typical_px *= 0.5;
-    return size;
-}
-
-EffectSize EffectPrediction::interpolation_estimate(int apart) const {
-    EffectSize size = interpolation(apart);
-    size.worst_m *= between_samples;
-    size.worst_px *= between_samples;
-    return size;
-}
-
-Result<EffectSize> EffectPrediction::detail(double tau_px) const {
-    Camera drawn = camera_;
-    drawn.eye.h_m -= left_out_N_m(drawn.eye.lat_deg, drawn.eye.lon_deg);
-    SampledDetail detail(pages_, drawn, tau_px, sight_.refraction);
-    constexpr double between_nodes = 1.5;
-    Sizes heights, sideways;
-    for (const Sample& sample : samples_) {
-        ORO_TRY(const SampledDetail::Bound bound, detail.at(sample.row, sample.column));
-        if (sample.beside_px > in_gaps_px + between_nodes * bound.error_px) continue;
-        heights.add(bound.error_m, bound.error_px, sample.even);
-        const double flat_m =
-            bound.level == 0 ? 0.0 : flat_triangle(sample, std::ldexp(1.0, bound.level)).sideways_m;
-        sideways.add(flat_m, any_way_px(sample, flat_m), sample.even);
-    }
-    EffectSize size = heights.size(between_nodes);
-    size.worst_px = std::min(size.worst_px, tau_px);
-    // Levels are certified by how far the surface moves; along it ground points move a little, too.
-    const EffectSize flat = sideways.size(nearer);
-    size.worst_m += flat.worst_m;
-    size.worst_px += flat.worst_px;
-    return size;
 }
 
 Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double tau_px) const {
@@ -315,22 +217,6 @@ EffectSize EffectPrediction::in_flat_cells() const {
                   vertical_px(sample, off.up_m) + any_way_px(sample, off.sideways_m), sample.even);
     }
     return sizes.size(nearer);
-}
-
-std::optional<EffectSize> EffectPrediction::stated_by_source() const {
-    if (!world_.source_le90_m) return std::nullopt;
-    // Of a normal distribution: half of all errors are within 0.41 of what holds 90 %.
-    constexpr double half_of_all = 0.41;
-    const double le90_m = *world_.source_le90_m;
-    return heights_off(le90_m, half_of_all * le90_m);
-}
-
-EffectSize EffectPrediction::heights_off(double worst_m, double typical_m) const {
-    EffectSize size = lifted([&](const Sample&) { return worst_m; });
-    size.typical_px *= worst_m > 0.0 ? typical_m / worst_m : 0.0;
-    size.typical_m = typical_m;
-    size.worst_m = worst_m;
-    return size;
 }
 
 Result<std::optional<EffectSize>> EffectPrediction::new_size(EffectKind kind, double tau_px) const {
@@ -381,6 +267,12 @@ Result<EffectSize> EffectPrediction::total(const DrawingModel& drawing) const {
         sum.typical_m += one->typical_m;
         sum.worst_px += largest.worst_px;
         sum.typical_px += one->typical_px;
+    }
+    // With levels it is a part of what they leave out.
+    if (!is_in_picture(EffectKind::detail, drawing, world_)) {
+        const EffectSize gaps = gaps_closed(0.0);
+        sum.worst_m += gaps.worst_m;
+        sum.worst_px += gaps.worst_px;
     }
     return sum;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,7 @@
 #include "core/terrain/flat_triangle.h"
 #include "core/truth/oracle.h"
 #include "core/truth/picture_error.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 #include "core/truth/view_samples.h"
 
 namespace oro {
@@ -35,14 +36,21 @@ struct EffectSize {
     double largest_px{};
 };
 
+// Heights of a grid that are off by up to worst_m, and typically by typical_m, wherever they are.
+struct HeightsOff {
+    double worst_m{};
+    double typical_m{};
+};
+
 // Predicts the effects in one view, from what it sees (core/truth/view_samples.h), and on another Earth from
 // what a picture of that one shows, too. Asks for the pages that hold what is seen when detail is asked for.
 // Bounds of what drawing rounds off and of levels are derived; those of the Earth, the geoid and the air are
 // the largest at the samples, times a margin for what lies between them.
 class EffectPrediction {
   public:
-    // camera: the true eye. All outlive the prediction.
-    EffectPrediction(const TrueSurface& surface, const RegionPages& pages, const Camera& camera,
+    // pages, world: of each of the ground's grids. camera: the true eye. What ground and pages are made of
+    // outlives the prediction. Steps between grids are left out: measures do not count them, either.
+    EffectPrediction(const TrueGround& ground, const PagesOfGrids& pages, const Camera& camera,
                      const TrueWorld& world, int threads);
 
     // Nothing is in view: all sizes are 0.
@@ -60,8 +68,8 @@ class EffectPrediction {
     // What lies between posts that are `apart` of the region's apart: 1 for the data as they are. 2 predicts
     // what every second post would hide, which is known.
     [[nodiscard]] EffectSize interpolation(int apart) const;
-    // Heights that are off by up to worst_m, and typically by typical_m, wherever they are.
-    [[nodiscard]] EffectSize heights_off(double worst_m, double typical_m) const;
+    // one of each grid.
+    [[nodiscard]] EffectSize heights_off(std::span<const HeightsOff> of_grids) const;
     // The same as a guess of what lies between them, with a margin: nobody has looked there.
     [[nodiscard]] EffectSize interpolation_estimate(int apart) const;
 
@@ -107,16 +115,21 @@ class EffectPrediction {
     [[nodiscard]] EffectSize in_sixteen_bits() const;
     [[nodiscard]] EffectSize in_float32(Precision precision) const;
     [[nodiscard]] Result<EffectSize> detail(double tau_px) const;
+    [[nodiscard]] EffectSize gaps_closed(double tau_px) const;
     [[nodiscard]] Result<std::optional<EffectSize>> new_size(EffectKind kind, double tau_px) const;
     [[nodiscard]] std::optional<EffectSize> known_bound(EffectKind kind) const;
     [[nodiscard]] EffectSize in_flat_cells() const;
     [[nodiscard]] std::optional<EffectSize> stated_by_source() const;
     [[nodiscard]] EffectSize without_geoid() const;
-    // N that the pages go without.
-    [[nodiscard]] double left_out_N_m(double lat_deg, double lon_deg) const;
+    [[nodiscard]] const TrueSurface& surface(const Sample& sample) const {
+        return ground_.surface(sample.grid);
+    }
+    [[nodiscard]] const PostGrid& grid(const Sample& sample) const { return surface(sample).field().grid; }
+    // N that the pages of a grid go without.
+    [[nodiscard]] double left_out_N_m(std::size_t grid, double lat_deg, double lon_deg) const;
 
-    const TrueSurface& surface_;
-    const RegionPages& pages_;
+    TrueGround ground_;
+    PagesOfGrids pages_;
     Camera camera_;
     TrueWorld world_;
     int threads_;

@@ -46,8 +46,10 @@ double transform_m(const glm::dmat3& rotation, const glm::dvec3& ecef_m, const g
 
 // What drawing rounds off, by no more than is known beforehand; nothing for other effects.
 std::optional<EffectSize> EffectPrediction::known_bound(EffectKind kind) const {
-    const PostGrid& grid = surface_.field().grid;
-    const double cell_m = wgs84_a_m * std::hypot(grid.row_step_rad(), grid.column_step_rad());
+    const auto cell_m = [&](const Sample& sample) {
+        const PostGrid& posts = grid(sample);
+        return wgs84_a_m * std::hypot(posts.row_step_rad(), posts.column_step_rad());
+    };
     // Along the sight line nothing moves on the picture.
     const auto along_m = [](const Sample& sample) { return 4.0 * float_rounding * sample.distance_m; };
     constexpr double corner_px = std::numbers::sqrt2 / 256.0;
@@ -62,7 +64,7 @@ std::optional<EffectSize> EffectPrediction::known_bound(EffectKind kind) const {
         // A ground point moves with the corners of its triangle.
         case EffectKind::placement: {
             const auto off_m = [&](const Sample& sample) {
-                return placement_far_share * (sample.distance_m + cell_m);
+                return placement_far_share * (sample.distance_m + cell_m(sample));
             };
             return anywhere(off_m, off_m);
         }
@@ -103,8 +105,7 @@ EffectSize EffectPrediction::in_float32(Precision precision) const {
 
 // The posts of a sample's triangle, and how much each counts there.
 std::array<EffectPrediction::PostShare, 3> EffectPrediction::shares_of(const Sample& sample) const {
-    const PostGrid& grid = surface_.field().grid;
-    const PostNumber post = grid.post_at(sample.point.lat_deg, sample.point.lon_deg);
+    const PostNumber post = grid(sample).post_at(sample.point.lat_deg, sample.point.lon_deg);
     const double down = post.row - sample.row, right = post.column - sample.column;
     const double north_west = 1.0 - std::max(down, right), south_east = std::min(down, right);
     return {{{sample.row, sample.column, north_west},
@@ -116,21 +117,24 @@ std::array<EffectPrediction::PostShare, 3> EffectPrediction::shares_of(const Sam
 // At most half a step. What is usual is no chance: whole metres of H have all the same rest where N hardly
 // changes.
 EffectSize EffectPrediction::in_sixteen_bits() const {
-    const PostGrid& grid = surface_.field().grid;
-    const auto off_m = [&](int row, int column) {
+    const auto off_m = [&](const Sample& sample, int row, int column) {
+        const PostGrid& posts = grid(sample);
+        const HeightQuantization& sixteen = world_.grids[sample.grid].sixteen;
         // As it is drawn: without a geoid, if that is how pages have it.
-        const PostPlace place = grid.net ? grid.net->place_at(row, column)
-                                         : PostPlace{row_lat_deg(grid, row), grid.lon.at_deg(column)};
-        const double h_m =
-            surface_.post_h_m(row, column).value_or(0.0) - left_out_N_m(place.lat_deg, place.lon_deg);
-        return world_.sixteen.steps(world_.sixteen.code(height_steps(h_m))) * height_step_m - h_m;
+        const PostPlace place = posts.net ? posts.net->place_at(row, column)
+                                          : PostPlace{row_lat_deg(posts, row), posts.lon.at_deg(column)};
+        const double h_m = surface(sample).post_h_m(row, column).value_or(0.0) -
+                           left_out_N_m(sample.grid, place.lat_deg, place.lon_deg);
+        return sixteen.steps(sixteen.code(height_steps(h_m))) * height_step_m - h_m;
     };
     const EffectSize usual = lifted([&](const Sample& sample) {
         double off = 0.0;
-        for (const PostShare& post : shares_of(sample)) off += post.share * off_m(post.row, post.column);
+        for (const PostShare& post : shares_of(sample))
+            off += post.share * off_m(sample, post.row, post.column);
         return std::abs(off);
     });
-    EffectSize size = lifted([&](const Sample&) { return world_.sixteen.error_m(); });
+    EffectSize size =
+        lifted([&](const Sample& sample) { return world_.grids[sample.grid].sixteen.error_m(); });
     size.typical_m = usual.typical_m;
     size.typical_px = usual.typical_px;
     return size;

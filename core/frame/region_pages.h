@@ -6,6 +6,8 @@
 #include <functional>
 #include <memory>
 #include <stop_token>
+#include <utility>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/lod/pyramid.h"
@@ -59,6 +61,19 @@ class RegionPages {
     RegionFacts facts_;
     int levels_;
     bool goes_round_;
+};
+
+// The pages of each grid of a ground, numbered as it numbers them (core/truth/true_ground.h). Pages by
+// themselves are those of one grid. Cheap to copy; the pages outlive it.
+class PagesOfGrids {
+  public:
+    PagesOfGrids(const RegionPages& pages) : pages_{&pages} {}  // NOLINT: are those of one grid
+    explicit PagesOfGrids(std::vector<const RegionPages*> pages) : pages_(std::move(pages)) {}
+    [[nodiscard]] std::size_t size() const { return pages_.size(); }
+    [[nodiscard]] const RegionPages& operator[](std::size_t grid) const { return *pages_[grid]; }
+
+  private:
+    std::vector<const RegionPages*> pages_;
 };
 
 // Builds all levels of a field with up to `threads` threads (core/lod/pyramid.h) and keeps what load() needs

@@ -15,14 +15,20 @@ constexpr double step_share = 0.02, step_cells = 0.25;
 
 class BehindEdges {
   public:
-    BehindEdges(const TrueSurface& surface, const Sight& sight, const Camera& camera)
-        : surface_(surface),
+    BehindEdges(const TrueGround& ground, const Sight& sight, const Camera& camera)
+        : ground_(ground),
           sight_(sight),
           view_from_ecef_(camera.view_from_ecef()),
           pixels_per_tangent_(0.5 * camera.height_px / camera.half_fov_tangent().y),
-          reach_m_(picture_reach_m(surface, sight, camera.eye.h_m)),
-          step_m_(step_cells * wgs84_a_m * surface.field().grid.row_step_rad()) {
-        if (surface.levels() > 0) highest_h_m_ = surface.layer({surface.levels() - 1, 0, 0}).highest_h_m;
+          reach_m_(picture_reach_m(ground, sight, camera.eye.h_m)) {
+        for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
+            const TrueSurface& surface = ground.surface(grid);
+            const double step_m = step_cells * wgs84_a_m * surface.field().grid.row_step_rad();
+            const bool has_any = surface.levels() > 0;
+            const double h_m = has_any ? surface.layer({surface.levels() - 1, 0, 0}).highest_h_m : 0.0;
+            step_m_ = grid == 0 ? step_m : std::min(step_m_, step_m);
+            highest_h_m_ = grid == 0 ? h_m : std::max(highest_h_m_, h_m);
+        }
     }
 
     void follow(const PictureEdge& edge, std::vector<ViewSample>& found) const {
@@ -47,9 +53,13 @@ class BehindEdges {
 
     // The ground straight above or below a place.
     [[nodiscard]] std::optional<ViewSample> ground_at(const Geodetic& place, const ViewSample& near) const {
-        const PostGrid& grid = surface_.field().grid;
+        const auto number = ground_.grids() == 1 ? std::optional<std::size_t>(0)
+                                                 : ground_.grid_at(place.lat_deg, place.lon_deg);
+        if (!number) return std::nullopt;
+        const TrueSurface& surface = ground_.surface(*number);
+        const PostGrid& grid = surface.field().grid;
         const auto [row, column] = grid.post_at(place.lat_deg, place.lon_deg);
-        const auto h_m = surface_.h_at_m(row, column);
+        const auto h_m = surface.h_at_m(row, column);
         if (!h_m) return std::nullopt;
         const Geodetic point{place.lat_deg, place.lon_deg, *h_m};
         const glm::dvec3 offset_m = sight_.earth == Earth::ellipsoid
@@ -61,7 +71,7 @@ class BehindEdges {
         const double away_px =
             glm::length(glm::dvec2(here) / here.z - glm::dvec2(edge) / edge.z) * pixels_per_tangent_;
         if (away_px > behind_edges_px) return std::nullopt;
-        const auto slope = surface_.slope_at(row, column);
+        const auto slope = surface.slope_at(row, column);
         const int whole_row = std::clamp(static_cast<int>(row), 0, grid.rows() - 2);
         const int whole_column = std::clamp(static_cast<int>(column), 0, grid.columns() - 2);
         constexpr double seen_no_more = 1.0e-9;  // beside_px of 0 is for what is seen
@@ -73,34 +83,43 @@ class BehindEdges {
                           whole_column,
                           row - whole_row >= column - whole_column,
                           false,
-                          std::max(away_px, seen_no_more)};
+                          std::max(away_px, seen_no_more),
+                          *number};
     }
 
-    const TrueSurface& surface_;
+    const TrueGround& ground_;
     const Sight& sight_;
     glm::dmat3 view_from_ecef_;
     double pixels_per_tangent_;
     double reach_m_;
-    double step_m_;
+    double step_m_{};
     double highest_h_m_{0.0};
 };
 
 }  // namespace
 
-double picture_reach_m(const TrueSurface& surface, const Sight& sight, double eye_h_m) {
+double picture_reach_m(const TrueGround& ground, const Sight& sight, double eye_h_m) {
     const double reach_m = sight_reach_m(eye_h_m);
     if (sight.earth != Earth::flat) return reach_m;
     // Beyond, sight lines through air that bends them take minutes.
     constexpr double most_of_the_plane_m = 7.0e6;
-    const PostGrid& grid = surface.field().grid;
-    const double across_deg =
-        std::hypot(grid.north_deg() - grid.south_deg(), grid.east_deg() - grid.west_deg());
+    const PostGrid& first = ground.surface(0).field().grid;
+    double north_deg = first.north_deg(), south_deg = first.south_deg(), east_deg = first.east_deg(),
+           west_deg = first.west_deg();
+    for (std::size_t i = 1; i < ground.grids(); ++i) {
+        const PostGrid& grid = ground.surface(i).field().grid;
+        north_deg = std::max(north_deg, grid.north_deg());
+        south_deg = std::min(south_deg, grid.south_deg());
+        east_deg = std::max(east_deg, grid.east_deg());
+        west_deg = std::min(west_deg, grid.west_deg());
+    }
+    const double across_deg = std::hypot(north_deg - south_deg, east_deg - west_deg);
     return reach_m + std::min(wgs84_a_m * radians_from_deg(across_deg).rad, most_of_the_plane_m);
 }
 
-std::vector<ViewSample> samples_behind(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+std::vector<ViewSample> samples_behind(const TrueGround& ground, const Sight& sight, const Camera& camera,
                                        std::span<const PictureEdge> edges, int threads) {
-    const BehindEdges behind(surface, sight, camera);
+    const BehindEdges behind(ground, sight, camera);
     const std::size_t each = edges.size() / most_edges + 1;
     std::vector<std::vector<ViewSample>> found((edges.size() + each - 1) / each);
     in_parallel(static_cast<int>(found.size()), threads, [&](int i) {

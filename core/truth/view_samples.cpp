@@ -28,11 +28,11 @@ std::vector<int> spread(int count, int size) {
 
 class ViewSampler {
   public:
-    ViewSampler(const TrueSurface& surface, const Sight& sight, const Camera& camera)
-        : surface_(surface),
+    ViewSampler(const TrueGround& ground, const Sight& sight, const Camera& camera)
+        : ground_(ground),
           camera_(camera),
-          oracle_(surface, sight),
-          reach_m_(picture_reach_m(surface, sight, camera.eye.h_m)) {}
+          oracle_(ground, sight),
+          reach_m_(picture_reach_m(ground, sight, camera.eye.h_m)) {}
 
     using Seen = std::optional<ViewSample>;
     [[nodiscard]] Seen at(int x, int y, bool even) const { return at(glm::dvec2(x, y) + 0.5, even); }
@@ -40,13 +40,20 @@ class ViewSampler {
         const glm::dvec3 direction = camera_.ecef_direction_at(point_px);
         const auto hit = oracle_.first_hit(direction, reach_m_);
         if (!hit) return std::nullopt;
-        const PostGrid& grid = surface_.field().grid;
-        const PostNumber post = grid.post_at(hit->point.lat_deg, hit->point.lon_deg);
-        const auto slope = surface_.slope_at(post.row, post.column);
-        return ViewSample{hit->point,      hit->distance_m * direction,
-                          hit->distance_m, slope ? slope->steepness() : 0.0,
-                          hit->row,        hit->column,
-                          hit->south_west, even};
+        const TrueSurface& surface = ground_.surface(hit->grid);
+        const PostNumber post = surface.field().grid.post_at(hit->point.lat_deg, hit->point.lon_deg);
+        const auto slope = surface.slope_at(post.row, post.column);
+        return ViewSample{hit->point,
+                          hit->distance_m * direction,
+                          hit->distance_m,
+                          slope ? slope->steepness() : 0.0,
+                          hit->row,
+                          hit->column,
+                          hit->south_west,
+                          even,
+                          0.0,
+                          hit->grid,
+                          hit->between_grids};
     }
 
     // The corners of a rectangle of pixels, and what is seen there: (0, 0), (1, 0), (0, 1), (1, 1).
@@ -129,7 +136,7 @@ class ViewSampler {
         return {*near, until_m};
     }
 
-    const TrueSurface& surface_;
+    const TrueGround& ground_;
     const Camera& camera_;
     Oracle oracle_;
     double reach_m_;
@@ -137,9 +144,9 @@ class ViewSampler {
 
 }  // namespace
 
-std::vector<ViewSample> view_samples(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+std::vector<ViewSample> view_samples(const TrueGround& ground, const Sight& sight, const Camera& camera,
                                      int threads) {
-    const ViewSampler sampler(surface, sight, camera);
+    const ViewSampler sampler(ground, sight, camera);
     const int across = std::clamp(camera.width_px, 1, samples_across);
     const int down = std::clamp(samples_across * camera.height_px / std::max(1, camera.width_px), 1,
                                 std::min(camera.height_px, 4 * samples_across));
@@ -182,7 +189,7 @@ std::vector<ViewSample> view_samples(const TrueSurface& surface, const Sight& si
         samples.insert(samples.end(), found.samples.begin(), found.samples.end());
         edges.insert(edges.end(), found.edges.begin(), found.edges.end());
     }
-    const std::vector<ViewSample> behind = samples_behind(surface, sight, camera, edges, threads);
+    const std::vector<ViewSample> behind = samples_behind(ground, sight, camera, edges, threads);
     samples.insert(samples.end(), behind.begin(), behind.end());
     return samples;
 }

@@ -6,7 +6,7 @@
 
 #include "core/earth/camera.h"
 #include "core/truth/oracle.h"
-#include "core/truth/true_surface.h"
+#include "core/truth/true_ground.h"
 
 namespace oro {
 
@@ -22,6 +22,8 @@ struct ViewSample {
     bool even;              // one of those spread evenly over the picture: medians are taken of these alone
     double beside_px{0.0};  // 0: seen at a pixel's centre; else how far it lies from one that is, on the
                             // picture: behind an edge, or in a gap that no centre looks through
+    std::size_t grid{0};    // of the ground's: whose cell it is
+    bool between_grids{false};  // on a step between two grids, which belongs to none
 };
 // What lies behind edges is given up to this far from them.
 inline constexpr double behind_edges_px = 5.0;
@@ -29,10 +31,11 @@ inline constexpr double behind_edges_px = 5.0;
 // Casts sight lines through centres of pixels: up to 160 x 640 all over the picture (14,400 for 16:9; those
 // of its rim included), then wherever four of them see ground whose distances differ by more than a fifth, or
 // ground and sky, more between them, down to single pixels: what is seen through gaps between hills is seen
-// here, too. Behind edges between two pixels, or between a pixel and the picture's rim, the ground is
-// followed along the sight line to what lies beyond: what is within `behind_edges_px` of the edge is given,
-// too, seen or not. So is what shows through gaps between pixels, and what comes out when ground moves.
-std::vector<ViewSample> view_samples(const TrueSurface& surface, const Sight& sight, const Camera& camera,
+// here, too. Of several grids that is seen which is the ground there. Behind edges between two pixels, or
+// between a pixel and the picture's rim, the ground is followed along the sight line to what lies beyond:
+// what is within `behind_edges_px` of the edge is given, too, seen or not. So is what shows through gaps
+// between pixels, and what comes out when ground moves.
+std::vector<ViewSample> view_samples(const TrueGround& ground, const Sight& sight, const Camera& camera,
                                      int threads);
 
 }  // namespace oro

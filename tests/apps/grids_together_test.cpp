@@ -125,6 +125,46 @@ TEST_F(GridsOverEachOther, AreToldWhereOneHasFarCloserPosts) {
     EXPECT_NE(one.err.find("0.05 m apart, are those of " + close), std::string::npos) << one.err;
 }
 
+// Steps of the finer grid are not smoothed away to foretell something, and what is foretold is held.
+TEST_F(GridsOverEachOther, AreForetold) {
+    const std::vector<std::string> view{coarse_,         fine_,     "-q",     "--at",
+                                        "36.53,-84.35",  "--above", "300",    "--look-at",
+                                        "36.56,-84.265", "--size",  "320x180"};
+    std::vector<std::string> plan{"plan", "--json", "--tolerance", "1px"},
+        shot{"shot", "--json", "--tolerance", "1px", "--verify", "--out", folder_ / "foretold.png"};
+    plan.insert(plan.end(), view.begin(), view.end());
+    shot.insert(shot.end(), view.begin(), view.end());
+    const json told = object_said_by(plan);
+    EXPECT_FALSE(told.contains("resampling"));
+    EXPECT_TRUE(told["view"]["several_grids"].get<bool>());
+    EXPECT_EQ(told["cheapest"]["accuracy"], "balanced");
+    EXPECT_TRUE(told["cheapest"]["holds"].get<bool>());
+    const json drawn = object_said_by(shot);
+    EXPECT_EQ(drawn["beside"].size(), 1U);
+    EXPECT_LE(drawn["error"]["largest_px"].get<double>(), 1.0) << drawn["error"].dump(1);
+}
+
+// From far away what closes the rim is as wide as tau: plan told of less than was drawn.
+TEST_F(GridsOverEachOther, HaveARimThatIsForetold) {
+    const std::vector<std::string> view{coarse_,  fine_,    "-q",    "--json",
+                                        "--size", "160x90", "--air", "standard"};
+    for (const char* tau : {"0", "4"}) {
+        std::vector<std::string> plan{"plan", "--tau", tau};
+        std::vector<std::string> shot{
+            "shot", "--tau", tau, "--verify", "--overwrite", "--out", folder_ / "rim.png"};
+        plan.insert(plan.end(), view.begin(), view.end());
+        shot.insert(shot.end(), view.begin(), view.end());
+        const json told = object_said_by(plan)["total"], drawn = object_said_by(shot)["error"];
+        EXPECT_GT(drawn["pixels_between_grids"].get<int>(), 0);
+        EXPECT_LE(drawn["largest_px"].get<double>(), told["worst_px"].get<double>()) << "tau " << tau;
+        EXPECT_LE(drawn["displacement_m"]["max"].get<double>(), told["worst_m"].get<double>())
+            << "tau " << tau;
+        constexpr double rounded_px = 0.01;
+        EXPECT_LE(told["worst_px"].get<double>(),
+                  drawn["slack_px"].get<double>() + rounded_px + std::stod(tau));
+    }
+}
+
 // What is named first is the ground, however far apart its posts are.
 TEST_F(GridsOverEachOther, AreInTheOrderThatIsAskedFor) {
     const std::string inside = "36.56,-84.265";

@@ -12,6 +12,7 @@
 #include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
+#include "tests/support/three_grids.h"
 
 namespace oro {
 namespace {
@@ -35,9 +36,7 @@ class TradeOfViews : public test::GpuTest {
         const gpu::FrameStyle style{};
         Trade trade(view, region, *gpu_, RasterPath::compute, style, 1);
         ASSERT_TRUE(trade.prepare().ok());
-        const auto pages = region_pages(region, 1.0);
-        ASSERT_TRUE(pages.ok());
-        for (const Camera& camera : made_cameras(seed, region.field, views, width_px, height_px)) {
+        for (const Camera& camera : made_cameras(seed, trade.ground(), views, width_px, height_px)) {
             TradeReport report;
             const auto measured = trade.measure(camera, name, false, report);
             ASSERT_TRUE(measured.ok()) << measured.error().line();
@@ -52,7 +51,7 @@ class TradeOfViews : public test::GpuTest {
                 add(effect, camera);
             }
             view.camera = camera;
-            const auto choice = choose_accuracy(view, region, trade.surface(), **pages, tolerance_px);
+            const auto choice = choose_accuracy(view, region, trade.ground(), trade.pages(), tolerance_px);
             ASSERT_TRUE(choice.ok()) << choice.error().line();
             add(*choice, report);
         }
@@ -130,6 +129,12 @@ TEST_F(TradeOfViews, PredictionsHoldOnMadeTerrain) {
     region.field = test::rough_field(46.6, 8.2, 400, 500);
     look("made terrain", region, 3);
     tell("made terrain", 3);
+}
+
+// Each eye over one of three grids, which lie over each other with steps between them.
+TEST_F(TradeOfViews, PredictionsHoldOnSeveralGrids) {
+    look("three grids", test::three_grids(400), 3);
+    tell("three grids", 3);
 }
 
 TEST_F(TradeOfViews, PredictionsHoldOnRealTerrain) {

@@ -241,7 +241,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     View& view = report.view;
     const auto reading = Clock::now();
     ORO_CHECK(open_view(
-        options.view_file, with_air(options), of_grids(options.region),
+        options.view_file, with_air(options), options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
         report.region, PictureKind::panorama));
     ORO_CHECK(check_unchanged(view, report.region, options.data_changed, options.quiet));

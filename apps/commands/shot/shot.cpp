@@ -85,7 +85,7 @@ Result<std::vector<WholeFile>> layers_of(const ShotOptions& options, const Pictu
 
 // The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
 // it.
-Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages, ShotResult& shot) {
+Result<void> choose_bundle(const ShotOptions& options, const PagesOfGrids& pages, ShotResult& shot) {
     ORO_TRY(const double tolerance_px, parse_tolerance(*options.view.tolerance));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
     FixedAccuracy fixed;
@@ -93,7 +93,7 @@ Result<void> choose_bundle(const ShotOptions& options, const RegionPages& pages,
     if (options.view.heights) fixed.heights = shot.view.heights;
     if (options.view.refraction_k || options.view.air) fixed.air = shot.view.model.air;
     ORO_TRY(shot.choice,
-            choose_accuracy(shot.view, shot.region, truth->surface(), pages, tolerance_px, fixed));
+            choose_accuracy(shot.view, shot.region, truth->ground(), pages, tolerance_px, fixed));
     apply_bundle(shot.choice->bundle, shot.view);
     forget_other_bundle(shot.view);
     const std::string& chosen = shot.view.accuracy.empty() ? shot.choice->bundle.options : shot.view.accuracy;
@@ -198,10 +198,9 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
 Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
                        const ShotGround& ground, ProgressBar& bar, ShotResult& shot) {
     const auto start = Clock::now();
-    ORO_TRY(std::unique_ptr<RegionPages> pages,
-            region_pages(shot.region, ground.cuts.grids.front(), shot.view.exaggeration,
-                         [&](double share) { bar.show(share, "measuring levels"); }));
-    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, *pages, shot));
+    ORO_TRY(GridPages pages, pages_of_grids(shot.region, ground.cuts, shot.view.exaggeration,
+                                            [&](double share) { bar.show(share, "measuring levels"); }));
+    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, pointers_to(pages), shot));
     if (!shot.view.map) {
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
@@ -276,8 +275,6 @@ Result<void> run_shot(const ShotOptions& asked) {
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
     options.view.takes_maps = true;
-    // What is predicted is predicted of one grid.
-    options.region.grids_apart = !options.view.tolerance;
     if (!options.view_file.empty()) {
         ORO_TRY(const View told, read_view(options.view_file));
         options.ortho = told.map.has_value();

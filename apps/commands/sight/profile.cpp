@@ -97,8 +97,7 @@ Result<void> run_profile(const ProfileOptions& options) {
     ORO_TRY(profile.line, line_along(options.along, options.line));
     ORO_CHECK(check_length(options, profile.line));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground,
-            open_sight_ground(of_grids(options.region), [&](double share, const std::string& what) {
+    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
     if (!options.out.empty()) {

@@ -50,8 +50,7 @@ Result<void> run_sight(const SightOptions& options) {
     }
     ORO_TRY(const Air air, air_asked_for(options.air.refraction_k, options.air.air, standard_air));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground,
-            open_sight_ground(of_grids(options.region), [&](double share, const std::string& what) {
+    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
     ORO_TRY(const Geodetic from,

@@ -241,8 +241,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     report.radius_km = options.radius_km.value_or(usual_radius_km);
     ORO_TRY(report.air, air_asked_for(options.air.refraction_k, options.air.air, standard_air));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground,
-            open_sight_ground(of_grids(options.region), [&](double share, const std::string& what) {
+    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
     ORO_CHECK(spare_ground({options.out}, options.region.paths, ground->region));

@@ -145,7 +145,7 @@ TEST_F(GridsBake, SparesFilesOfOthers) {
 
 TEST_F(GridsBake, IsRefusedWhereOneGridIsAskedFor) {
     ASSERT_EQ(bake().exit_code, 0);
-    const Outcome outcome = run_orograph({"plan", out_});
+    const Outcome outcome = run_orograph({"shot", out_, "--drape", out_, "--out", folder / "draped.png"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.err.find("holds 2 grids of posts, and this takes one"), std::string::npos)
         << outcome.err;

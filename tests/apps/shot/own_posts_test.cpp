@@ -144,7 +144,7 @@ TEST(OwnPostsOfShots, AreRefusedWhereTheyCannotBe) {
 
 // Beside a file on degrees there is no lattice. What is measured on one grid resamples both, and a note says
 // so.
-TEST(OwnPostsOfShots, BesideOtherFilesAreResampledForWhatPredicts) {
+TEST(OwnPostsOfShots, BesideOtherFilesAreKeptByWhatPredicts) {
     const fs::path folder = oro::test::scratch_folder();
     Words both = shot(utm(folder), folder / "b.png");
     both.insert(both.begin() + 2, oro::test::bundled_data() / "jacksboro.tif");
@@ -152,10 +152,9 @@ TEST(OwnPostsOfShots, BesideOtherFilesAreResampledForWhatPredicts) {
     both.insert(both.end(), {"--tolerance", "1"});
     const Outcome outcome = run_orograph(both);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("note: resampled onto one grid of latitudes and longitudes: the posts of "),
-              std::string::npos)
-        << outcome.err;
-    EXPECT_FALSE(view_of(folder / "b.png").contains("own_posts"));
+    EXPECT_EQ(outcome.err.find("resampled"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(view_of(folder / "b.png")["own_posts"].get<bool>());
+    EXPECT_TRUE(view_of(folder / "b.png")["several_grids"].get<bool>());
 }
 
 // Sight lines and profiles over own posts: from the highest, 0 m over it.

@@ -133,8 +133,8 @@ TEST(EffectTable, SaysAllOfEveryEffect) {
 // The sum of what is in, but for what no drawing can help.
 TEST(EffectBounds, TotalIsTheSum) {
     TrueWorld world;
-    world.source_le90_m = 16.0;
-    world.sixteen = sixteen_bits(height_steps(-1000.0), height_steps(5000.0));
+    world.grids.front().source_le90_m = 16.0;
+    world.grids.front().sixteen = sixteen_bits(height_steps(-1000.0), height_steps(5000.0));
     HeightField field = test::rough_field(0.3, 0.2, 241, 241);
     field.undulation = undulation(10.0, 40.0);
     Camera camera = over_rough_ground();
@@ -147,7 +147,7 @@ TEST(EffectBounds, TotalIsTheSum) {
     for (int i = 0; i < 8; ++i) {
         drawing.geoid = (i & 1) == 0;
         drawing.world.earth = (i & 2) == 0 ? Earth::ellipsoid : Earth::sphere;
-        drawing.coding = (i & 4) == 0 ? HeightQuantization{} : world.sixteen;
+        drawing.coding = (i & 4) == 0 ? HeightQuantization{} : world.grids.front().sixteen;
         EffectSize sum;
         for (const EffectFacts& effect : effect_table()) {
             const EffectKind kind = effect.kind;
@@ -175,7 +175,7 @@ TEST(EffectBounds, TotalIsTheSum) {
 // Nothing but sky: sizes of 0, none of them no number.
 TEST(EffectBounds, OfTheSkyThereAreNone) {
     TrueWorld world;
-    world.source_le90_m = 16.0;
+    world.grids.front().source_le90_m = 16.0;
     Camera camera = half_way_down();
     camera.attitude.pitch_deg = 60.0;
     camera.width_px = 40;

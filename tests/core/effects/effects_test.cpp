@@ -105,7 +105,7 @@ TEST(Effects, GeoidThatIsTheSameEverywhere) {
 // = 1.50889e-4 px. Steps of 1 / 2,048 m: half of one is 0.000244 m.
 TEST(Effects, StepsOfHeights) {
     TrueWorld world;
-    world.sixteen = {true, 11, 0};
+    world.grids.front().sixteen = {true, 11, 0};
     // 0.25 m goes to the step of 0 m: 0.25 m off, everywhere.
     const Scene scene(test::level_at(0.25), half_way_down(), world);
     EXPECT_NEAR(scene.prediction.nearest_m(), 1414.0, 0.3);
@@ -123,8 +123,8 @@ TEST(Effects, StepsOfHeights) {
 // code: shift 7, a step of 0.0625 m, at most 0.03125 m off.
 TEST(Effects, SixteenBitsOfAKnownRange) {
     TrueWorld world;
-    world.sixteen = sixteen_bits(height_steps(0.0), height_steps(4000.0));
-    ASSERT_EQ(world.sixteen.shift, 7);
+    world.grids.front().sixteen = sixteen_bits(height_steps(0.0), height_steps(4000.0));
+    ASSERT_EQ(world.grids.front().sixteen.shift, 7);
     // 0.02 m goes to 0, 0.05 m to 0.0625.
     const Scene low(test::level_at(0.02), half_way_down(), world),
         high(test::level_at(0.05), half_way_down(), world);
@@ -167,7 +167,7 @@ TEST(Effects, SourceSaysItsAccuracyOrNothing) {
     const auto none = silent.prediction.size(EffectKind::source, 1.0);
     ASSERT_TRUE(none.ok());
     EXPECT_FALSE(none.value().has_value());
-    world.source_le90_m = 16.0;
+    world.grids.front().source_le90_m = 16.0;
     const Scene scene(sea_level(), half_way_down(), world);
     const EffectSize size = scene.size(EffectKind::source);
     EXPECT_EQ(size.worst_m, 16.0);
