@@ -314,6 +314,8 @@ struct NetMap {
     vec2 coefficients[28];  // of u^i v^j: i from 0, and of each j from 0 to 6 - i
 };
 
+#include "shaders/shared_clusters.h"
+
 struct FrameConstants {
     mat3 view_from_eye;     // rotation, from the eye's meridian frame
     int reference_steps;    // height that the row terms are for, a whole number of metres
@@ -386,6 +388,7 @@ struct FrameConstants {
     DrapeTable drape;
     // Last, so that addresses before it stay at multiples of 8 bytes: it would cost 2 to 4 % of a frame.
     uint is_seam;  // 1: what lies between grids (place/seam.glsl)
+    ClusterTable clusters;
 };
 
 #ifdef __cplusplus

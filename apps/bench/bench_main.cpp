@@ -13,6 +13,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/option_words.h"
 #include "apps/styles/style_json.h"
+#include "core/baked/clustered_file.h"
 #include "core/baked/file_pages.h"
 #include "core/base/elapsed.h"
 #include "core/base/median.h"
@@ -41,6 +42,7 @@ struct BenchOptions {
     std::string pipeline{raster_requests.front().first};
     double tau_px{1.0};
     int gpu_memory_mb{0};
+    std::string mesh{"grid"};
     bool floor{false};
     bool json{false};
 };
@@ -57,6 +59,7 @@ struct BenchTimes {
     double settled_s{};  // the first frame, with all that had to be read
     std::size_t pages_on_gpu{};
     std::uint64_t bytes_on_gpu{};
+    std::size_t clusters_on_gpu{};
 };
 
 Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Camera& camera,
@@ -97,6 +100,10 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
     times.frame_s = median_of(std::move(frame));
     times.pages_on_gpu = scene.store().size();
     times.bytes_on_gpu = scene.store().bytes();
+    if (scene.clusters()) {
+        times.clusters_on_gpu = scene.clusters()->store().size();
+        times.bytes_on_gpu += scene.clusters()->store().bytes();
+    }
     return times;
 }
 
@@ -153,6 +160,7 @@ ordered_json times_json(const BenchTimes& times) {
     json["pages_live"] = counts.pages_live;
     json["pages_on_gpu"] = times.pages_on_gpu;
     json["bytes_on_gpu"] = times.bytes_on_gpu;
+    if (times.clusters_on_gpu > 0) json["clusters_on_gpu"] = times.clusters_on_gpu;
     json["triangles_per_s"] = counts.triangles_drawn / times.raster_s;
     return json;
 }
@@ -170,7 +178,7 @@ void print_times(const std::string& name, const ordered_json& json) {
 // A region file, or one that is made.
 struct BenchRegion {
     HeightField made;
-    std::shared_ptr<const RegionFile> file;
+    BakedFile file;
     std::unique_ptr<RegionPages> pages;
 };
 Result<BenchRegion> open_bench_region(const BenchOptions& options) {
@@ -180,17 +188,36 @@ Result<BenchRegion> open_bench_region(const BenchOptions& options) {
         region.pages = pages_in_memory(region.made, 1.0, thread_count());
         return region;
     }
-    ORO_TRY(RegionFile opened, RegionFile::open(options.region));
-    region.file = std::make_shared<const RegionFile>(std::move(opened));
-    region.pages = pages_of_file(region.file);
+    ORO_TRY(region.file, open_baked_file(options.region));
+    region.pages = pages_of_file(region.file.region);
     return region;
 }
 
+// Half of the GPU's memory is for clusters, where there are some.
+Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion& region) {
+    const bool clusters = options.mesh == "clusters";
+    if (clusters && !region.file.clusters)
+        return Error{ErrorKind::usage, "--mesh clusters",
+                     "the region has none: orograph bake --mesh clusters makes them"};
+    const SceneMemory memory{static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0,
+                             clusters ? 2U : 1U};
+    ORO_TRY(Scene scene, Scene::create(gpu, std::move(region.pages), memory, HeightStorage::f32,
+                                       asks_for_means(options.style)));
+    if (!clusters) return scene;
+    ORO_TRY(const HeightField field, field_in_memory(*region.file.region));
+    ORO_TRY(std::unique_ptr<RegionClusters> graph,
+            clusters_of_file(region.file.clusters, region.file.region->fingerprint(), field,
+                             scene.pages().facts().shape.occluder));
+    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(graph), gpu_share(gpu, memory)));
+    scene.draw_clusters(std::move(made));
+    return scene;
+}
+
 Result<std::vector<BenchEye>> eyes_of(const BenchOptions& options, const BenchRegion& region) {
-    if (!region.file)
+    if (!region.file.region)
         return std::vector<BenchEye>{{"above", eye_above(region.made, options.width_px, options.height_px)}};
     if (options.path.empty()) return Error{ErrorKind::usage, "--path", "is missing: name a file with eyes"};
-    return read_bench_path(options.path, region.file->outline().undulation, options.width_px,
+    return read_bench_path(options.path, region.file.region->outline().undulation, options.width_px,
                            options.height_px);
 }
 
@@ -205,9 +232,7 @@ Result<void> run_bench(const BenchOptions& options) {
     ORO_TRY(BenchRegion region, open_bench_region(options));
     const double open_s = seconds_since(opening);
     ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, region));
-    ORO_TRY(Scene scene, Scene::create(*gpu, std::move(region.pages),
-                                       {static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0},
-                                       HeightStorage::f32, asks_for_means(options.style)));
+    ORO_TRY(Scene scene, scene_of(*gpu, options, region));
     if (asks_for_means(options.style) && !scene.pages().knows_means())
         std::fputs("orograph-bench: note: the region has too many posts for means of the ground\n", stderr);
     ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, path, options));
@@ -217,6 +242,7 @@ Result<void> run_bench(const BenchOptions& options) {
     json["pipeline"] = name_of(path);
     json["region"] = options.region.empty() ? std::to_string(options.patches) + " patches" : options.region;
     json["size_px"] = json_list(options.width_px, options.height_px);
+    json["mesh"] = options.mesh;
     json["tau_px"] = options.tau_px;
     json["frames"] = options.frames;
     json["open_ms"] = 1e3 * open_s;
@@ -275,6 +301,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 10000));
     app.add_option("--pipeline", options.pipeline, "mesh, compute or auto")
         ->check(CLI::IsMember(oro::words_of(oro::raster_requests)));
+    app.add_option("--mesh", options.mesh, "What triangles are taken from: grid or clusters")
+        ->check(CLI::IsMember({"grid", "clusters"}));
     app.add_option("--gpu-memory", options.gpu_memory_mb, "Megabytes of terrain on the GPU at most")
         ->check(CLI::Range(0, 1000000));
     app.add_flag("--floor", options.floor,

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <span>
 
+#include "apps/baking/cluster_bake.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/output/overwrite_guard.h"
+#include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -86,6 +89,7 @@ struct BakeResult {
     std::uint64_t posts{};
     std::size_t grids{1};
     BakeReport report;
+    std::optional<ClusterBakeReport> clusters;
     double read_s{};
     double build_s{};
 
@@ -105,6 +109,10 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
     const std::string grids = baked.grids > 1 ? std::to_string(baked.grids) + " grids, " : "";
     say(options.quiet,
         "wrote " + baked.file + ": " + grids + std::to_string(report.pages) + " pages, " + size);
+    if (baked.clusters)
+        say(options.quiet, "with clusters of " + std::to_string(baked.clusters->levels) +
+                               " levels above the grid, " + grouped(baked.clusters->triangles) +
+                               " triangles, " + text_of("built in %.1f s", baked.clusters->build_s));
     if (!options.json) return;
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["file"] = baked.file;
@@ -114,6 +122,9 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
     json["bytes_per_post"] = baked.bytes_per_post();
     json["pages"] = json_object("all", report.pages, "of_a_bake_broken_off", report.pages_found);
     json["triangles"] = report.triangles;
+    if (baked.clusters)
+        json["clusters"] = json_object("levels", baked.clusters->levels, "triangles",
+                                       baked.clusters->triangles, "build_s", baked.clusters->build_s);
     json["times_s"] = json_object("read", baked.read_s, "build_and_write", baked.build_s);
     std::printf("%s\n", json_text(json, true).c_str());
 }
@@ -184,9 +195,15 @@ Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options
     return report;
 }
 
-Result<BakeReport> bake_all(const Region& region, const BakingOptions& options, ProgressBar& bar) {
+Result<BakeReport> bake_all(const Region& region, const BakingOptions& options, ProgressBar& bar,
+                            std::optional<ClusterBakeReport>& clusters) {
     if (!region.beside.empty()) return bake_grids(region, options, bar);
     ORO_TRY(const BakeOptions how, options_for(region, options.out, options.overwrite));
+    if (options.mesh == "clusters") {
+        ORO_TRY(clusters,
+                bake_clusters(region, how, [&](double share, const char* what) { bar.show(share, what); }));
+        return clusters->region;
+    }
     return bake_region(region.field, how, [&](double share) {
         bar.show(share, "baking");
         return true;
@@ -205,13 +222,14 @@ Result<void> run_bake(const BakingOptions& options) {
     ORO_TRY(Region region, open_region(request, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
+    if (options.mesh == "clusters") ORO_CHECK(check_clusters(region));
     ORO_CHECK(take_into_memory(region));
     for (Region& other : region.beside) ORO_CHECK(take_into_memory(other));
     baked.read_s = seconds_since(reading);
     bar.clear();
     for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
     const auto building = Clock::now();
-    ORO_TRY(baked.report, bake_all(region, options, bar));
+    ORO_TRY(baked.report, bake_all(region, options, bar, baked.clusters));
     baked.build_s = seconds_since(building);
     bar.clear();
     for (const Region* const grid : all_grids(region)) baked.posts += grid->field.grid.post_count();

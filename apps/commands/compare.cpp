@@ -8,6 +8,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/drawing/drape.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/legend/legend.h"
@@ -110,9 +111,12 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             region_pages(region, cuts.grids.front(), view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
+    // A picture is drawn again as it was.
+    if (view.mesh == "auto") view.mesh = "grid";
+    ORO_TRY(const bool clusters, draws_clusters(region, view));
     ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
                                                {view.exaggeration, memory_of_pages(view, options.memory),
-                                                view.heights, asks_for_means(style.frame)}));
+                                                view.heights, asks_for_means(style.frame), clusters}));
     Scene& scene = whole.scene;
     ORO_TRY(const auto ground, RegionGround::of(region, cuts, view.exaggeration));
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())

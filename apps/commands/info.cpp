@@ -9,6 +9,9 @@
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view.h"
+#include "core/baked/file_pages.h"
+#include "core/base/parallel.h"
+#include "core/surface/grid_surface.h"
 #include "geo/listing/file_listing.h"
 #include "geo/region/baked_region.h"
 #include "geo/region/region_sources.h"
@@ -69,6 +72,16 @@ nlohmann::ordered_json regions_apart_json(const Region& region) {
     return regions;
 }
 
+// Reads all clusters, and asks whether they are a graph over the region's posts.
+Result<void> check_graph(const Region& region) {
+    ORO_TRY(const HeightField field, field_in_memory(*region.file));
+    const DrawnHeights heights = drawn_heights(field, 1.0, thread_count());
+    const GridSurface surface(heights, {.goes_round = field.grid.goes_round()});
+    const GridBounds bounds(field.grid, heights.highest_steps);
+    ORO_TRY(const ClusterGraph graph, region.clusters->graph(surface, bounds, thread_count()));
+    return {};
+}
+
 Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
     if (baked_path(request.paths)) return FileListing{};
     return list_files(request, {cache_folder().string(), program_print()},
@@ -96,6 +109,7 @@ Result<void> run_info(const InfoOptions& options) {
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
     for (const Region* const grid : all_grids(region))
         if (options.check && grid->file) ORO_CHECK(grid->file->verify());
+    if (options.check && region.clusters) ORO_CHECK(check_graph(region));
     if (options.json) {
         nlohmann::ordered_json json = json_object(
             "sources", sources_json(region.sources), "region", region_json(region), "file", file_json(region),

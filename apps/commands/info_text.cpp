@@ -91,8 +91,8 @@ std::string spacing_text(const SourceReport& source) {
     const double parallel_m =
         prime_vertical_radius_m(middle_deg) * std::cos(radians_from_deg(middle_deg).rad);
     return distance_text(radians_from_deg(source.lat_spacing_deg).rad * meridian_radius_m(middle_deg)) +
-           " north-south and " +
-           distance_text(radians_from_deg(source.lon_spacing_deg).rad * parallel_m) + " east-west";
+           " north-south and " + distance_text(radians_from_deg(source.lon_spacing_deg).rad * parallel_m) +
+           " east-west";
 }
 
 // "m", whatever a file calls the metre.
@@ -238,7 +238,7 @@ std::string overlaps(const SeamReport& seams) {
            "; the finer spacing wins, among equals the first by file name";
 }
 
-std::string baked_text(const RegionFile& file) {
+std::string baked_text(const RegionFile& file, const ClusterFile* clusters) {
     const auto posts = static_cast<double>(file.outline().grid.post_count());
     const int levels = file.order().levels();
     std::string detail = std::to_string(levels) + ": full detail (" +
@@ -250,6 +250,10 @@ std::string baked_text(const RegionFile& file) {
     text += line("format", "baked region (.oro), version " +
                                std::to_string(region_format::version_of(file.outline().grid)));
     text += line("levels", detail);
+    if (clusters)
+        text += line("clusters", counted(clusters->outline().triangles, "triangle", "triangles") + " in " +
+                                     counted(clusters->outline().levels.size(), "level", "levels") +
+                                     " above the grid, " + counted(clusters->bytes(), "byte", "bytes"));
     return text +
            line("size", counted(file.bytes(), "byte", "bytes") +
                             text_of(", %.2f for each post", static_cast<double>(file.bytes()) / posts));
@@ -260,7 +264,7 @@ std::string baked_text(const RegionFile& file) {
 std::string info_text(const Region& region) {
     const PostGrid& grid = region.field.grid;
     const HeightRange range = height_range(region.field);
-    std::string text = region.file ? baked_text(*region.file) : "";
+    std::string text = region.file ? baked_text(*region.file, region.clusters.get()) : "";
     text += "region: " + counted(region.sources.size(), "file", "files") + "\n";
     text += line("box", box_text(grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()));
     text +=

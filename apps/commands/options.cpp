@@ -5,6 +5,7 @@
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/command_line/option_group.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/report/option_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view_limits.h"
@@ -215,9 +216,10 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
         "--order", options.order, {"finest", "listed"},
         "Which file is the ground where several have some: the one with the closest points (finest, the "
         "default), or the one named first (listed; of a folder by the order of names).");
-    data.number("--feather", options.feather_m, "METRES",
-                "Let heights go over smoothly to those of a coarser file below, within so many metres inside the rim "
-                "of a finer one. Without this they meet in a step as high as they differ.");
+    data.number(
+        "--feather", options.feather_m, "METRES",
+        "Let heights go over smoothly to those of a coarser file below, within so many metres inside the rim "
+        "of a finer one. Without this they meet in a step as high as they differ.");
     data.flag(
         "--fill-voids", options.fill_voids,
         "Give void posts (points that a file leaves empty) a height from their neighbours. Without this "
@@ -234,6 +236,10 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
     detail.choice("--pipeline", options.pipeline, words_of(raster_requests),
                   "How the GPU draws triangles: with mesh shaders or with compute shaders. auto (default) "
                   "takes the faster, measured once on this machine.");
+    detail.choice(
+        "--mesh", options.mesh, mesh_words(),
+        "What triangles are taken from: clusters, which take the fewest, of a file that was baked with "
+        "them, or the grid. auto (default) takes clusters where the view can be drawn by them.");
     add_model_options(detail, options);
 }
 

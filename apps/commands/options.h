@@ -61,6 +61,7 @@ struct ViewOptions {
     std::optional<double> overlay_fill;
     std::optional<std::string> time;
     std::optional<std::string> pipeline;
+    std::optional<std::string> mesh;
     std::optional<double> tau_px;
     std::optional<std::string> earth;
     std::optional<double> refraction_k;
@@ -212,6 +213,7 @@ struct WindowOptions {
 struct BakingOptions {
     RegionOptions region;
     std::string out;
+    std::string mesh{"grid"};  // or "clusters"
     bool overwrite{false};
     bool json{false};
     bool quiet{false};

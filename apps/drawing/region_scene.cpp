@@ -8,11 +8,19 @@
 #include "apps/report/figures.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
+#include "core/cluster_frame/region_clusters.h"
 #include "core/lod/ground_means.h"
 #include "core/seam/seam_pages.h"
 
 namespace oro {
 namespace {
+
+SceneMemory memory_of(const MemoryOptions& memory, unsigned shares) {
+    const auto bytes = [](const std::optional<int>& mb) {
+        return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
+    };
+    return {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares};
+}
 
 // A baked region's levels are those of its own heights; exaggerated ones, and those that its geoid was taken
 // from, need levels of their own, and to measure these, all posts in memory.
@@ -68,11 +76,7 @@ Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggera
 
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
                            HeightStorage heights, bool means, unsigned shares) {
-    const auto bytes = [](const std::optional<int>& mb) {
-        return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
-    };
-    return Scene::create(gpu, std::move(pages),
-                         {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares}, heights, means);
+    return Scene::create(gpu, std::move(pages), memory_of(memory, shares), heights, means);
 }
 
 Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, double exaggeration,
@@ -95,6 +99,19 @@ PagesOfGrids pointers_to(const GridPages& pages) {
 
 namespace {
 
+// What takes the place of a scene's nodes. Reads all posts.
+Result<void> add_clusters(const Gpu& gpu, const Region& region, const MemoryOptions& memory, unsigned shares,
+                          Scene& scene) {
+    ORO_TRY(const HeightField field, field_in_memory(*region.file));
+    ORO_TRY(std::unique_ptr<RegionClusters> clusters,
+            clusters_of_file(region.clusters, region.file->fingerprint(), field,
+                             scene.pages().facts().shape.occluder));
+    ORO_TRY(ClusterScene made,
+            ClusterScene::create(gpu, std::move(clusters), gpu_share(gpu, memory_of(memory, shares))));
+    scene.draw_clusters(std::move(made));
+    return {};
+}
+
 // What is between a region's grids, into the frames of their scene. Gives the triangles that it has.
 Result<std::uint64_t> draw_between(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                    double exaggeration, Scene& scene) {
@@ -116,15 +133,17 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
                                     GridPages pages, const SceneRequest& request) {
     std::optional<Scene> scene;
     std::uint64_t triangles = 0;
+    const unsigned shares = static_cast<unsigned>(pages.size()) + (request.clusters ? 1 : 0);
     for (std::unique_ptr<RegionPages>& one : pages) {
         triangles += one->facts().triangles;
-        ORO_TRY(Scene made, create_scene(gpu, std::move(one), request.memory, request.heights, request.means,
-                                         static_cast<unsigned>(pages.size())));
+        ORO_TRY(Scene made,
+                create_scene(gpu, std::move(one), request.memory, request.heights, request.means, shares));
         if (scene)
             scene->draw_beside(std::move(made));
         else
             scene = std::move(made);
     }
+    if (request.clusters) ORO_CHECK(add_clusters(gpu, region, request.memory, shares, *scene));
     if (pages.size() > 1) {
         ORO_TRY(const std::uint64_t between, draw_between(gpu, region, cuts, request.exaggeration, *scene));
         triangles += between;

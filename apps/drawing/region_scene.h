@@ -42,6 +42,7 @@ struct SceneRequest {
     MemoryOptions memory;
     HeightStorage heights{HeightStorage::f32};
     bool means{};
+    bool clusters{};  // drawn by the region's clusters (draws_clusters())
 };
 // pages: of all grids (pages_of_grids()); or of the region's own alone (region_pages()), then those of others
 // are made. cuts: of all of them (cut_regions()).

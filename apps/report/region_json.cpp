@@ -99,6 +99,10 @@ ordered_json file_json(const Region& region) {
     json["pages"] = file.order().count();
     json["triangles"] = file.outline().triangles;
     json["bytes"] = file.bytes();
+    if (region.clusters)
+        json["clusters"] = json_object(
+            "levels", region.clusters->outline().levels.size(), "groups", region.clusters->outline().groups,
+            "triangles", region.clusters->outline().triangles, "bytes", region.clusters->bytes());
     json["bytes_per_post"] =
         static_cast<double>(file.bytes()) / static_cast<double>(region.field.grid.post_count());
     return json;

@@ -250,6 +250,10 @@ View read_fields(const nlohmann::json& json) {
     if (!raster_request_named(view.pipeline))
         throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of " +
                         listed(words_of(raster_requests))};
+    // Only what was drawn by clusters says so.
+    if (json.contains("mesh")) view.mesh = json_string(json, "mesh");
+    if (view.mesh != "auto" && view.mesh != "clusters" && view.mesh != "grid")
+        throw JsonFault{"'mesh' is '" + view.mesh + "', none of auto, clusters, grid"};
     // Nor have they a tau: they were drawn at full resolution.
     view.tau_px = json.contains("tau_px") ? number(json, "tau_px", limits::tau_px) : 0.0;
     read_models(json, view);
@@ -320,6 +324,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json["labels"] = !view.labels ? "style" : *view.labels ? "on" : "off";
     if (view.edges) json["edges"] = name_of(*view.edges);
     json["pipeline"] = view.pipeline;
+    if (view.mesh == "clusters") json["mesh"] = view.mesh;
     json["tau_px"] = view.tau_px;
     json["accuracy"] = view.accuracy;
     json.update(models_json(view));

@@ -140,6 +140,7 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     }
     ORO_CHECK(apply_colours(view, options));
     if (options.pipeline) view.pipeline = *options.pipeline;
+    if (options.mesh) view.mesh = *options.mesh;
     ORO_CHECK(apply_models(view, options));
     if (options.tau_px) {
         ORO_TRY(view.tau_px, within("--tau", *options.tau_px, view_limits::tau_px));

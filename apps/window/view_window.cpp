@@ -8,6 +8,7 @@
 #include "apps/commands/commands.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/finer_levels.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/eye/standpoint.h"
@@ -356,9 +357,10 @@ Result<void> run_view(const WindowOptions& options) {
     const bool coarse_first = measures_long(region);
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             first_pages(region, cuts, view, [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(const bool clusters, draws_clusters(region, view));
     ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
                                                {view.exaggeration, memory_of_pages(view, options.memory),
-                                                view.heights, asks_for_means(style.frame)}));
+                                                view.heights, asks_for_means(style.frame), clusters}));
     Scene& scene = whole.scene;
     ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
     bar.clear();

@@ -45,6 +45,8 @@ class ClusterFile {
     // Errors: no cluster file, one of another version of the format, cut off, unfinished, damaged, or with
     // counts that no graph has.
     static Result<ClusterFile> open(const std::string& path);
+    // One that is a part of a file (core/baked/clustered_file.h).
+    static Result<ClusterFile> open(OpenFile file);
 
     [[nodiscard]] const std::string& path() const { return file_.path(); }
     [[nodiscard]] const ClusterOutline& outline() const { return outline_; }

@@ -68,6 +68,10 @@ std::uint32_t ClusterFile::level_of(std::uint32_t number) const {
 
 Result<ClusterFile> ClusterFile::open(const std::string& path) {
     ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    return open(std::move(file));
+}
+
+Result<ClusterFile> ClusterFile::open(OpenFile file) {
     ORO_TRY(const std::uint64_t bytes, file.size());
     ORO_TRY(const Header header, read_header(file, bytes));
     std::vector<std::byte> levels(header.levels * level_bytes);

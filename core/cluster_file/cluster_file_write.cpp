@@ -16,19 +16,6 @@ namespace {
 
 using namespace cluster_format;
 
-GroupPart part_of(const ClusterGraph& graph, std::uint32_t number) {
-    GroupPart part{number, graph.groups[number], {}, {}, {}};
-    const auto members = graph.members_of(part.group);
-    part.members.assign(members.begin(), members.end());
-    for (std::uint32_t i = part.group.first_made; i < part.group.first_made + part.group.made; ++i) {
-        const auto triangles = graph.triangles_of(graph.clusters[i]);
-        part.made.push_back(graph.clusters[i]);
-        part.made.back().first_triangle = static_cast<std::uint32_t>(part.triangles.size());
-        part.triangles.insert(part.triangles.end(), triangles.begin(), triangles.end());
-    }
-    return part;
-}
-
 Header header_of(const ClusterGraph& graph, const PostCounts& posts, std::uint64_t fingerprint) {
     Header header;
     ClusterOutline& outline = header.outline;

@@ -153,6 +153,19 @@ auto GroupCode<Coder>::cluster(Cluster& cluster, std::uint32_t group, LocalMesh&
 
 }  // namespace
 
+GroupPart part_of(const ClusterGraph& graph, std::uint32_t number) {
+    GroupPart part{number, graph.groups[number], {}, {}, {}};
+    const auto members = graph.members_of(part.group);
+    part.members.assign(members.begin(), members.end());
+    for (std::uint32_t i = part.group.first_made; i < part.group.first_made + part.group.made; ++i) {
+        const auto triangles = graph.triangles_of(graph.clusters[i]);
+        part.made.push_back(graph.clusters[i]);
+        part.made.back().first_triangle = static_cast<std::uint32_t>(part.triangles.size());
+        part.triangles.insert(part.triangles.end(), triangles.begin(), triangles.end());
+    }
+    return part;
+}
+
 Result<std::vector<std::byte>> encode_group(const GroupPart& part, const PostCounts& posts,
                                             std::uint32_t clusters) {
     const auto fault = [&](const std::string& what) {

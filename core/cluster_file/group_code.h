@@ -37,6 +37,9 @@ struct GroupPart {
     std::vector<VertexTriangle> triangles;
 };
 
+// A group of a graph, by itself.
+[[nodiscard]] GroupPart part_of(const ClusterGraph& graph, std::uint32_t number);
+
 // No group that is written has more triangles than this, so none that is read asks for more memory.
 inline constexpr std::uint32_t most_group_triangles = 1U << 22U;
 inline constexpr std::uint32_t most_group_members = 1U << 20U;

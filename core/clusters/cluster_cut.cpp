@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "core/lod/levels.h"
-#include "core/lod/levels_gpu.h"
+#include "core/cluster_frame/group_rule.h"
 
 namespace oro {
 
@@ -26,27 +25,10 @@ std::vector<std::uint32_t> cut_by_metres(const ClusterGraph& graph, double error
 }
 
 std::vector<std::uint32_t> cut_by_pixels(const ClusterGraph& graph, const Camera& camera, double tau_px) {
-    const LevelView view = level_view(camera, tau_px);
-    const glm::dmat3 view_from_ecef = camera.view_from_ecef();
-    const Ecef eye = camera.eye_ecef();
+    const GroupRule rule(camera, tau_px);
     std::vector<char> stands(graph.groups.size());
-    for (std::size_t i = 0; i < stands.size(); ++i) {
-        const ClusterGroup& group = graph.groups[i];
-        const glm::dvec3 centre_view = view_from_ecef * (group.centre.m - eye.m);
-        stands[i] = gpu::projected_error_px(gpu::vec3(centre_view), static_cast<float>(group.radius_m),
-                                            static_cast<float>(group.error_m), view.pixels_per_tangent,
-                                            view.corner_tangent) <= view.tau_px
-                        ? 1
-                        : 0;
-    }
-    // Roundings to float may let a group stand above one that does not: then it does not either.
-    for (const ClusterGroup& group : graph.groups) {
-        char& here = stands[static_cast<std::size_t>(&group - graph.groups.data())];
-        for (const std::uint32_t member : graph.members_of(group)) {
-            const std::uint32_t below = graph.clusters[member].made_by;
-            if (below != no_group && stands[below] == 0) here = 0;
-        }
-    }
+    std::transform(graph.groups.begin(), graph.groups.end(), stands.begin(),
+                   [&](const ClusterGroup& group) { return rule.stands(group) ? 1 : 0; });
     return cut_of(graph, stands);
 }
 

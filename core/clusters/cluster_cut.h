@@ -19,7 +19,7 @@ namespace oro {
 [[nodiscard]] std::vector<std::uint32_t> cut_by_metres(const ClusterGraph& graph, double error_m);
 
 // For a view: no place that can be seen is farther than tau_px, at least 0, from where the original would put
-// it. By the bound that chooses nodes (projected_error_px, shaders/choose/levels.glsl). Nothing is left out
+// it (core/cluster_frame/group_rule.h). Nothing is left out
 // because it cannot be seen.
 [[nodiscard]] std::vector<std::uint32_t> cut_by_pixels(const ClusterGraph& graph, const Camera& camera,
                                                        double tau_px);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/cluster_frame/cluster_plan.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
 #include "core/frame/casters.h"
@@ -31,7 +32,8 @@ struct FramePlan {
         pages_wanted{};  // those of `pages` and `missing`, and those that wait for a missing neighbour
     std::size_t pages_beyond_frustum{};
     std::size_t pages_beyond_horizon{};
-    CasterPlan casters;  // none until plan_casters()
+    ClusterPlan clusters;  // off until draw_clusters()
+    CasterPlan casters;    // none until plan_casters()
     // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.
     std::uint64_t heights{};
     // Other grids in the same frame: plans of their own, for the same eye and tile.

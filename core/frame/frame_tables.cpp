@@ -194,6 +194,11 @@ void FrameTables::place(const PageIndex& index, gpu::FramePage& page) {
     page.column_terms = column->second;
 }
 
+void FrameTables::place_all() {
+    for (int row = 0; row < grid_.rows(); ++row) add_row(row);
+    for (int column = 0; column < grid_.columns(); ++column) add_column(column);
+}
+
 namespace {
 
 // Radius of curvature at the eye of the sphere that the bare Earth is drawn as; sight lines that bend make it

@@ -25,6 +25,9 @@ class FrameTables {
     // Makes sure that a page's rows and columns are there, and tells the page where, and where it lies.
     void place(const PageIndex& index, gpu::FramePage& page);
 
+    // All rows and columns of the region's posts, in their order: after those that are there already.
+    void place_all();
+
     std::vector<gpu::RowTerms> take_rows() { return std::move(rows_); }
     std::vector<gpu::ColumnTerms> take_columns() { return std::move(columns_); }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/baked/clustered_file.h"
 #include "core/baked/file_pages.h"
 #include "core/baked/grids_file.h"
 #include "core/base/parallel.h"
@@ -228,7 +229,9 @@ std::optional<std::string> baked_path(const std::vector<std::string>& paths) {
         std::error_code ignored;
         const bool named =
             lower_case(path).ends_with(".oro") && !std::filesystem::is_directory(path, ignored);
-        if (named || looks_like_region_file(path) || looks_like_grids_file(path)) return path;
+        if (named || looks_like_region_file(path) || looks_like_grids_file(path) ||
+            looks_like_clustered_file(path))
+            return path;
     }
     return std::nullopt;
 }
@@ -236,9 +239,9 @@ std::optional<std::string> baked_path(const std::vector<std::string>& paths) {
 namespace {
 
 // The region that one region file holds, whole or cut to the request's box.
-Result<Region> region_in(RegionFile opened, const RegionRequest& request, const Progress& progress) {
-    const std::string path = opened.path();
-    const auto file = std::make_shared<const RegionFile>(std::move(opened));
+Result<Region> region_in(std::shared_ptr<const RegionFile> file, const RegionRequest& request,
+                         const Progress& progress) {
+    const std::string path = file->path();
     ORO_TRY(Region region, region_from_description(file->outline().description, path));
     if (region.voids != file->outline().voids)
         return Error{ErrorKind::failed, path,
@@ -277,7 +280,8 @@ Result<Region> regions_in(const std::string& path, const RegionRequest& request,
     for (const GridInFile& grid : grids) {
         ORO_TRY(OpenFile part, file.part(grid.offset, grid.bytes));
         ORO_TRY(RegionFile opened, RegionFile::open(std::move(part)));
-        Result<Region> region = region_in(std::move(opened), request, progress);
+        Result<Region> region =
+            region_in(std::make_shared<const RegionFile>(std::move(opened)), request, progress);
         if (!region && region.error().kind == ErrorKind::no_data && request.box) {
             if (!none) none = region.error();
             continue;
@@ -302,8 +306,9 @@ Result<Region> open_baked_region(const RegionRequest& request, const Progress& p
     if (looks_like_grids_file(path)) {
         region = regions_in(path, request, progress);
     } else {
-        ORO_TRY(RegionFile opened, RegionFile::open(path));
-        region = region_in(std::move(opened), request, progress);
+        ORO_TRY(const BakedFile opened, open_baked_file(path));
+        region = region_in(opened.region, request, progress);
+        if (region.ok() && region->file) region->clusters = opened.clusters;
     }
     if (region.ok() && progress) progress(1.0, "region read");
     return region;

@@ -12,6 +12,7 @@
 
 #include "core/baked/region_file.h"
 #include "core/base/result.h"
+#include "core/cluster_file/cluster_file.h"
 #include "core/terrain/post_grid.h"
 #include "geo/region/source_report.h"
 
@@ -71,7 +72,8 @@ struct Region {
     std::optional<PostsCrs> posts_crs;  // of a grid on a net
     // The baked region that the field is, whole; null when it comes from other sources or is a part of one.
     std::shared_ptr<const RegionFile> file;
-    std::vector<SourceReport> sources;  // those that the region uses
+    std::shared_ptr<const ClusterFile> clusters;  // of `file`, where it was baked with them
+    std::vector<SourceReport> sources;            // those that the region uses
     SeamReport seams;
     std::string geoid;               // "EGM96 (egm96_15.gtx)": what N in the field is
     UndulationField geoid_left_out;  // N that the field had, where a view goes without it

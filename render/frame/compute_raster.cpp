@@ -87,13 +87,21 @@ void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines,
     const auto bind = [&](const OwnedPipeline& pipeline) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
     };
-    bind(pipelines.cull);
-    vkCmdDispatchIndirect(commands, choice, offsetof(gpu::LivePages, cull_groups));
+    if (plan.clusters.on) {
+        const auto count = static_cast<std::uint32_t>(plan.clusters.drawn.size());
+        bind(pipelines.cluster_raster);
+        if (count > 0)
+            vkCmdDispatch(commands, std::min(count, gpu::groups_per_row),
+                          (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
+    } else {
+        bind(pipelines.cull);
+        vkCmdDispatchIndirect(commands, choice, offsetof(gpu::LivePages, cull_groups));
+        wait_for_lists(commands);
+        bind(pipelines.raster);
+        vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, meshlet_groups));
+    }
     wait_for_lists(commands);
-    bind(pipelines.raster);
-    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, meshlet_groups));
-    wait_for_lists(commands);
-    bind(pipelines.raster_clip);
+    bind(plan.clusters.on ? pipelines.cluster_clip : pipelines.raster_clip);
     vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, clip_groups));
     wait_for_lists(commands);
     bind(pipelines.raster_large);

@@ -120,7 +120,10 @@ Result<void> FrameRenderer::add_triangles(std::uint32_t grid, std::uint32_t firs
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
         grids_[grid].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->triangles.get());
+        vkCmdBindPipeline(
+            commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+            (grids_[grid].cluster_groups() > 0 ? pipelines_->cluster_triangles : pipelines_->triangles)
+                .get());
         vkCmdDispatchBase(commands, 0, first_row / 8, 0, (last_width_px_ + 7) / 8, (rows + 7) / 8, 1);
     }));
     constexpr std::size_t words_each = sizeof(gpu::DrawnTriangle) / sizeof(std::uint32_t);

@@ -159,6 +159,8 @@ Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first,
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = asked.style;
+    if (plan.clusters.on)
+        ORO_CHECK(add_cluster_pipelines(*gpu_, options_.path, options_.keep_triangles, *pipelines_));
     if (first)
         ORO_CHECK(drape_.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? asked.drape : nullptr,
                                  constants));
@@ -179,12 +181,13 @@ void FrameRenderer::record_upload(VkCommandBuffer commands, std::size_t grids) c
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
 // Levels: which nodes of which pages, for whichever way of drawing follows.
 void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& grid,
                                   const FramePlan& plan) const {
+    if (plan.clusters.on) return;  // chosen by the processor
     grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     const auto count = static_cast<std::uint32_t>(plan.pages.size());
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->accept.get());
@@ -228,9 +231,15 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
         0.0F, 1.0F};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->terrain.get());
     for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        const VkDeviceSize clusters = grids_[i].cluster_groups();
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                          (clusters > 0 ? pipelines_->cluster_terrain : pipelines_->terrain).get());
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_GRAPHICS);
+        if (clusters > 0) {
+            gpu_->draw_mesh_tasks_indirect()(commands, grids_[i].data().handle.get(), clusters, 1, 0);
+            continue;
+        }
         gpu_->draw_mesh_tasks_indirect()(commands, grids_[i].choice().handle.get(),
                                          offsetof(gpu::LivePages, task_groups), 1, 0);
     }
@@ -297,6 +306,8 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     FrameReport report;
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
     report.pages = plan.pages.size();
+    report.counts.meshlets_beyond_frustum += static_cast<gpu::uint>(plan.clusters.beyond_frustum);
+    report.counts.meshlets_beyond_horizon += static_cast<gpu::uint>(plan.clusters.beyond_horizon);
     for (const FramePlan& other : plan.beside) report.pages += other.pages.size();
     if (!compute_)
         report.task_groups = std::uint64_t{report.counts.pages_live} *

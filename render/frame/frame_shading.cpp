@@ -29,6 +29,7 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, bool first, gpu::Fra
     kind.by_means = constants.has_means != 0 && asks_for_means(style);
     kind.edges_follow = options_.smooth_edges;
     kind.on_net = constants.has_net != 0;
+    kind.on_clusters = constants.clusters.on != 0;
     kind.parts_follow = kind.by_means && kind.in_air && style.footprint == gpu::footprint_mean;
     ORO_TRY(grid.shade, shading_for(*gpu_, options_.path, kind, *pipelines_));
     if (kind.edges_follow) {

@@ -1,6 +1,7 @@
 #include "render/frame/grid_frame.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "render/frame/frame_layout.h"
@@ -10,11 +11,15 @@ namespace {
 
 constexpr VkDeviceSize pages_offset = 8192;  // FrameConstants come first
 static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
+constexpr VkDeviceSize cluster_groups_bytes = 16;
+// Addresses that straddle 8 bytes cost 2 to 4 % of a frame.
+static_assert((offsetof(gpu::FrameConstants, clusters) + offsetof(gpu::ClusterTable, drawn)) % 8 == 0);
 
 // Where the parts of a grid's data lie, in bytes.
 struct DataLayout {
     VkDeviceSize rows;
     VkDeviceSize columns;
+    VkDeviceSize clusters;  // workgroups of their draw, then they
     VkDeviceSize size;
 };
 DataLayout layout_of(const FramePlan& plan) {
@@ -22,7 +27,10 @@ DataLayout layout_of(const FramePlan& plan) {
     DataLayout layout{};
     layout.rows = aligned(pages_offset + plan.pages.size() * sizeof(gpu::FramePage));
     layout.columns = aligned(layout.rows + plan.row_terms.size() * sizeof(gpu::RowTerms));
-    layout.size = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
+    layout.clusters = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
+    layout.size = layout.clusters;
+    if (plan.clusters.on)
+        layout.size += cluster_groups_bytes + plan.clusters.drawn.size() * sizeof(gpu::DrawnCluster);
     return layout;
 }
 
@@ -86,7 +94,8 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const FramePlan& plan) {
                                               "frame staging"));
         constexpr VkBufferUsageFlags usage =
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
         ORO_TRY(data_, create_buffer(gpu, size, usage, MemoryKind::device, "frame data"));
         staging_ = std::move(staging);  // both are that large, or neither is
         bind_constants(gpu);
@@ -111,6 +120,8 @@ void GridFrame::address(FramePlan& plan) const {
     constants.pages = address_words(data_.address + pages_offset);
     constants.row_terms = address_words(data_.address + layout.rows);
     constants.column_terms = address_words(data_.address + layout.columns);
+    if (plan.clusters.on)
+        constants.clusters.drawn = address_words(data_.address + layout.clusters + cluster_groups_bytes);
     VkDeviceAddress at = choice_.address;
     constants.live_pages = address_words(at);
     at += 4 * live_pages_words;
@@ -132,6 +143,13 @@ void GridFrame::fill(const FramePlan& plan) {
     copy(pages_offset, plan.pages);
     copy(layout.rows, plan.row_terms);
     copy(layout.columns, plan.column_terms);
+    cluster_groups_ = plan.clusters.on ? layout.clusters : 0;
+    if (!plan.clusters.on) return;
+    const auto count = static_cast<std::uint32_t>(plan.clusters.drawn.size());
+    const std::array<std::uint32_t, 3> groups{std::min(count, gpu::groups_per_row),
+                                              (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1};
+    std::memcpy(staging_.mapped + layout.clusters, groups.data(), sizeof(groups));
+    copy(layout.clusters + cluster_groups_bytes, plan.clusters.drawn);
 }
 
 void GridFrame::record_upload(VkCommandBuffer commands) const {

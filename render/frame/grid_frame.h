@@ -29,6 +29,8 @@ class GridFrame {
     [[nodiscard]] const Buffer& data() const { return data_; }      // begins with the constants
     [[nodiscard]] const Buffer& choice() const { return choice_; }  // see frame_layout.h
     [[nodiscard]] std::size_t page_capacity() const { return page_capacity_; }
+    // Where data() holds the workgroups of an indirect draw of the frame's clusters; 0: it has none.
+    [[nodiscard]] VkDeviceSize cluster_groups() const { return cluster_groups_; }
 
     CasterBuffers casters;
     VkPipeline shade{VK_NULL_HANDLE}, shade_parts{VK_NULL_HANDLE};  // of the frame
@@ -38,11 +40,12 @@ class GridFrame {
 
     OwnedDescriptorPool pool_;
     VkDescriptorSet set_{VK_NULL_HANDLE};
-    Buffer staging_;  // constants, then pages, then rows and columns
+    Buffer staging_;  // constants, then pages, rows and columns, clusters
     Buffer data_;     // the same on the device
     Buffer choice_;
     std::size_t page_capacity_{};
     VkDeviceSize size_{};  // that a frame sends
+    VkDeviceSize cluster_groups_{};
 };
 
 }  // namespace oro

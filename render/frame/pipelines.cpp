@@ -9,6 +9,9 @@
 
 #include "shaders/shared.h"
 #include "spirv/accept_comp.h"
+#include "spirv/cluster_clip_comp.h"
+#include "spirv/cluster_mesh.h"
+#include "spirv/cluster_raster_comp.h"
 #include "spirv/cull_comp.h"
 #include "spirv/live_pages_comp.h"
 #include "spirv/raster_clip_comp.h"
@@ -18,6 +21,7 @@
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_mesh_two.h"
 #include "spirv/terrain_task.h"
+#include "spirv/triangles_clusters_comp.h"
 #include "spirv/triangles_comp.h"
 
 namespace oro {
@@ -139,6 +143,23 @@ class TerrainState {
     VkPipelineRenderingCreateInfo rendering_{};
 };
 
+// Draws ids and depth by some shaders.
+Result<OwnedPipeline> create_raster_pipeline(const Gpu& gpu, const Pipelines& pipelines,
+                                             std::span<const VkPipelineShaderStageCreateInfo> stages,
+                                             const char* name) {
+    const TerrainState state;
+    VkGraphicsPipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    info.stageCount = static_cast<std::uint32_t>(stages.size());
+    info.pStages = stages.data();
+    state.put_into(info);
+    info.layout = pipelines.layout.get();
+    VkPipeline handle{};
+    ORO_VK(vkCreateGraphicsPipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, name);
+    return OwnedPipeline(gpu.device(), handle);
+}
+
 Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& pipelines,
                                               StageConstants task_constants, StageConstants mesh_constants) {
     ORO_TRY(const OwnedShader task, create_shader(gpu, terrain_task_spirv, "terrain.task"));
@@ -154,17 +175,12 @@ Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& p
     const std::array stages{stage(VK_SHADER_STAGE_TASK_BIT_EXT, task, &task_info),
                             stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, &mesh_info),
                             stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
-    const TerrainState state;
-    VkGraphicsPipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-    info.stageCount = static_cast<std::uint32_t>(stages.size());
-    info.pStages = stages.data();
-    state.put_into(info);
-    info.layout = pipelines.layout.get();
-    VkPipeline handle{};
-    ORO_VK(vkCreateGraphicsPipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
-    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, "terrain");
-    return OwnedPipeline(gpu.device(), handle);
+    return create_raster_pipeline(gpu, pipelines, stages, "terrain");
+}
+
+std::uint32_t mesh_group_size(const Gpu& gpu) {
+    const MeshShaderLimits& limits = gpu.report().mesh;
+    return std::clamp(std::min(limits.preferred_mesh_invocations, limits.max_mesh_invocations), 1U, 128U);
 }
 
 Result<void> create_mesh_path(const Gpu& gpu, bool record_positions, Pipelines& pipelines) {
@@ -181,14 +197,24 @@ Result<void> create_mesh_path(const Gpu& gpu, bool record_positions, Pipelines& 
                                            limits.preferred_mesh_invocations >= gpu::meshlet_triangles
                                        ? 2
                                        : 1;
-    const std::uint32_t mesh_size =
-        std::clamp(std::min(limits.preferred_mesh_invocations, limits.max_mesh_invocations), 1U, 128U);
+    const std::uint32_t mesh_size = mesh_group_size(gpu);
     const VkBool32 recording = record_positions ? VK_TRUE : VK_FALSE;
     const std::uint32_t together = pipelines.meshlets_per_group;
     ORO_TRY(pipelines.terrain,
             create_terrain_pipeline(gpu, pipelines, {pipelines.meshlets_per_task, recording, together},
                                     {mesh_size, recording, together}));
     return {};
+}
+
+Result<OwnedPipeline> create_cluster_terrain(const Gpu& gpu, const Pipelines& pipelines) {
+    ORO_TRY(const OwnedShader mesh, create_shader(gpu, cluster_mesh_spirv, "cluster.mesh"));
+    ORO_TRY(const OwnedShader fragment, create_shader(gpu, terrain_frag_spirv, "terrain.frag"));
+    const std::uint32_t size = mesh_group_size(gpu);
+    const VkSpecializationMapEntry entry{0, 0, sizeof(size)};
+    const VkSpecializationInfo constants{1, &entry, sizeof(size), &size};
+    const std::array stages{stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, &constants),
+                            stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
+    return create_raster_pipeline(gpu, pipelines, stages, "clusters");
 }
 
 Result<void> create_choice(const Gpu& gpu, Pipelines& pipelines) {
@@ -220,7 +246,33 @@ Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_
     return pipelines;
 }
 
+Result<OwnedPipeline> create_triangles(const Gpu& gpu, RasterPath path, std::span<const std::uint32_t> words,
+                                       const Pipelines& pipelines) {
+    const VkBool32 compute = path == RasterPath::compute ? VK_TRUE : VK_FALSE;
+    const VkSpecializationMapEntry entry{0, 0, sizeof(compute)};
+    const VkSpecializationInfo constants{1, &entry, sizeof(compute), &compute};
+    return create_compute_pipeline(gpu, pipelines, words, "triangles", &constants,
+                                   VK_PIPELINE_CREATE_DISPATCH_BASE_BIT);
+}
+
 }  // namespace
+
+Result<void> add_cluster_pipelines(const Gpu& gpu, RasterPath path, bool triangles, Pipelines& pipelines) {
+    if (path == RasterPath::mesh && !pipelines.cluster_terrain) {
+        ORO_TRY(pipelines.cluster_terrain, create_cluster_terrain(gpu, pipelines));
+    }
+    if (path == RasterPath::compute && !pipelines.cluster_raster) {
+        ORO_TRY(pipelines.cluster_raster,
+                create_compute_pipeline(gpu, pipelines, cluster_raster_comp_spirv, "cluster raster"));
+        ORO_TRY(pipelines.cluster_clip,
+                create_compute_pipeline(gpu, pipelines, cluster_clip_comp_spirv, "cluster clip"));
+    }
+    if (triangles && !pipelines.cluster_triangles) {
+        ORO_TRY(pipelines.cluster_triangles,
+                create_triangles(gpu, path, triangles_clusters_comp_spirv, pipelines));
+    }
+    return {};
+}
 
 Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
                                               std::span<const std::uint32_t> words, const char* name,
@@ -246,11 +298,7 @@ Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath p
         kept = std::make_shared<Pipelines>(std::move(pipelines));
     }
     if (wants.triangles && !kept->triangles) {
-        const VkBool32 compute = path == RasterPath::compute ? VK_TRUE : VK_FALSE;
-        const VkSpecializationMapEntry entry{0, 0, sizeof(compute)};
-        const VkSpecializationInfo constants{1, &entry, sizeof(compute), &compute};
-        ORO_TRY(kept->triangles, create_compute_pipeline(gpu, *kept, triangles_comp_spirv, "triangles",
-                                                         &constants, VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
+        ORO_TRY(kept->triangles, create_triangles(gpu, path, triangles_comp_spirv, *kept));
     }
     return kept;
 }

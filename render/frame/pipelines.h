@@ -31,6 +31,7 @@ struct ShadingKind {
     bool parts_follow{};  // pixels whose footprint has several parts are left to a program of their own,
     bool parts_alone{};   // which this is
     bool on_net{};        // the region's posts lie on a net
+    bool on_clusters{};   // clusters are drawn, not nodes of pages
     auto operator<=>(const ShadingKind&) const = default;
 };
 
@@ -43,13 +44,17 @@ struct Pipelines {
     std::uint32_t meshlets_per_group{1};                    // of a mesh workgroup
     OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
     std::map<ShadingKind, OwnedPipeline> shades;            // compute, 8 x 8; see shading_for
-    std::array<OwnedPipeline, 2> edges;                     // without and with air, 8 x 8; see edges_for
-    OwnedPipeline drape_wants;                              // what tiles of them are wanted, compute, 8 x 8
-    std::array<OwnedPipeline, 5> air;     // its tables, in this order, 64 entries a workgroup
-    OwnedPipeline caster_tops, openness;  // of what casts shadows
-    // Off and on a net: of every second pixel, of all; 16 x 16 of them.
-    std::array<std::array<OwnedPipeline, 2>, 2> sun_shares;
+    std::array<OwnedPipeline, 4> edges;  // without and with air, then both of clusters, 8 x 8; see edges_for
+    std::array<OwnedPipeline, 2> drape_wants;  // what tiles of images are wanted (then of clusters), 8 x 8
+    std::array<OwnedPipeline, 5> air;          // its tables, in this order, 64 entries a workgroup
+    OwnedPipeline caster_tops, openness;       // of what casts shadows
+    // Off and on a net, of clusters: of every second pixel, of all; 16 x 16 of them.
+    std::array<std::array<OwnedPipeline, 2>, 3> sun_shares;
     OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
+    // Of frames that draw clusters: see add_cluster_pipelines().
+    OwnedPipeline cluster_terrain;               // mesh path: mesh, fragment
+    OwnedPipeline cluster_raster, cluster_clip;  // compute path; then raster_large
+    OwnedPipeline cluster_triangles;
 };
 
 // What a renderer is asked for besides triangle ids.
@@ -62,6 +67,8 @@ struct PipelineWants {
 // them than to draw a small picture. Sizes of workgroups follow the device's preferred limits.
 Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath path,
                                                     const PipelineWants& wants);
+// Those that draw clusters, as far as they are not there. triangles: as PipelineWants.
+Result<void> add_cluster_pipelines(const Gpu& gpu, RasterPath path, bool triangles, Pipelines& pipelines);
 // One that needs the set alone. `flags`: VK_PIPELINE_CREATE_...
 Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& pipelines,
                                               std::span<const std::uint32_t> words, const char* name,

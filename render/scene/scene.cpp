@@ -28,12 +28,15 @@ gpu::uvec2 behind(const gpu::FramePage& page, std::uint64_t offset) {
 
 }  // namespace
 
+std::uint64_t gpu_share(const Gpu& gpu, const SceneMemory& memory) {
+    constexpr std::uint64_t most = std::uint64_t{2} << 30U;
+    return (memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most)) / memory.shares;
+}
+
 Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
                             HeightStorage heights, bool means) {
     const PageParts parts{means && pages->knows_means(), pages->facts().grid.net != nullptr};
-    constexpr std::uint64_t most = std::uint64_t{2} << 30U;
-    const std::uint64_t bytes =
-        (memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most)) / memory.shares;
+    const std::uint64_t bytes = gpu_share(gpu, memory);
     ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
     ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding, parts), coding, parts));
     Scene scene(std::move(pages), std::move(store));
@@ -74,6 +77,10 @@ Result<FramePlan> Scene::own_plan(const Camera& camera, const Tile& tile, double
     ORO_TRY(FramePlan plan,
             plan_frame(*pages_, residency, camera, tile, tau_px, model, store_.coding(),
                        store_.means_offset() > 0 ? gpu::means_spacing_px : gpu::shading_spacing_px));
+    // A plan with no page shows nothing.
+    if (clusters_ && beside_.empty() && model.earth == Earth::ellipsoid && !plan.pages.empty())
+        ORO_CHECK(clusters_->add_to(plan, camera, tile, tau_px, model, pages_->facts().shape.occluder,
+                                    store_.coding()));
     if (cast_.any()) {
         if (!top_m_) {
             ORO_TRY(top_m_, region_top_m(*pages_));

@@ -11,6 +11,7 @@
 
 #include "core/frame/frame_plan.h"
 #include "core/frame/region_pages.h"
+#include "render/clusters/cluster_scene.h"
 #include "render/scene/drape_store.h"
 #include "render/scene/page_store.h"
 #include "render/scene/page_stream.h"
@@ -26,6 +27,8 @@ struct SceneMemory {
     std::uint64_t main{};  // pages on their way there; 0: 64 MB
     unsigned shares{1};    // scenes that share these
 };
+// What one of them has on the GPU, bytes.
+std::uint64_t gpu_share(const Gpu& gpu, const SceneMemory& memory);
 
 // Keeps on the GPU what a camera needs of a region, as fine as tau asks for, within a budget of memory.
 //     ORO_TRY(Scene scene, Scene::create(*gpu, pages_in_memory(region.field, 1.0, thread_count())));
@@ -41,6 +44,11 @@ class Scene {
     // Another grid that its frames draw, too: a region of its own, with its own pages, memory and streaming.
     // What the rest of this class tells is of the first grid alone, and images lie over that alone.
     void draw_beside(Scene other) { beside_.push_back(std::move(other)); }
+
+    // From the next plan on its ground is drawn by clusters, on the ellipsoid; pages are there for shading.
+    // Not for scenes that draw others beside.
+    void draw_clusters(ClusterScene clusters) { clusters_.emplace(std::move(clusters)); }
+    [[nodiscard]] const std::optional<ClusterScene>& clusters() const { return clusters_; }
 
     // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h);
     // terrain of one grid is none for another.
@@ -87,6 +95,7 @@ class Scene {
     bool full_{false};  // of the last frame's pages
     CastRequest cast_;
     std::optional<double> top_m_;  // of the region, once it was asked for
+    std::optional<ClusterScene> clusters_;
     std::vector<Scene> beside_;
     std::vector<PageIndex> missed_;  // by its last plan, where it is one of those beside another
 };

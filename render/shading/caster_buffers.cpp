@@ -95,9 +95,10 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& 
     casts_ = there && style.shadows != 0 && plan.for_shadows;
     opens_ = there && style.sky_openness != 0 && plan.for_openness;
     on_net_ = constants.has_net != 0;
+    on_clusters_ = constants.clusters.on != 0;
     constants.casters = {};
     if (!any()) return {};
-    ORO_CHECK(add_cast_pipelines(gpu, path, on_net_, pipelines));
+    ORO_CHECK(add_cast_pipelines(gpu, path, on_net_, on_clusters_, pipelines));
     ORO_CHECK(reserve(gpu, frame, constants));
     const CasterLayout layout = layout_of(plan);
     gpu::Casters casters = plan.frame;
@@ -136,7 +137,7 @@ void CasterBuffers::record(VkCommandBuffer commands, const Pipelines& pipelines)
         made_.swap(wanted_);
     }
     if (!casts_) return;
-    const std::array<OwnedPipeline, 2>& sun_shares = pipelines.sun_shares[on_net_ ? 1 : 0];
+    const std::array<OwnedPipeline, 2>& sun_shares = pipelines.sun_shares[on_clusters_ ? 2 : on_net_ ? 1 : 0];
     for (std::uint32_t turn = 0; turn < sun_shares.size(); ++turn) {
         const std::uint32_t side_px = 16U >> turn;  // of a workgroup's square
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, sun_shares[turn].get());

@@ -26,7 +26,7 @@ Result<void> DrapeWants::prepare(const Gpu& gpu, RasterPath path, Pipelines& pip
         ORO_TRY(read_back_, create_buffer(gpu, wanted_bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                           MemoryKind::readback, "wanted image tiles read back"));
     }
-    ORO_CHECK(add_drape_pipelines(gpu, path, pipelines));
+    ORO_CHECK(add_drape_pipelines(gpu, path, constants.clusters.on != 0, pipelines));
     store->describe(constants.drape);
     constants.drape.wanted = address_words(wanted_.address);
     return {};
@@ -38,7 +38,8 @@ void DrapeWants::record(VkCommandBuffer commands, const Pipelines& pipelines,
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.drape_wants.get());
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                      pipelines.drape_wants[constants.clusters.on != 0 ? 1 : 0].get());
     vkCmdDispatch(commands, (constants.width_px + 7) / 8, (constants.height_px + 7) / 8, 1);
     memory_barrier(
         commands,

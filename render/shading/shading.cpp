@@ -5,15 +5,21 @@
 #include <span>
 
 #include "spirv/air_tables_comp.h"
+#include "spirv/drape_wants_clusters_comp.h"
 #include "spirv/drape_wants_comp.h"
+#include "spirv/edges_clusters_comp.h"
 #include "spirv/edges_comp.h"
 #include "spirv/openness_comp.h"
+#include "spirv/shade_air_clusters_comp.h"
 #include "spirv/shade_air_comp.h"
 #include "spirv/shade_air_net_comp.h"
+#include "spirv/shade_clusters_comp.h"
 #include "spirv/shade_comp.h"
+#include "spirv/shade_map_clusters_comp.h"
 #include "spirv/shade_map_comp.h"
 #include "spirv/shade_map_net_comp.h"
 #include "spirv/shade_net_comp.h"
+#include "spirv/shares_clusters_comp.h"
 #include "spirv/shares_comp.h"
 #include "spirv/shares_net_comp.h"
 #include "spirv/tops_comp.h"
@@ -27,6 +33,10 @@ VkBool32 flag(bool on) {
 
 std::span<const std::uint32_t> shade_words(const ShadingKind& kind) {
     using Words = std::span<const std::uint32_t>;
+    if (kind.on_clusters)
+        return kind.in_air   ? Words(shade_air_clusters_comp_spirv)
+               : kind.as_map ? Words(shade_map_clusters_comp_spirv)
+                             : Words(shade_clusters_comp_spirv);
     if (kind.in_air) return kind.on_net ? Words(shade_air_net_comp_spirv) : Words(shade_air_comp_spirv);
     if (kind.as_map) return kind.on_net ? Words(shade_map_net_comp_spirv) : Words(shade_map_comp_spirv);
     return kind.on_net ? Words(shade_net_comp_spirv) : Words(shade_comp_spirv);
@@ -65,14 +75,16 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
 }
 
 Result<VkPipeline> edges_for(const Gpu& gpu, RasterPath path, const ShadingKind& kind, Pipelines& pipelines) {
-    OwnedPipeline& edges = pipelines.edges[kind.in_air ? 1 : 0];
+    OwnedPipeline& edges = pipelines.edges[(kind.on_clusters ? 2U : 0U) + (kind.in_air ? 1U : 0U)];
     if (edges) return edges.get();
     // By constant_id of edges.comp.
     const std::array<VkBool32, 2> values{flag(path == RasterPath::compute), flag(kind.in_air)};
     const std::array<VkSpecializationMapEntry, 2> entries{
         {{0, 0, sizeof(values[0])}, {2, sizeof(values[0]), sizeof(values[1])}}};
     const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
-    ORO_TRY(edges, create_compute_pipeline(gpu, pipelines, edges_comp_spirv, "smooth edges", &constants));
+    const std::span<const std::uint32_t> words =
+        kind.on_clusters ? std::span<const std::uint32_t>(edges_clusters_comp_spirv) : edges_comp_spirv;
+    ORO_TRY(edges, create_compute_pipeline(gpu, pipelines, words, "smooth edges", &constants));
     return edges.get();
 }
 
@@ -87,7 +99,8 @@ Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
-Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, Pipelines& pipelines) {
+Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, bool on_clusters,
+                                Pipelines& pipelines) {
     if (!pipelines.caster_tops) {
         ORO_TRY(pipelines.caster_tops,
                 create_compute_pipeline(gpu, pipelines, tops_comp_spirv, "caster tops"));
@@ -97,8 +110,10 @@ Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, Pi
                 create_compute_pipeline(gpu, pipelines, openness_comp_spirv, "sky openness"));
     }
     const std::span<const std::uint32_t> words =
-        on_net ? std::span<const std::uint32_t>(shares_net_comp_spirv) : shares_comp_spirv;
-    std::array<OwnedPipeline, 2>& sun_shares = pipelines.sun_shares[on_net ? 1 : 0];
+        on_clusters ? std::span<const std::uint32_t>(shares_clusters_comp_spirv)
+        : on_net    ? std::span<const std::uint32_t>(shares_net_comp_spirv)
+                    : std::span<const std::uint32_t>(shares_comp_spirv);
+    std::array<OwnedPipeline, 2>& sun_shares = pipelines.sun_shares[on_clusters ? 2 : on_net ? 1 : 0];
     for (std::uint32_t turn = 0; turn < sun_shares.size(); ++turn) {
         if (sun_shares[turn]) continue;
         const std::array<std::uint32_t, 2> values{flag(path == RasterPath::compute), 2U >> turn};
@@ -110,13 +125,16 @@ Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, Pi
     return {};
 }
 
-Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
-    if (pipelines.drape_wants) return {};
+Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, bool on_clusters, Pipelines& pipelines) {
+    OwnedPipeline& wants = pipelines.drape_wants[on_clusters ? 1 : 0];
+    if (wants) return {};
     const VkBool32 from_compute = flag(path == RasterPath::compute);
     const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
     const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};
-    ORO_TRY(pipelines.drape_wants, create_compute_pipeline(gpu, pipelines, drape_wants_comp_spirv,
-                                                           "wanted image tiles", &constants));
+    const std::span<const std::uint32_t> words =
+        on_clusters ? std::span<const std::uint32_t>(drape_wants_clusters_comp_spirv)
+                    : drape_wants_comp_spirv;
+    ORO_TRY(wants, create_compute_pipeline(gpu, pipelines, words, "wanted image tiles", &constants));
     return {};
 }
 

@@ -19,8 +19,9 @@ Result<VkPipeline> edges_for(const Gpu& gpu, RasterPath path, const ShadingKind&
 // What fills the tables that it reads, as far as that is not there: of air,
 Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines);
 // ... of what casts shadows and of how open the sky is,
-Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, Pipelines& pipelines);
+Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, bool on_clusters,
+                                Pipelines& pipelines);
 // ... and of the image tiles that a frame wants.
-Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, Pipelines& pipelines);
+Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, bool on_clusters, Pipelines& pipelines);
 
 }  // namespace oro

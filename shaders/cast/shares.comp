@@ -35,11 +35,11 @@ float share_at(ivec2 pixel) {
     uvec2 posts[3];
     vec3 at[3];
     float heights_m[3], scale;
-    corners_of(triangle_of_id(id), posts, heights_m, at);
+    FramePage page = corners_of(triangle_of_id(id), posts, heights_m, at);
     vec2 shares = met_shares(ray, at, scale);
     SurfacePoint point;
     point.view = (1.0 - shares.x - shares.y) * at[0] + shares.x * at[1] + shares.y * at[2];
-    point.post = (1.0 - shares.x - shares.y) * vec2(posts[0]) + shares.x * vec2(posts[1]) + shares.y * vec2(posts[2]);
+    point.post = place_on_page(page, triangle_of_id(id), posts, vec3(1.0 - shares.x - shares.y, shares));
     return sun_over_terrain(cast_point(triangle_of_id(id), point));
 }
 

@@ -5,7 +5,7 @@ float sun_share() { return casts ? shown_share : 1.0; }
 
 // The place in the region of a point on a triangle (triangle_id() - 1).
 CastPoint cast_point(uint id, SurfacePoint surface) {
-    FramePage page = frame_pages().at[id / (meshlet_triangles * meshlets_per_page)];
+    FramePage page = frame_pages().at[page_number(id)];
     ivec2 last = ivec2(FRAME.last_row, FRAME.last_column);
     ivec2 whole = clamp(ivec2(floor(surface.post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 share = surface.post - vec2(whole);
@@ -36,7 +36,7 @@ float sky_share() { return opens ? open_share : 1.0; }
 
 // Between the corners of the nodes of the page that the place is shaded from (surface.glsl, descend).
 float sky_openness(uint id, SurfacePoint surface) {
-    uint number = id / (meshlet_triangles * meshlets_per_page);
+    uint number = page_number(id);
     FramePage page = frame_pages().at[number];
     vec2 post = surface.post, region = region_post(page, post);
     float spacing_px = PageBlocks(page.block).at[0].row_spacing_m * float(1u << page.level) * FRAME.pixels_per_tangent / length(surface.view);

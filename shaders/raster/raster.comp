@@ -7,12 +7,9 @@
 #include "shaders/place/place.glsl"
 #include "shaders/choose/lists.glsl"
 #include "shaders/raster/raster.glsl"
+#include "shaders/raster/draw_alone.glsl"
 
 layout(local_size_x = 128) in;  // a triangle an invocation
-
-// Pixels of the largest box that one invocation draws by itself. What is larger goes to other workgroups: near the eye a few
-// meshlets cover most of the picture, and whoever drew them alone would keep all others waiting.
-const int alone_max_px = 64;
 
 shared vec4 posts[meshlet_vertices];  // clip coordinates; w = 0 where void
 shared uint places[meshlet_vertices];  // row << 8 | column in the page, after stitching
@@ -31,39 +28,12 @@ bool corners(uint frame_page, uint triangle, out vec4 a, out vec4 b, out vec4 c)
     return a.w != 0.0 && b.w != 0.0 && c.w != 0.0 && has_area(at_a, at_b, at_c) && !is_cut(frame_page, at_a, at_b, at_c);
 }
 
-void list_clip(uint id) {
-    uint at = atomicAdd(lists().at.clips, 1u);
-    if (at >= clips_max) {
-        atomicAdd(Counts(FRAME.counts).at.triangles_not_clipped, 1u);
-        return;
-    }
-    Words(FRAME.clip_list).at[at] = id;
-    uint groups = at / 64u + 1u;
-    atomicMax(lists().at.clip_groups[0], min(groups, groups_per_row));
-    atomicMax(lists().at.clip_groups[1], (groups + groups_per_row - 1u) / groups_per_row);
-}
-
 // What one invocation does with its triangle.
 void draw_triangle(uint frame_page, uint meshlet, uint triangle) {
     vec4 a, b, c;
     if (!corners(frame_page, triangle, a, b, c)) return;
     atomicAdd(drawn_count, 1u);
-    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
-    uint id = triangle_id(frame_page, meshlet, triangle);
-    if (!fits_grid(a, b, c)) {
-        list_clip(id);
-        return;
-    }
-    ScreenTriangle t;
-    if (!screen_triangle(a, b, c, id, t)) return;
-    ivec4 box = pixel_box(t);
-    ivec2 size = box.zw - box.xy + 1;
-    if (min(size.x, size.y) <= 0) return;
-    if (fits_near(t) && size.x * size.y <= alone_max_px) {
-        draw_near(t, box, 0u, 1u);
-    } else if (!list_large(t, box)) {
-        draw_far(t, box, 0u, 1u);
-    }
+    draw_corners(a, b, c, triangle_id(frame_page, meshlet, triangle));
 }
 
 void main() {

@@ -7,6 +7,9 @@
 #include "shaders/place/place.glsl"
 #include "shaders/choose/lists.glsl"
 #include "shaders/raster/raster.glsl"
+#ifdef CLUSTERS
+#include "shaders/clusters/cluster.glsl"
+#endif
 
 layout(local_size_x = 64) in;
 
@@ -34,21 +37,33 @@ int clipped(inout vec4 corners[corners_max], int count, int plane) {
     return kept_count;
 }
 
-void main() {
-    uint number = folded(gl_WorkGroupID) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-    if (number >= min(lists().at.clips, clips_max)) return;
-    uint id = Words(FRAME.clip_list).at[number];
-    uint own = triangle_of_id(id), triangle = own % meshlet_triangles, meshlet = own / meshlet_triangles % meshlets_per_page;
+#ifdef CLUSTERS
+void find_corners(uint own, inout vec4 corners[corners_max]) {
+    ClusterBlocks block = ClusterBlocks(drawn_cluster(own / cluster_triangles).block);
+    uvec3 at = corners_in_cluster(block, own % cluster_triangles);
+    for (int i = 0; i < 3; ++i) corners[i] = project(vertex_in_view(block.at.vertices[at[i]]));
+}
+#else
+void find_corners(uint own, inout vec4 corners[corners_max]) {
+    uint triangle = own % meshlet_triangles, meshlet = own / meshlet_triangles % meshlets_per_page;
     FramePage page = frame_pages().at[own / (meshlet_triangles * meshlets_per_page)];
     PageBlocks block = PageBlocks(page.block);
     uint edges = edges_of(own / meshlet_triangles);
     uvec2 posts[3];
     triangle_posts(triangle, posts[0], posts[1], posts[2]);
-    vec4 corners[corners_max];
     for (int i = 0; i < 3; ++i) {
         uvec2 post = vertex_post(page, meshlet, posts[i], edges);
         corners[i] = project(place_in_view(page, post, post_height(block, post)));
     }
+}
+#endif
+
+void main() {
+    uint number = folded(gl_WorkGroupID) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+    if (number >= min(lists().at.clips, clips_max)) return;
+    uint id = Words(FRAME.clip_list).at[number];
+    vec4 corners[corners_max];
+    find_corners(triangle_of_id(id), corners);
     int count = 3;
     [[dont_unroll]] for (int plane = 0; plane < clip_planes && count >= 3; ++plane) count = clipped(corners, count, plane);
     [[dont_unroll]] for (int i = 1; i + 1 < count; ++i) {

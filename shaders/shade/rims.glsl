@@ -77,20 +77,46 @@ int edge_at_middle(vec2 corners[3]) {
     return -1;
 }
 
+// The triangle that a pixel shows, and where it is in a page's grid.
+#ifdef CLUSTERS
+// Of a cluster: the triangle of the page that the place is shaded from, at most tau away.
+uint first_of_rim(uint id, vec2 middle, out FramePage page, out GridTriangle triangle, out vec2 corners[3]) {
+    uvec2 posts[3];
+    vec3 at[3];
+    float heights_m[3], scale;
+    page = corners_of(id, posts, heights_m, at);
+    vec2 clip = middle * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
+    vec2 shares = met_shares(vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0), at, scale);
+    float share_a = 1.0 - shares.x - shares.y;
+    vec2 post = place_on_page(page, id, posts, vec3(share_a, shares));
+    descend(page, post, length(share_a * at[0] + shares.x * at[1] + shares.y * at[2]));
+    ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
+    vec2 in_cell = post - vec2(cell);
+    triangle = GridTriangle(cell, in_cell.x >= in_cell.y ? 0u : 1u);
+    return corners_of_grid_px(page, triangle, middle, corners);
+}
+#else
+uint first_of_rim(uint id, vec2 middle, out FramePage page, out GridTriangle triangle, out vec2 corners[3]) {
+    uint node = id / meshlet_triangles, meshlet = node % meshlets_per_page, in_node = id % meshlet_triangles;
+    page = frame_pages().at[node / meshlets_per_page];
+    uvec2 posts[3], cell = first_post(meshlet) + uvec2((in_node >> 1u) / meshlet_quads, (in_node >> 1u) % meshlet_quads);
+    triangle_posts(in_node, posts[0], posts[1], posts[2]);
+    for (int i = 0; i < 3; ++i) posts[i] = vertex_post(page, meshlet, posts[i], edges_of(node));
+    triangle = GridTriangle(ivec2(cell), id & 1u);
+    return corners_px(page, posts, middle, corners);
+}
+#endif
+
 // Goes from the middle of a pixel that shows triangle `id` (triangle_id() - 1) to the middle of its neighbour, `towards` a unit vector,
 // from triangle to triangle, as far as the first edge beyond which the ground turns its other side to the eye or ends. False where
 // there is none, and where it cannot be told: a page ends, or there are too many triangles.
 // The first triangle is as it is drawn; those after it are of the page's grid, whatever level is drawn there and however it is
 // stitched: all are within tau of the posts.
 bool finds_rim(uint id, vec2 middle, vec2 towards, out Rim rim) {
-    uint node = id / meshlet_triangles, meshlet = node % meshlets_per_page, in_node = id % meshlet_triangles;
-    FramePage page = frame_pages().at[node / meshlets_per_page];
-    uvec2 posts[3], cell = first_post(meshlet) + uvec2((in_node >> 1u) / meshlet_quads, (in_node >> 1u) % meshlet_quads);
-    triangle_posts(in_node, posts[0], posts[1], posts[2]);
-    for (int i = 0; i < 3; ++i) posts[i] = vertex_post(page, meshlet, posts[i], edges_of(node));
-    GridTriangle triangle = GridTriangle(ivec2(cell), id & 1u);
+    FramePage page;
+    GridTriangle triangle;
     vec2 corners[3];
-    uint told = corners_px(page, posts, middle, corners);
+    uint told = first_of_rim(id, middle, page, triangle, corners);
     float side = sign(FRAME.projection_scale.x * FRAME.projection_scale.y), area = doubled_area_px(corners);
     if (told == corners_here && area * side < 0.0) {
         // A pixel's middle on a rim may show either of its two triangles: both tell the same.

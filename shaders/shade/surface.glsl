@@ -154,6 +154,12 @@ vec2 rim_shares(vec3 ray, vec3 first, vec3 edge_b, vec3 edge_c) {
     return vec2(1.0 - on_bc, on_bc);
 }
 
+#ifdef CLUSTERS
+#include "shaders/clusters/surface_of_cluster.glsl"
+#else
+// The frame's page that a triangle (triangle_id() - 1) is of.
+uint page_number(uint id) { return id / (meshlet_triangles * meshlets_per_page); }
+
 // The corners of a triangle (triangle_id() - 1): posts within the page, heights in metres, and where they are drawn.
 FramePage corners_of(uint id, out uvec2 posts[3], out float heights_m[3], out vec3 at[3]) {
     uint meshlet = (id / meshlet_triangles) % meshlets_per_page;
@@ -169,6 +175,12 @@ FramePage corners_of(uint id, out uvec2 posts[3], out float heights_m[3], out ve
     }
     return page;
 }
+
+// A place on a triangle, in its page.
+vec2 place_on_page(inout FramePage page, uint id, uvec2 posts[3], vec3 shares) {
+    return shares.x * vec2(posts[0]) + shares.y * vec2(posts[1]) + shares.z * vec2(posts[2]);
+}
+#endif
 
 // What a step of the ray adds to a point's shares of its triangle, times the determinant.
 vec2 shares_change(vec3 ray_step, vec3 first, vec3 edge_b, vec3 edge_c, vec2 shares) {
@@ -231,7 +243,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
 
     SurfacePoint point;
     point.view = share_a * at[0] + share_b * at[1] + share_c * at[2];
-    point.post = share_a * vec2(posts[0]) + share_b * vec2(posts[1]) + share_c * vec2(posts[2]);
+    point.post = place_on_page(page, id, posts, vec3(share_a, share_b, share_c));
     point.h_m = share_a * heights_m[0] + share_b * heights_m[1] + share_c * heights_m[2];
     vec2 region = region_place(page, point.post, point.view);
     point.H_m = (point.h_m - undulation_at(region)) / FRAME.exaggeration;
@@ -239,7 +251,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     point.mean_H_m = point.H_m;
     point.parts = 0;
     point.is_left = false;
-    if (by_means) average_over_pixel(id / (meshlet_triangles * meshlets_per_page), region, point);
+    if (by_means) average_over_pixel(page_number(id), region, point);
     if (point.is_left) return point;
     vec2 post = point.post;
     if (!by_means || in_air || draped) descend(page, post, length(point.view));

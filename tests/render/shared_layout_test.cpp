@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "shaders/shared.h"
+#include "spirv/cluster_raster_comp.h"
 #include "spirv/drape_wants_comp.h"
 #include "spirv/live_pages_comp.h"
 #include "spirv/raster_comp.h"
@@ -69,7 +70,8 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
           std::span<const std::uint32_t>(shade_air_comp_spirv),
           std::span<const std::uint32_t>(drape_wants_comp_spirv),
           std::span<const std::uint32_t>(triangles_comp_spirv),
-          std::span<const std::uint32_t>(tops_comp_spirv)}) {
+          std::span<const std::uint32_t>(tops_comp_spirv),
+          std::span<const std::uint32_t>(cluster_raster_comp_spirv)}) {
         all.merge(member_offsets(words));
     }
     return all;
@@ -78,8 +80,11 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
 // The structs that shaders/shared.h defines, read from its text: a struct that is added there is looked for
 // in the shaders without anyone naming it here.
 std::set<std::string> shared_structs() {
-    std::ifstream file(test::bundled_data().parent_path() / "shaders/shared.h");
-    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::string text;
+    for (const char* const name : {"shaders/shared.h", "shaders/shared_clusters.h"}) {
+        std::ifstream file(test::bundled_data().parent_path() / name);
+        text += std::string((std::istreambuf_iterator<char>(file)), {});
+    }
     static const std::regex definition(R"(struct\s+(\w+)\s*\{)");
     std::set<std::string> names;
     for (std::sregex_iterator at(text.begin(), text.end(), definition), end; at != end; ++at)

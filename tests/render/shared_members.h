@@ -296,6 +296,20 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, eye_post),
         ORO_MEMBER(FrameConstants, drape),
         ORO_MEMBER(FrameConstants, is_seam),
+        ORO_MEMBER(FrameConstants, clusters),
+        ORO_MEMBER(ClusterTable, on),
+        ORO_MEMBER(ClusterTable, drawn),
+        ORO_MEMBER(ClusterTable, count),
+        ORO_MEMBER(ClusterTable, rows),
+        ORO_MEMBER(ClusterTable, columns),
+        ORO_MEMBER(ClusterVertex, row),
+        ORO_MEMBER(ClusterVertex, column),
+        ORO_MEMBER(ClusterVertex, steps),
+        ORO_MEMBER(ClusterBlock, corners),
+        ORO_MEMBER(ClusterBlock, vertices),
+        ORO_MEMBER(DrawnCluster, block),
+        ORO_MEMBER(DrawnCluster, page),
+        ORO_MEMBER(DrawnCluster, counts),
     };
 #undef ORO_MEMBER
     return table;

@@ -10,6 +10,7 @@
 #include "apps/commands/shot/shot_files.h"
 #include "apps/commands/shot/shot_json.h"
 #include "apps/drawing/drape.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/eye/standpoint.h"
@@ -204,10 +205,11 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
     if (!shot.view.map) {
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
+    ORO_TRY(const bool clusters, draws_clusters(shot.region, shot.view));
     ORO_TRY(RegionScene whole,
             scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
                             {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
-                             shot.view.heights, asks_for_means(style.frame)}));
+                             shot.view.heights, asks_for_means(style.frame), clusters}));
     Scene& scene = whole.scene;
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);

@@ -1,0 +1,75 @@
+#include "apps/baking/cluster_bake.h"
+
+#include "apps/report/figures.h"
+#include "core/baked/region_file.h"
+#include "core/base/elapsed.h"
+#include "core/base/parallel.h"
+#include "core/cluster_file/cluster_file.h"
+#include "core/clusters/graph_builder.h"
+#include "core/surface/grid_surface.h"
+#include "geo/clusters/clustered_region.h"
+#include "geo/together/baked_grids.h"
+
+namespace oro {
+
+Result<void> check_clusters(const Region& region) {
+    const auto refused = [](const std::string& what) {
+        return Error{ErrorKind::usage, "--mesh clusters",
+                     what + ": bake it without, or a part of it (--bbox)"};
+    };
+    if (!region.beside.empty())
+        return refused("takes one grid of posts, and here are " + std::to_string(1 + region.beside.size()));
+    if (region.field.grid.net)
+        return refused("takes posts on latitudes and longitudes, and these lie in a CRS of their own");
+    if (region.field.grid.post_count() > most_clustered_posts)
+        return refused("takes regions of up to " + grouped(most_clustered_posts) + " posts, and this has " +
+                       grouped(region.field.grid.post_count()));
+    return {};
+}
+
+namespace {
+
+Result<void> build(const Region& region, const std::string& path, std::uint64_t fingerprint) {
+    const DrawnHeights heights = drawn_heights(region.field, 1.0, thread_count());
+    const GridSurface surface(heights, {.goes_round = region.field.grid.goes_round()});
+    const GridBounds bounds(region.field.grid, heights.highest_steps);
+    const ClusterGraph graph = build_cluster_graph(surface, bounds, {.threads = thread_count()});
+    return write_cluster_graph(path, graph, {heights.rows, heights.columns}, fingerprint, true,
+                               thread_count());
+}
+
+}  // namespace
+
+Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions& how,
+                                        const std::function<void(double, const char*)>& told) {
+    const std::string clusters_path = path_of_clusters(how.path);
+    ORO_CHECK(check_path_of_clusters(clusters_path));
+    BakeOptions grid = how;
+    grid.path = path_of_grid(how.path, 0);
+    grid.overwrite = true;
+    ClusterBakeReport report;
+    ORO_CHECK(check_path_of_grid(grid.path));
+    if (is_baked_grid(grid.path, grid.fingerprint, grid.description)) {
+        ORO_TRY(const RegionFile file, RegionFile::open(grid.path));
+        report.region = {file.order().count(), file.order().count(), file.outline().triangles};
+    } else {
+        ORO_TRY(report.region, bake_region(region.field, grid, [&](double share) {
+                    told(share, "baking");
+                    return true;
+                }));
+    }
+    const auto building = Clock::now();
+    told(0.0, "building clusters");
+    if (!are_baked_clusters(clusters_path, how.fingerprint))
+        ORO_CHECK(build(region, clusters_path, how.fingerprint));
+    report.build_s = seconds_since(building);
+    {
+        ORO_TRY(const ClusterFile file, ClusterFile::open(clusters_path));
+        report.levels = file.outline().levels.size();
+        report.triangles = static_cast<std::size_t>(file.outline().triangles);
+    }
+    ORO_CHECK(join_clusters(how.path, grid.path, clusters_path, how.overwrite));
+    return report;
+}
+
+}  // namespace oro

@@ -1,0 +1,32 @@
+// From a region that was read to a file of it with clusters.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/baked/bake.h"
+#include "geo/region/region.h"
+
+namespace oro {
+
+// Posts that are built in one go: the graph of so many takes 2 GB of memory and some minutes
+// (docs/CLUSTERS.md).
+inline constexpr std::size_t most_clustered_posts = 16'000'000;
+
+struct ClusterBakeReport {
+    BakeReport region;
+    std::size_t levels{};
+    std::size_t triangles{};  // above the leaves
+    double build_s{};         // of the graph alone
+};
+
+// Whether a region can be baked with clusters: one grid of posts on latitudes and longitudes, of at most
+// most_clustered_posts. Errors: it cannot, in a line that tells why.
+Result<void> check_clusters(const Region& region);
+
+// Bakes the region as bake_region() does, then its graph, and puts both into how.path. What is done already
+// of a bake that was broken off is not done again. told: how far it is, 0..1, and what is being done.
+Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions& how,
+                                        const std::function<void(double, const char*)>& told);
+
+}  // namespace oro

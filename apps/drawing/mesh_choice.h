@@ -1,0 +1,23 @@
+// Whether a view is drawn by clusters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/view/view.h"
+#include "geo/region/region.h"
+
+namespace oro {
+
+// The words of --mesh for a picture.
+inline std::vector<std::string> mesh_words() {
+    return {"auto", "clusters", "grid"};
+}
+
+// True where the region was baked with clusters and the view can be drawn by them: at its own heights and
+// geoid, on the ellipsoid, one grid alone; unless the view asks for the grid. Puts what is drawn into
+// view.mesh
+// ("clusters", or "auto" for the grid). Errors: the view asks for clusters, and why there are none.
+Result<bool> draws_clusters(const Region& region, View& view);
+
+}  // namespace oro

@@ -1,0 +1,93 @@
+#include "core/cluster_frame/cluster_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "core/cluster_frame/group_rule.h"
+#include "core/frame/culling.h"
+
+namespace oro {
+namespace {
+
+class Cut {
+  public:
+    Cut(RegionClusters& clusters, const Camera& camera, const Tile& tile, double tau_px,
+        const WorldModel& model, const HorizonOccluder& occluder, const HeightQuantization& coding)
+        : clusters_(clusters),
+          rule_(camera, tau_px, model.air),
+          planes_(frustum_planes_view(projection_of_tile(camera, tile))),
+          asked_(clusters.groups().size(), 0) {
+        const ModelView view(camera, model, coding);
+        horizon_ = view.horizon(occluder);
+        for (Plane& plane : planes_) plane.w += view.rounding_m();
+    }
+
+    Result<ClusterChoice> choose() {
+        for (const std::uint32_t cluster : clusters_.roots()) ORO_CHECK(meet(cluster));
+        while (!open_.empty()) {
+            const std::uint32_t group = open_.back();
+            open_.pop_back();
+            ORO_TRY(const std::span<const std::uint32_t> members, clusters_.members(group));
+            for (const std::uint32_t cluster : members) ORO_CHECK(meet(cluster));
+        }
+        std::ranges::sort(found_);
+        for (const auto& [distance_m, cluster] : found_) choice_.clusters.push_back(cluster);
+        return std::move(choice_);
+    }
+
+  private:
+    // A cluster that no group stands for: it is drawn, or what it was made of is met in its turn.
+    Result<void> meet(std::uint32_t cluster) {
+        const std::uint32_t maker = clusters_.maker(cluster);
+        if (maker == no_group || rule_.stands(clusters_.groups()[maker])) return draw(cluster);
+        if (std::exchange(asked_[maker], char{1}) != 0) return {};
+        const ClusterGroup& group = clusters_.groups()[maker];
+        const GroupRule::SeenSphere seen = rule_.seen(group.centre, group.radius_m);
+        if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
+            ++choice_.beyond_frustum;
+            return {};
+        }
+        ++choice_.groups_opened;
+        open_.push_back(maker);
+        return {};
+    }
+
+    Result<void> draw(std::uint32_t cluster) {
+        ORO_TRY(const ClusterReach* const reach, clusters_.reach(cluster));
+        const GroupRule::SeenSphere seen = rule_.seen(reach->centre, reach->radius_m);
+        if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
+            ++choice_.beyond_frustum;
+            return {};
+        }
+        if (beyond_horizon(horizon_.eye,
+                           {reach->horizon.direction, reach->horizon.angle_rad * horizon_.stretch})) {
+            ++choice_.beyond_horizon;
+            return {};
+        }
+        found_.emplace_back(std::max(0.0, glm::length(seen.centre_m) - seen.radius_m), cluster);
+        return {};
+    }
+
+    RegionClusters& clusters_;
+    GroupRule rule_;
+    std::array<Plane, 5> planes_;
+    SeenHorizon horizon_;
+    std::vector<char> asked_;
+    std::vector<std::uint32_t> open_;
+    std::vector<std::pair<double, std::uint32_t>> found_;
+    ClusterChoice choice_;
+};
+
+}  // namespace
+
+Result<ClusterChoice> choose_clusters(RegionClusters& clusters, const Camera& camera, const Tile& tile,
+                                      double tau_px, const WorldModel& model, const HorizonOccluder& occluder,
+                                      const HeightQuantization& coding) {
+    assert(model.earth == Earth::ellipsoid);
+    return Cut(clusters, camera, tile, tau_px, model, occluder, coding).choose();
+}
+
+}  // namespace oro

@@ -1,0 +1,30 @@
+// Which clusters a frame draws: the cut for tau, without what cannot be seen.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/cluster_frame/region_clusters.h"
+#include "core/earth/camera.h"
+#include "core/earth/model_view.h"
+#include "core/earth/world_model.h"
+
+namespace oro {
+
+struct ClusterChoice {
+    std::vector<std::uint32_t> clusters;  // nearest first
+    std::size_t groups_opened{};          // those that do not stand, and may be seen
+    std::size_t beyond_frustum{};         // groups and clusters of the cut,
+    std::size_t beyond_horizon{};         // clusters
+};
+
+// The cut of GroupRule, found from the coarsest clusters down. A group that does not stand gives way to the
+// clusters that it uses; where its sphere cannot be seen, nothing below it is looked at. So the cost is that
+// of the groups above the cut, in view. Frustum and horizon are conservative. model: on the ellipsoid.
+// Errors: damage.
+Result<ClusterChoice> choose_clusters(RegionClusters& clusters, const Camera& camera, const Tile& tile,
+                                      double tau_px, const WorldModel& model, const HorizonOccluder& occluder,
+                                      const HeightQuantization& coding);
+
+}  // namespace oro

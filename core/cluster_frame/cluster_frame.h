@@ -1,0 +1,25 @@
+// Puts the clusters that a frame draws into its plan.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/earth/camera.h"
+#include "core/frame/frame_plan.h"
+
+namespace oro {
+
+// A cluster of the cut that is on the GPU.
+struct ResidentCluster {
+    std::uint64_t address;
+    std::uint32_t counts;                                         // DrawnCluster::counts
+    std::int32_t first_row, last_row, first_column, last_column;  // posts that it reaches over
+};
+
+// plan: of plan_frame() for the same eye and model, on the ellipsoid. Each cluster begins to be shaded from
+// the finest page of the plan that covers all of it; one that none covers cannot be seen, and is left out.
+// Adds the terms of all rows and columns of the region.
+void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> clusters, const Camera& camera,
+                   FramePlan& plan);
+
+}  // namespace oro

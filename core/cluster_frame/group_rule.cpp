@@ -1,0 +1,58 @@
+#include "core/cluster_frame/group_rule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/lod/levels.h"
+
+namespace oro {
+
+GroupRule::GroupRule(const Camera& camera, double tau_px, const Air& air)
+    : curvature_per_m_(Refraction(camera.eye, air).curvature_per_m()),
+      view_from_ecef_(camera.view_from_ecef()),
+      eye_(camera.eye_ecef()),
+      up_view_(view_from_ecef_ * ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg)[2]) {
+    const LevelView view = level_view(camera, tau_px);
+    pixels_per_tangent_ = static_cast<double>(view.pixels_per_tangent);
+    corner_tangent_ = static_cast<double>(view.corner_tangent);
+    tau_px_ = tau_px;
+}
+
+GroupRule::SeenSphere GroupRule::seen(const Ecef& centre, double radius_m) const {
+    SeenSphere sphere{view_from_ecef_ * (centre.m - eye_.m), radius_m, 1.0};
+    const double c = curvature_per_m_;
+    if (c == 0.0) return sphere;
+    // The lift c a^2 / 2 of two points whose distances across the vertical, a, differ by at most r differs by
+    // at most c r (a + r / 2).
+    const double a = glm::length(sphere.centre_m - glm::dot(sphere.centre_m, up_view_) * up_view_);
+    sphere.centre_m += 0.5 * c * a * a * up_view_;
+    sphere.radius_m = radius_m + std::abs(c) * radius_m * (a + 0.5 * radius_m);
+    sphere.stretch = 1.0 + std::abs(c) * (a + radius_m);
+    return sphere;
+}
+
+double GroupRule::error_px(const ClusterGroup& group) const {
+    if (group.error_m <= 0.0) return 0.0;
+    const SeenSphere sphere = seen(group.centre, group.radius_m);
+    const double e = group.error_m * sphere.stretch;
+    const double across_m = std::hypot(sphere.centre_m.x, sphere.centre_m.y);
+    const double stretch = std::sqrt(1.0 + corner_tangent_ * corner_tangent_);
+    double px = std::numeric_limits<double>::infinity();
+    const double z_min_m = -sphere.centre_m.z - sphere.radius_m;
+    if (z_min_m > e) {
+        const double t = std::min((across_m + sphere.radius_m) / z_min_m, corner_tangent_);
+        px = pixels_per_tangent_ * e * std::sqrt(1.0 + t * t) / (z_min_m - e);
+    }
+    const double d_min_m = glm::length(sphere.centre_m) - sphere.radius_m;
+    if (d_min_m > e * stretch)
+        px = std::min(px, pixels_per_tangent_ * e * stretch * stretch / (d_min_m - e * stretch));
+    return px;
+}
+
+bool GroupRule::stands(const ClusterGroup& group) const {
+    return error_px(group) <= tau_px_ * (1.0 - 1.0e-7 * group.level);
+}
+
+}  // namespace oro

@@ -1,0 +1,44 @@
+// Whether a group stands in a view for what it was made of: the rule of every cut by pixels.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+
+#include "core/clusters/cluster_graph.h"
+#include "core/earth/camera.h"
+#include "core/earth/world_model.h"
+
+namespace oro {
+
+// A group stands where its error, projected from the nearest place that it may have, is at most tau: the
+// bound of projected_error_px (shaders/choose/levels.glsl), in double. Light may bend
+// (core/earth/model_view.h, whose spheres grow alike). As errors and spheres grow from a group to those
+// above, so does the bound; rounding is kept out by letting tau shrink by a ten-millionth from a level to the
+// next. So where a group stands all below it stand, whatever order they are asked in.
+class GroupRule {
+  public:
+    // tau_px: at least 0.
+    GroupRule(const Camera& camera, double tau_px, const Air& air = {});
+
+    [[nodiscard]] bool stands(const ClusterGroup& group) const;
+    // The bound itself, pixels; infinite where nothing can be promised.
+    [[nodiscard]] double error_px(const ClusterGroup& group) const;
+
+    // Where a sphere is seen, in view coordinates: light that bends lifts it, and makes it larger.
+    struct SeenSphere {
+        glm::dvec3 centre_m;
+        double radius_m;
+        double stretch;  // what lengths in it are at most multiplied by
+    };
+    [[nodiscard]] SeenSphere seen(const Ecef& centre, double radius_m) const;
+
+  private:
+    double pixels_per_tangent_;
+    double corner_tangent_;
+    double tau_px_;
+    double curvature_per_m_;
+    glm::dmat3 view_from_ecef_;
+    Ecef eye_;
+    glm::dvec3 up_view_;
+};
+
+}  // namespace oro

@@ -1,0 +1,177 @@
+#include "core/cluster_frame/region_clusters.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <string>
+#include <utility>
+
+#include "core/base/parallel.h"
+
+namespace oro {
+namespace {
+
+// Vertices of triangles, each once, rising.
+std::vector<VertexNumber> vertices_of(std::span<const VertexTriangle> triangles) {
+    std::vector<VertexNumber> vertices;
+    vertices.reserve(3 * triangles.size());
+    for (const VertexTriangle& triangle : triangles)
+        vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+    std::ranges::sort(vertices);
+    const auto rest = std::ranges::unique(vertices);
+    vertices.erase(rest.begin(), rest.end());
+    return vertices;
+}
+
+Error no_graph(const std::string& what) {
+    return {ErrorKind::failed, "clusters", what};
+}
+
+}  // namespace
+
+RegionClusters::RegionClusters(const HeightField& field, const HorizonOccluder& occluder)
+    : grid_(field.grid),
+      occluder_(occluder),
+      heights_(drawn_heights(field, 1.0, thread_count())),
+      surface_(heights_, {.goes_round = field.grid.goes_round()}),
+      bounds_(grid_, heights_.highest_steps),
+      leaves_(surface_.leaves()) {}
+
+Result<std::unique_ptr<RegionClusters>> RegionClusters::create(const HeightField& field,
+                                                               const HorizonOccluder& occluder,
+                                                               std::vector<ClusterGroup> groups,
+                                                               std::uint32_t leaves, ReadGroup read) {
+    std::unique_ptr<RegionClusters> region(new RegionClusters(field, occluder));
+    if (region->leaves_.size() != leaves)
+        return no_graph("are over " + std::to_string(leaves) + " leaves; the region has " +
+                        std::to_string(region->leaves_.size()));
+    region->leaves_count_ = leaves;
+    std::uint32_t next = leaves, top = 0;
+    for (const ClusterGroup& group : groups) {
+        if (group.first_made != next)
+            return no_graph("begin a group with number " + std::to_string(group.first_made) + ", expected " +
+                            std::to_string(next));
+        region->first_made_.push_back(next);
+        next += group.made;
+        top = std::max(top, group.level);
+    }
+    for (std::uint32_t i = 0; i < groups.size(); ++i) {
+        if (groups[i].level != top) continue;
+        for (std::uint32_t j = 0; j < groups[i].made; ++j) region->roots_.push_back(groups[i].first_made + j);
+    }
+    for (std::uint32_t i = 0; groups.empty() && i < leaves; ++i) region->roots_.push_back(i);
+    region->groups_ = std::move(groups);
+    region->read_ = std::move(read);
+    return region;
+}
+
+std::uint32_t RegionClusters::maker(std::uint32_t cluster) const {
+    if (cluster < leaves_count_) return no_group;
+    const auto after = std::ranges::upper_bound(first_made_, cluster);
+    return static_cast<std::uint32_t>(after - first_made_.begin()) - 1;
+}
+
+Result<const GroupPart*> RegionClusters::part(std::uint32_t group) {
+    std::unique_ptr<GroupPart>& kept = parts_[group];
+    if (kept) return kept.get();
+    auto read = std::make_unique<GroupPart>();
+    ORO_CHECK(read_(group, *read));
+    kept = std::move(read);
+    return kept.get();
+}
+
+Result<std::span<const std::uint32_t>> RegionClusters::members(std::uint32_t group) {
+    ORO_TRY(const GroupPart* const whole, part(group));
+    return std::span<const std::uint32_t>(whole->members);
+}
+
+Result<std::span<const VertexTriangle>> RegionClusters::triangles(std::uint32_t cluster) {
+    const std::uint32_t group = maker(cluster);
+    if (group == no_group) return std::span<const VertexTriangle>(leaves_[cluster]);
+    ORO_TRY(const GroupPart* const whole, part(group));
+    const Cluster& made = whole->made[cluster - groups_[group].first_made];
+    return std::span<const VertexTriangle>(whole->triangles).subspan(made.first_triangle, made.triangles);
+}
+
+Result<const ClusterReach*> RegionClusters::reach(std::uint32_t cluster) {
+    const auto found = reaches_.find(cluster);
+    if (found != reaches_.end()) return &found->second;
+    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster));
+    std::vector<glm::dvec3> places_m;
+    ClusterReach reach{{}, 0.0, {}, grid_.rows(), 0, grid_.columns(), 0};
+    for (const VertexNumber number : vertices_of(all)) {
+        const SurfaceVertex vertex = surface_.vertex(number);
+        places_m.push_back(bounds_.ecef(vertex).m);
+        reach.first_row = std::min(reach.first_row, vertex.row);
+        reach.last_row = std::max(reach.last_row, vertex.row);
+        reach.first_column = std::min(reach.first_column, vertex.column);
+        reach.last_column = std::max(reach.last_column, vertex.column);
+    }
+    glm::dvec3 lowest = places_m.front(), highest = lowest;
+    for (const glm::dvec3& place : places_m) {
+        lowest = glm::min(lowest, place);
+        highest = glm::max(highest, place);
+    }
+    reach.centre.m = 0.5 * (lowest + highest);
+    for (const glm::dvec3& place : places_m)
+        reach.radius_m = std::max(reach.radius_m, glm::distance(reach.centre.m, place));
+    // Drawn places are rounded (core/surface/ground_bounds.cpp).
+    reach.radius_m += 0.01 + 1.0e-6 * reach.radius_m;
+    reach.horizon = horizon_cone(occluder_, places_m);
+    return &reaches_.emplace(cluster, reach).first->second;
+}
+
+Result<std::uint32_t> RegionClusters::fill(std::uint32_t cluster, const HeightQuantization& coding,
+                                           gpu::ClusterBlock& block) {
+    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster));
+    const std::vector<VertexNumber> vertices = vertices_of(all);
+    if (all.empty() || all.size() > gpu::cluster_triangles || vertices.size() > gpu::cluster_vertices)
+        return no_graph("have one with " + std::to_string(all.size()) + " triangles and " +
+                        std::to_string(vertices.size()) + " vertices");
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const SurfaceVertex vertex = surface_.vertex(vertices[i]);
+        if (vertex.steps == void_height_steps)
+            return no_graph("have a vertex where the region has no height");
+        block.vertices[i] = {static_cast<gpu::uint>(vertex.row), static_cast<gpu::uint>(vertex.column),
+                             coding.sixteen ? coding.steps(coding.code(vertex.steps)) : vertex.steps};
+    }
+    const auto place = [&](VertexNumber number) {
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, number) - vertices.begin());
+    };
+    // Clockwise on the map in the graph, the other way round as pages' triangles are.
+    for (std::size_t i = 0; i < all.size(); ++i)
+        block.corners[i] = place(all[i][0]) | place(all[i][2]) << 8U | place(all[i][1]) << 16U;
+    return static_cast<std::uint32_t>(all.size() | vertices.size() << 8U);
+}
+
+Result<std::unique_ptr<RegionClusters>> clusters_of_file(std::shared_ptr<const ClusterFile> file,
+                                                         std::uint64_t fingerprint, const HeightField& field,
+                                                         const HorizonOccluder& occluder) {
+    const ClusterOutline& outline = file->outline();
+    if (outline.fingerprint != fingerprint || outline.posts.rows != field.grid.rows() ||
+        outline.posts.columns != field.grid.columns())
+        return Error{ErrorKind::failed, file->path(), "has clusters of another region's posts"};
+    std::vector<ClusterGroup> groups;
+    for (std::uint32_t i = 0; i < outline.groups; ++i) {
+        ORO_TRY(const ClusterGroup group, file->group(i));
+        groups.push_back(group);
+    }
+    Result<std::unique_ptr<RegionClusters>> region = RegionClusters::create(
+        field, occluder, std::move(groups), outline.leaves,
+        [file](std::uint32_t number, GroupPart& part) { return file->part(number, part); });
+    if (!region.ok()) return Error{ErrorKind::failed, file->path(), "its clusters " + region.error().what};
+    return region;
+}
+
+Result<std::unique_ptr<RegionClusters>> clusters_of_graph(const ClusterGraph& graph, const HeightField& field,
+                                                          const HorizonOccluder& occluder) {
+    std::uint32_t leaves = 0;
+    while (leaves < graph.clusters.size() && graph.clusters[leaves].made_by == no_group) ++leaves;
+    return RegionClusters::create(field, occluder, graph.groups, leaves,
+                                  [&graph](std::uint32_t number, GroupPart& part) -> Result<void> {
+                                      part = part_of(graph, number);
+                                      return {};
+                                  });
+}
+
+}  // namespace oro

@@ -1,0 +1,88 @@
+// A region's cluster graph as frames are made of it: what each group is, and on request its clusters, their
+// spheres, and what the GPU gets of them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/cluster_file/cluster_file.h"
+#include "core/clusters/cluster_graph.h"
+#include "core/frame/culling.h"
+#include "core/surface/grid_surface.h"
+#include "core/terrain/height_quantization.h"
+#include "core/terrain/post_grid.h"
+#include "shaders/shared.h"
+
+namespace oro {
+
+// Reads a group whole, by its number. Errors: as ClusterFile::part().
+using ReadGroup = std::function<Result<void>(std::uint32_t number, GroupPart& part)>;
+
+// Where a cluster's triangles are, all of them: for culling, and to find what covers it.
+struct ClusterReach {
+    Ecef centre;
+    double radius_m;
+    HorizonCone horizon;
+    std::int32_t first_row, last_row, first_column, last_column;  // posts of the region
+};
+
+// For one thread at a time. Keeps what was asked for: up to some 40 bytes a triangle of the graph.
+class RegionClusters {
+  public:
+    // groups: of the whole graph, in its order; leaves: number of clusters before theirs, which `field` must
+    // have, too. occluder: of the region's horizon. Errors: groups that are no graph over these posts.
+    static Result<std::unique_ptr<RegionClusters>> create(const HeightField& field,
+                                                          const HorizonOccluder& occluder,
+                                                          std::vector<ClusterGroup> groups,
+                                                          std::uint32_t leaves, ReadGroup read);
+
+    [[nodiscard]] std::span<const ClusterGroup> groups() const { return groups_; }
+    [[nodiscard]] std::uint32_t leaves() const { return leaves_count_; }
+    // Those of the coarsest clusters, which no group uses.
+    [[nodiscard]] std::span<const std::uint32_t> roots() const { return roots_; }
+    // The group that made a cluster; no_group: a leaf.
+    [[nodiscard]] std::uint32_t maker(std::uint32_t cluster) const;
+    // Clusters that a group uses. Errors: damage.
+    Result<std::span<const std::uint32_t>> members(std::uint32_t group);
+    Result<const ClusterReach*> reach(std::uint32_t cluster);
+    // What the GPU gets of a cluster, with heights coded so; gives DrawnCluster::counts. Errors: damage.
+    Result<std::uint32_t> fill(std::uint32_t cluster, const HeightQuantization& coding,
+                               gpu::ClusterBlock& block);
+    // Whether all clusters of the original are drawn: of a region without any group.
+    [[nodiscard]] const PostGrid& grid() const { return grid_; }
+
+  private:
+    RegionClusters(const HeightField& field, const HorizonOccluder& occluder);
+    Result<const GroupPart*> part(std::uint32_t group);
+    Result<std::span<const VertexTriangle>> triangles(std::uint32_t cluster);
+
+    PostGrid grid_;
+    HorizonOccluder occluder_;
+    DrawnHeights heights_;
+    GridSurface surface_;
+    GridBounds bounds_;
+    std::vector<std::vector<VertexTriangle>> leaves_;
+    std::uint32_t leaves_count_{};
+    std::vector<ClusterGroup> groups_;
+    std::vector<std::uint32_t> first_made_;  // of each group
+    std::vector<std::uint32_t> roots_;
+    ReadGroup read_;
+    std::unordered_map<std::uint32_t, std::unique_ptr<GroupPart>> parts_;
+    std::unordered_map<std::uint32_t, ClusterReach> reaches_;
+};
+
+// Of a cluster file over the posts of a region. Errors: a file of other posts (told by `fingerprint`),
+// damage.
+Result<std::unique_ptr<RegionClusters>> clusters_of_file(std::shared_ptr<const ClusterFile> file,
+                                                         std::uint64_t fingerprint, const HeightField& field,
+                                                         const HorizonOccluder& occluder);
+// Of a graph in memory, which outlives them.
+Result<std::unique_ptr<RegionClusters>> clusters_of_graph(const ClusterGraph& graph, const HeightField& field,
+                                                          const HorizonOccluder& occluder);
+
+}  // namespace oro

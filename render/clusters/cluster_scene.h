@@ -1,0 +1,35 @@
+// A region's clusters that are drawn: its graph, and those of its clusters that are on the GPU.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/cluster_frame/region_clusters.h"
+#include "core/frame/frame_plan.h"
+#include "render/clusters/cluster_store.h"
+
+namespace oro {
+
+class ClusterScene {
+  public:
+    // Clusters may take `bytes` on the GPU. Errors: out of memory.
+    static Result<ClusterScene> create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
+                                       std::uint64_t bytes);
+
+    // Puts the cut for an eye into the plan of its pages (plan_frame), and what of it is missing on the GPU.
+    // model: on the ellipsoid. Errors: damage; too little memory for the cut; the device.
+    Result<void> add_to(FramePlan& plan, const Camera& camera, const Tile& tile, double tau_px,
+                        const WorldModel& model, const HorizonOccluder& occluder,
+                        const HeightQuantization& coding);
+
+    [[nodiscard]] const ClusterStore& store() const { return store_; }
+
+  private:
+    ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store)
+        : clusters_(std::move(clusters)), store_(std::move(store)) {}
+
+    std::unique_ptr<RegionClusters> clusters_;
+    ClusterStore store_;
+};
+
+}  // namespace oro

@@ -1,0 +1,64 @@
+// Clusters in GPU memory: as many slots as a budget allows, in a few large buffers, reached by device
+// address.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "core/base/result.h"
+#include "render/device/resources.h"
+
+namespace oro {
+
+// What has not been used for longest makes room for what comes.
+class ClusterStore {
+  public:
+    // At most `bytes`, at least one slot; buffers are made when they are needed.
+    static Result<ClusterStore> create(const Gpu& gpu, std::uint64_t bytes);
+
+    // A cluster that is here.
+    struct Held {
+        std::uint64_t address;
+        std::uint32_t counts;  // gpu::DrawnCluster
+    };
+    // Fills a cluster's block and gives its counts.
+    using Fill = std::function<Result<std::uint32_t>(std::uint32_t cluster, gpu::ClusterBlock& block)>;
+
+    // Sends those of a frame's clusters that are not here, and tells where all are, in the same order. Waits
+    // for the GPU. Errors: more clusters than there are slots (told as the megabytes that they take); those
+    // of `fill`; the device.
+    Result<std::vector<Held>> hold(std::span<const std::uint32_t> clusters, const Fill& fill);
+
+    [[nodiscard]] std::size_t size() const { return slot_of_.size(); }
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+    [[nodiscard]] std::uint64_t bytes() const;  // of the buffers
+    [[nodiscard]] std::uint64_t bytes_sent() const { return sent_ * sizeof(gpu::ClusterBlock); }
+
+  private:
+    struct Slot {
+        std::uint32_t cluster;
+        std::uint32_t counts;
+        std::uint64_t used;  // frame
+    };
+    explicit ClusterStore(const Gpu& gpu) : gpu_(&gpu) {}
+    Result<std::size_t> free_slot();
+    Result<void> copy(std::span<const std::size_t> slots);
+    [[nodiscard]] std::uint64_t address(std::size_t slot) const;
+
+    const Gpu* gpu_;
+    Commands commands_;
+    Buffer staging_;
+    std::vector<Buffer> chunks_;
+    std::size_t capacity_{};
+    std::vector<Slot> slots_;          // those ever used
+    std::vector<std::size_t> unused_;  // by the frame, oldest last
+    std::unordered_map<std::uint32_t, std::size_t> slot_of_;
+    std::uint64_t frame_{0};
+    std::uint64_t sent_{0};
+};
+
+}  // namespace oro
