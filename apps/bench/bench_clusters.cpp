@@ -18,6 +18,7 @@
 #include "apps/bench/bench_blocks.h"
 #include "apps/bench/bench_path.h"
 #include "apps/bench/bench_tin.h"
+#include "core/baked/clustered_file.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
 #include "core/cluster_file/cluster_file.h"
@@ -39,6 +40,7 @@ struct ClustersOptions {
     bool bytes{false};
     std::string path;
     double tau_px{1.0};
+    std::string out;  // a file of the region with its clusters
 };
 
 // User time of this process.
@@ -98,6 +100,33 @@ Result<void> print_bytes(const std::string& region, const PostCounts& posts, con
         "processor time: %.2f s to write, %.2f s to read all groups, %.2f s to read and check the graph\n",
         write_s, groups_s, graph_s);
     std::remove(path.c_str());
+    return {};
+}
+
+// The region file and the graph in one file, for machines that orograph bake does not run on.
+Result<void> write_out(const std::string& out, const RegionFile& file, const PostCounts& posts,
+                       const ClusterGraph& graph, int threads) {
+    const std::string clusters_path = out + ".clusters";
+    ORO_CHECK(write_cluster_graph(clusters_path, graph, posts, file.fingerprint(), true, threads));
+    ORO_TRY(OpenFile whole, OpenFile::open(out, OpenFile::Use::write));
+    std::uint64_t at = 0;
+    const auto append = [&](const std::vector<std::byte>& bytes) {
+        const std::uint64_t first = at;
+        at += bytes.size();
+        return whole.write(first, bytes);
+    };
+    std::array<std::vector<std::byte>, 2> parts;
+    for (std::size_t i = 0; i < 2; ++i) {
+        ORO_TRY(const OpenFile part,
+                OpenFile::open(i == 0 ? file.path() : clusters_path, OpenFile::Use::read));
+        ORO_TRY(const std::uint64_t bytes, part.size());
+        parts[i].resize(static_cast<std::size_t>(bytes));
+        ORO_CHECK(part.read(0, parts[i]));
+    }
+    ORO_CHECK(append(clustered_header(parts[0].size(), parts[1].size())));
+    for (const std::vector<std::byte>& part : parts) ORO_CHECK(append(part));
+    ORO_CHECK(whole.resize(at));
+    std::remove(clusters_path.c_str());
     return {};
 }
 
@@ -277,6 +306,8 @@ Result<void> report(const ClustersOptions& options) {
     print_levels(graph);
     if (options.bytes)
         ORO_CHECK(print_bytes(options.region, {heights.rows, heights.columns}, surface, bounds, graph));
+    if (!options.out.empty())
+        ORO_CHECK(write_out(options.out, file, {heights.rows, heights.columns}, graph, options.threads));
     if (!options.path.empty()) ORO_CHECK(print_views(options, file, field, heights, surface, bounds, graph));
     return print_cuts(options, file, field.grid, heights, graph);
 }
@@ -302,6 +333,7 @@ int main(int argc, char** argv) {
                  "Count blocks, greedy triangulations (TIN) and collapses without groups, too");
     app.add_flag("--bytes", options.bytes,
                  "Write a file of the graph beside the region, tell what it takes, and remove it");
+    app.add_option("--out", options.out, "Write the region and its clusters into one file (.oro)");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

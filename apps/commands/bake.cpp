@@ -109,10 +109,13 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
     const std::string grids = baked.grids > 1 ? std::to_string(baked.grids) + " grids, " : "";
     say(options.quiet,
         "wrote " + baked.file + ": " + grids + std::to_string(report.pages) + " pages, " + size);
-    if (baked.clusters)
+    if (baked.clusters) {
+        char built[40];
+        std::snprintf(built, sizeof built, "built in %.1f s", baked.clusters->build_s);
         say(options.quiet, "with clusters of " + std::to_string(baked.clusters->levels) +
                                " levels above the grid, " + grouped(baked.clusters->triangles) +
-                               " triangles, " + text_of("built in %.1f s", baked.clusters->build_s));
+                               " triangles, " + built);
+    }
     if (!options.json) return;
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["file"] = baked.file;

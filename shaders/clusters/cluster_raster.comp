@@ -1,5 +1,6 @@
 #version 460
-// Draws a cluster by compute, as raster.comp draws a meshlet: places its vertices, then one triangle an invocation.
+// Draws a cluster by compute, as raster.comp draws a meshlet: places its vertices, then one triangle an invocation. Those of middling
+// size, of which clusters have many, are then drawn by all invocations together.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
@@ -11,7 +12,44 @@
 
 layout(local_size_x = 128) in;  // cluster_triangles, cluster_vertices
 
+// Pixels of the largest box that one workgroup draws by itself.
+const int together_max_px = 1024;
+
 shared vec4 vertices[cluster_vertices];  // clip coordinates
+// Triangles for all invocations, member by member: glslang 12.0 crashes on storing a whole struct that holds `precise` values.
+shared uint waiting;
+shared ivec4 waiting_ab[cluster_triangles];
+shared ivec2 waiting_c[cluster_triangles];
+shared vec3 waiting_depth[cluster_triangles];
+shared uint waiting_id[cluster_triangles];
+
+void draw_triangle(vec4 a, vec4 b, vec4 c, uint id) {
+    ScreenTriangle t;
+    ivec4 box;
+    if (draw_small(a, b, c, id, t, box)) return;
+    ivec2 size = box.zw - box.xy + 1;
+    if (!fits_near(t) || size.x * size.y > together_max_px) {
+        if (!list_large(t, box)) draw_far(t, box, 0u, 1u);
+        return;
+    }
+    uint at = atomicAdd(waiting, 1u);
+    waiting_ab[at] = ivec4(t.a, t.b);
+    waiting_c[at] = t.c;
+    waiting_depth[at] = t.depth;
+    waiting_id[at] = t.id;
+}
+
+void draw_waiting(uint lane) {
+    for (uint i = 0u; i < waiting; ++i) {
+        ScreenTriangle t;
+        t.a = waiting_ab[i].xy;
+        t.b = waiting_ab[i].zw;
+        t.c = waiting_c[i];
+        t.depth = waiting_depth[i];
+        t.id = waiting_id[i];
+        draw_near(t, pixel_box(t), lane, 128u);
+    }
+}
 
 void main() {
     uint number = folded(gl_WorkGroupID);
@@ -19,6 +57,7 @@ void main() {
     DrawnCluster drawn = drawn_cluster(number);
     ClusterBlocks block = ClusterBlocks(drawn.block);
     uint lane = gl_LocalInvocationIndex, triangles = triangles_of_cluster(drawn);
+    if (lane == 0u) waiting = 0u;
     if (lane < vertices_of_cluster(drawn)) {
         vertices[lane] = project(vertex_in_view(block.at.vertices[lane]));
         // A post exactly beside the eye has w = 0: moved by less than any float at its distance shows.
@@ -27,8 +66,10 @@ void main() {
     barrier();
     if (lane < triangles) {
         uvec3 at = corners_in_cluster(block, lane);
-        draw_corners(vertices[at.x], vertices[at.y], vertices[at.z], number * cluster_triangles + lane + 1u);
+        draw_triangle(vertices[at.x], vertices[at.y], vertices[at.z], number * cluster_triangles + lane + 1u);
     }
+    barrier();
+    draw_waiting(lane);
     if (lane != 0u) return;
     atomicAdd(Counts(FRAME.counts).at.triangles_drawn, triangles);
     atomicAdd(Counts(FRAME.counts).at.meshlets_drawn, 1u);
