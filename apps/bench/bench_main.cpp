@@ -199,8 +199,10 @@ Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion&
     if (clusters && !region.file.clusters)
         return Error{ErrorKind::usage, "--mesh clusters",
                      "the region has none: orograph bake --mesh clusters makes them"};
-    const SceneMemory memory{static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U, 0,
-                             clusters ? 2U : 1U};
+    const std::uint64_t bytes =
+        gpu_bytes(gpu, static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U) / (clusters ? 2 : 1);
+    SceneMemory memory;
+    memory.gpu = bytes;
     ORO_TRY(Scene scene, Scene::create(gpu, std::move(region.pages), memory, HeightStorage::f32,
                                        asks_for_means(options.style)));
     if (!clusters) return scene;
@@ -208,7 +210,7 @@ Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion&
     ORO_TRY(std::unique_ptr<RegionClusters> graph,
             clusters_of_file(region.file.clusters, region.file.region->fingerprint(), field,
                              scene.pages().facts().shape.occluder));
-    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(graph), gpu_share(gpu, memory)));
+    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(graph), bytes));
     scene.draw_clusters(std::move(made));
     return scene;
 }

@@ -15,13 +15,6 @@
 namespace oro {
 namespace {
 
-SceneMemory memory_of(const MemoryOptions& memory, unsigned shares) {
-    const auto bytes = [](const std::optional<int>& mb) {
-        return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
-    };
-    return {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares};
-}
-
 // A baked region's levels are those of its own heights; exaggerated ones, and those that its geoid was taken
 // from, need levels of their own, and to measure these, all posts in memory.
 Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exaggeration,
@@ -74,9 +67,20 @@ Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggera
     return create_scene(gpu, std::move(pages), memory, heights, means);
 }
 
+namespace {
+
+std::uint64_t bytes_of(const std::optional<int>& mb) {
+    return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
+}
+
+}  // namespace
+
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
-                           HeightStorage heights, bool means, unsigned shares) {
-    return Scene::create(gpu, std::move(pages), memory_of(memory, shares), heights, means);
+                           HeightStorage heights, bool means) {
+    SceneMemory own;
+    own.gpu = bytes_of(memory.gpu_memory_mb);
+    own.main = bytes_of(memory.memory_mb);
+    return Scene::create(gpu, std::move(pages), own, heights, means);
 }
 
 Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, double exaggeration,
@@ -100,14 +104,12 @@ PagesOfGrids pointers_to(const GridPages& pages) {
 namespace {
 
 // What takes the place of a scene's nodes. Reads all posts.
-Result<void> add_clusters(const Gpu& gpu, const Region& region, const MemoryOptions& memory, unsigned shares,
-                          Scene& scene) {
+Result<void> add_clusters(const Gpu& gpu, const Region& region, std::uint64_t bytes, Scene& scene) {
     ORO_TRY(const HeightField field, field_in_memory(*region.file));
     ORO_TRY(std::unique_ptr<RegionClusters> clusters,
             clusters_of_file(region.clusters, region.file->fingerprint(), field,
                              scene.pages().facts().shape.occluder));
-    ORO_TRY(ClusterScene made,
-            ClusterScene::create(gpu, std::move(clusters), gpu_share(gpu, memory_of(memory, shares))));
+    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(clusters), bytes));
     scene.draw_clusters(std::move(made));
     return {};
 }
@@ -120,9 +122,8 @@ Result<std::uint64_t> draw_between(const Gpu& gpu, const Region& region, const R
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             seam_pages(seam, region.field.undulation, region_shape(region.field, exaggeration)));
     const std::uint64_t triangles = pages->facts().triangles;
-    // Small beside the rest: not of the share of any.
-    ORO_TRY(Scene between,
-            create_scene(gpu, std::move(pages), MemoryOptions{}, HeightStorage::f32, false, 4));
+    // Small beside the rest, which it takes nothing from.
+    ORO_TRY(Scene between, create_scene(gpu, std::move(pages), MemoryOptions{}));
     scene.draw_beside(std::move(between));
     return triangles;
 }
@@ -133,17 +134,22 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
                                     GridPages pages, const SceneRequest& request) {
     std::optional<Scene> scene;
     std::uint64_t triangles = 0;
-    const unsigned shares = static_cast<unsigned>(pages.size()) + (request.clusters ? 1 : 0);
+    SceneMemory memory;
+    memory.main = bytes_of(request.memory.memory_mb);
+    memory.shares = static_cast<unsigned>(pages.size());
+    // Clusters have half of it.
+    const std::uint64_t bytes =
+        gpu_bytes(gpu, bytes_of(request.memory.gpu_memory_mb)) / (request.clusters ? 2 : 1);
+    memory.shared = page_budget(gpu, bytes);
     for (std::unique_ptr<RegionPages>& one : pages) {
         triangles += one->facts().triangles;
-        ORO_TRY(Scene made,
-                create_scene(gpu, std::move(one), request.memory, request.heights, request.means, shares));
+        ORO_TRY(Scene made, Scene::create(gpu, std::move(one), memory, request.heights, request.means));
         if (scene)
             scene->draw_beside(std::move(made));
         else
             scene = std::move(made);
     }
-    if (request.clusters) ORO_CHECK(add_clusters(gpu, region, request.memory, shares, *scene));
+    if (request.clusters) ORO_CHECK(add_clusters(gpu, region, bytes, *scene));
     if (pages.size() > 1) {
         ORO_TRY(const std::uint64_t between, draw_between(gpu, region, cuts, request.exaggeration, *scene));
         triangles += between;

@@ -12,6 +12,8 @@
 namespace oro {
 namespace {
 
+enum class Asked : char { no, stands, gives_way };
+
 class Cut {
   public:
     Cut(RegionClusters& clusters, const Camera& camera, const Tile& tile, double tau_px,
@@ -19,7 +21,7 @@ class Cut {
         : clusters_(clusters),
           rule_(camera, tau_px, model.air),
           planes_(frustum_planes_view(projection_of_tile(camera, tile))),
-          asked_(clusters.groups().size(), 0) {
+          asked_(clusters.groups().size(), Asked::no) {
         const ModelView view(camera, model, coding);
         horizon_ = view.horizon(occluder);
         for (Plane& plane : planes_) plane.w += view.rounding_m();
@@ -42,8 +44,13 @@ class Cut {
     // A cluster that no group stands for: it is drawn, or what it was made of is met in its turn.
     Result<void> meet(std::uint32_t cluster) {
         const std::uint32_t maker = clusters_.maker(cluster);
-        if (maker == no_group || rule_.stands(clusters_.groups()[maker])) return draw(cluster);
-        if (std::exchange(asked_[maker], char{1}) != 0) return {};
+        if (maker == no_group || asked_[maker] == Asked::stands) return draw(cluster);
+        if (asked_[maker] == Asked::gives_way) return {};
+        if (rule_.stands(clusters_.groups()[maker])) {
+            asked_[maker] = Asked::stands;
+            return draw(cluster);
+        }
+        asked_[maker] = Asked::gives_way;
         const ClusterGroup& group = clusters_.groups()[maker];
         const GroupRule::SeenSphere seen = rule_.seen(group.centre, group.radius_m);
         if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
@@ -75,7 +82,7 @@ class Cut {
     GroupRule rule_;
     std::array<Plane, 5> planes_;
     SeenHorizon horizon_;
-    std::vector<char> asked_;
+    std::vector<Asked> asked_;  // of each group
     std::vector<std::uint32_t> open_;
     std::vector<std::pair<double, std::uint32_t>> found_;
     ClusterChoice choice_;

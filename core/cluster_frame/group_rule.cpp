@@ -37,7 +37,8 @@ double GroupRule::error_px(const ClusterGroup& group) const {
     if (group.error_m <= 0.0) return 0.0;
     const SeenSphere sphere = seen(group.centre, group.radius_m);
     const double e = group.error_m * sphere.stretch;
-    const double across_m = std::hypot(sphere.centre_m.x, sphere.centre_m.y);
+    const double across_m =
+        std::sqrt(sphere.centre_m.x * sphere.centre_m.x + sphere.centre_m.y * sphere.centre_m.y);
     const double stretch = std::sqrt(1.0 + corner_tangent_ * corner_tangent_);
     double px = std::numeric_limits<double>::infinity();
     const double z_min_m = -sphere.centre_m.z - sphere.radius_m;

@@ -46,13 +46,14 @@ Result<std::unique_ptr<RegionClusters>> RegionClusters::create(const HeightField
         return no_graph("are over " + std::to_string(leaves) + " leaves; the region has " +
                         std::to_string(region->leaves_.size()));
     region->leaves_count_ = leaves;
-    std::uint32_t next = leaves, top = 0;
+    std::uint32_t next = leaves, top = 0, number = 0;
+    region->makers_.assign(leaves, no_group);
     for (const ClusterGroup& group : groups) {
         if (group.first_made != next)
             return no_graph("begin a group with number " + std::to_string(group.first_made) + ", expected " +
                             std::to_string(next));
-        region->first_made_.push_back(next);
         next += group.made;
+        region->makers_.resize(next, number++);
         top = std::max(top, group.level);
     }
     for (std::uint32_t i = 0; i < groups.size(); ++i) {
@@ -60,15 +61,11 @@ Result<std::unique_ptr<RegionClusters>> RegionClusters::create(const HeightField
         for (std::uint32_t j = 0; j < groups[i].made; ++j) region->roots_.push_back(groups[i].first_made + j);
     }
     for (std::uint32_t i = 0; groups.empty() && i < leaves; ++i) region->roots_.push_back(i);
+    region->parts_.resize(groups.size());
+    region->reaches_.resize(region->makers_.size());
     region->groups_ = std::move(groups);
     region->read_ = std::move(read);
     return region;
-}
-
-std::uint32_t RegionClusters::maker(std::uint32_t cluster) const {
-    if (cluster < leaves_count_) return no_group;
-    const auto after = std::ranges::upper_bound(first_made_, cluster);
-    return static_cast<std::uint32_t>(after - first_made_.begin()) - 1;
 }
 
 Result<const GroupPart*> RegionClusters::part(std::uint32_t group) {
@@ -94,8 +91,7 @@ Result<std::span<const VertexTriangle>> RegionClusters::triangles(std::uint32_t 
 }
 
 Result<const ClusterReach*> RegionClusters::reach(std::uint32_t cluster) {
-    const auto found = reaches_.find(cluster);
-    if (found != reaches_.end()) return &found->second;
+    if (reaches_[cluster]) return reaches_[cluster].get();
     ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster));
     std::vector<glm::dvec3> places_m;
     ClusterReach reach{{}, 0.0, {}, grid_.rows(), 0, grid_.columns(), 0};
@@ -118,7 +114,8 @@ Result<const ClusterReach*> RegionClusters::reach(std::uint32_t cluster) {
     // Drawn places are rounded (core/surface/ground_bounds.cpp).
     reach.radius_m += 0.01 + 1.0e-6 * reach.radius_m;
     reach.horizon = horizon_cone(occluder_, places_m);
-    return &reaches_.emplace(cluster, reach).first->second;
+    reaches_[cluster] = std::make_unique<ClusterReach>(reach);
+    return reaches_[cluster].get();
 }
 
 Result<std::uint32_t> RegionClusters::fill(std::uint32_t cluster, const HeightQuantization& coding,

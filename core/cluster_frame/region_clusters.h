@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "core/base/result.h"
@@ -46,14 +45,13 @@ class RegionClusters {
     // Those of the coarsest clusters, which no group uses.
     [[nodiscard]] std::span<const std::uint32_t> roots() const { return roots_; }
     // The group that made a cluster; no_group: a leaf.
-    [[nodiscard]] std::uint32_t maker(std::uint32_t cluster) const;
+    [[nodiscard]] std::uint32_t maker(std::uint32_t cluster) const { return makers_[cluster]; }
     // Clusters that a group uses. Errors: damage.
     Result<std::span<const std::uint32_t>> members(std::uint32_t group);
     Result<const ClusterReach*> reach(std::uint32_t cluster);
     // What the GPU gets of a cluster, with heights coded so; gives DrawnCluster::counts. Errors: damage.
     Result<std::uint32_t> fill(std::uint32_t cluster, const HeightQuantization& coding,
                                gpu::ClusterBlock& block);
-    // Whether all clusters of the original are drawn: of a region without any group.
     [[nodiscard]] const PostGrid& grid() const { return grid_; }
 
   private:
@@ -69,11 +67,11 @@ class RegionClusters {
     std::vector<std::vector<VertexTriangle>> leaves_;
     std::uint32_t leaves_count_{};
     std::vector<ClusterGroup> groups_;
-    std::vector<std::uint32_t> first_made_;  // of each group
+    std::vector<std::uint32_t> makers_;  // of each cluster
     std::vector<std::uint32_t> roots_;
     ReadGroup read_;
-    std::unordered_map<std::uint32_t, std::unique_ptr<GroupPart>> parts_;
-    std::unordered_map<std::uint32_t, ClusterReach> reaches_;
+    std::vector<std::unique_ptr<GroupPart>> parts_;       // of each group, once it was asked for
+    std::vector<std::unique_ptr<ClusterReach>> reaches_;  // of each cluster, likewise
 };
 
 // Of a cluster file over the posts of a region. Errors: a file of other posts (told by `fingerprint`),

@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t slots_per_chunk = 4096;  // 8 MB
 constexpr std::size_t slots_in_staging = 512;
 constexpr std::size_t slot_bytes = sizeof(gpu::ClusterBlock);
+constexpr std::size_t no_slot = ~std::size_t{0};
 static_assert(slot_bytes % 16 == 0);
 
 }  // namespace
@@ -60,8 +61,14 @@ Result<std::size_t> ClusterStore::free_slot() {
     }
     const std::size_t slot = unused_.back();
     unused_.pop_back();
-    slot_of_.erase(slots_[slot].cluster);
+    forget(slots_[slot].cluster);
     return slot;
+}
+
+void ClusterStore::forget(std::uint32_t cluster) {
+    if (slot_of_[cluster] == no_slot) return;
+    slot_of_[cluster] = no_slot;
+    --held_;
 }
 
 Result<std::vector<ClusterStore::Held>> ClusterStore::hold(std::span<const std::uint32_t> clusters,
@@ -75,15 +82,14 @@ Result<std::vector<ClusterStore::Held>> ClusterStore::hold(std::span<const std::
     ++frame_;
     unused_.clear();
     for (const std::uint32_t cluster : clusters) {
-        const auto found = slot_of_.find(cluster);
-        if (found != slot_of_.end()) slots_[found->second].used = frame_;
+        if (cluster >= slot_of_.size()) slot_of_.resize(cluster + std::size_t{1}, no_slot);
+        if (slot_of_[cluster] != no_slot) slots_[slot_of_[cluster]].used = frame_;
     }
     std::vector<Held> held;
     std::vector<std::size_t> batch;
     gpu::ClusterBlock block{};
     for (const std::uint32_t cluster : clusters) {
-        auto found = slot_of_.find(cluster);
-        if (found == slot_of_.end()) {
+        if (slot_of_[cluster] == no_slot) {
             const Result<std::uint32_t> filled = fill(cluster, block);
             // What is staged goes first: it counts as being here.
             if (!filled.ok()) ORO_CHECK(copy(batch));
@@ -93,14 +99,15 @@ Result<std::vector<ClusterStore::Held>> ClusterStore::hold(std::span<const std::
             ORO_TRY(const std::size_t slot, free);
             std::memcpy(staging_.mapped + batch.size() * slot_bytes, &block, slot_bytes);
             slots_[slot] = {cluster, counts, frame_};
-            found = slot_of_.emplace(cluster, slot).first;
+            slot_of_[cluster] = slot;
+            ++held_;
             batch.push_back(slot);
             if (batch.size() == slots_in_staging) {
                 ORO_CHECK(copy(batch));
                 batch.clear();
             }
         }
-        held.push_back({address(found->second), slots_[found->second].counts});
+        held.push_back({address(slot_of_[cluster]), slots_[slot_of_[cluster]].counts});
     }
     ORO_CHECK(copy(batch));
     return held;
@@ -118,7 +125,7 @@ Result<void> ClusterStore::copy(std::span<const std::size_t> slots) {
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
     });
-    for (std::size_t i = 0; !copied.ok() && i < slots.size(); ++i) slot_of_.erase(slots_[slots[i]].cluster);
+    for (std::size_t i = 0; !copied.ok() && i < slots.size(); ++i) forget(slots_[slots[i]].cluster);
     sent_ += slots.size();
     return copied;
 }

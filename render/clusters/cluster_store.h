@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "core/base/result.h"
@@ -33,7 +32,7 @@ class ClusterStore {
     // of `fill`; the device.
     Result<std::vector<Held>> hold(std::span<const std::uint32_t> clusters, const Fill& fill);
 
-    [[nodiscard]] std::size_t size() const { return slot_of_.size(); }
+    [[nodiscard]] std::size_t size() const { return held_; }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
     [[nodiscard]] std::uint64_t bytes() const;  // of the buffers
     [[nodiscard]] std::uint64_t bytes_sent() const { return sent_ * sizeof(gpu::ClusterBlock); }
@@ -46,6 +45,7 @@ class ClusterStore {
     };
     explicit ClusterStore(const Gpu& gpu) : gpu_(&gpu) {}
     Result<std::size_t> free_slot();
+    void forget(std::uint32_t cluster);
     Result<void> copy(std::span<const std::size_t> slots);
     [[nodiscard]] std::uint64_t address(std::size_t slot) const;
 
@@ -54,9 +54,10 @@ class ClusterStore {
     Buffer staging_;
     std::vector<Buffer> chunks_;
     std::size_t capacity_{};
-    std::vector<Slot> slots_;          // those ever used
-    std::vector<std::size_t> unused_;  // by the frame, oldest last
-    std::unordered_map<std::uint32_t, std::size_t> slot_of_;
+    std::vector<Slot> slots_;           // those ever used
+    std::vector<std::size_t> unused_;   // by the frame, oldest last
+    std::vector<std::size_t> slot_of_;  // of each cluster ever asked for; no_slot where it is not here
+    std::size_t held_{0};
     std::uint64_t frame_{0};
     std::uint64_t sent_{0};
 };

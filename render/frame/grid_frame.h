@@ -9,6 +9,7 @@
 #include "render/device/resources.h"
 #include "render/frame/pipelines.h"
 #include "render/shading/caster_buffers.h"
+#include "render/shading/drape_wants.h"
 
 namespace oro {
 
@@ -33,6 +34,7 @@ class GridFrame {
     [[nodiscard]] VkDeviceSize cluster_groups() const { return cluster_groups_; }
 
     CasterBuffers casters;
+    DrapeWants drape;
     VkPipeline shade{VK_NULL_HANDLE}, shade_parts{VK_NULL_HANDLE};  // of the frame
 
   private:

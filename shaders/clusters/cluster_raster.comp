@@ -1,6 +1,6 @@
 #version 460
 // Draws a cluster by compute, as raster.comp draws a meshlet: places its vertices, then one triangle an invocation. Those of middling
-// size, of which clusters have many, are then drawn by all invocations together.
+// size, of which clusters have many, are then drawn by teams of invocations.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
@@ -12,11 +12,12 @@
 
 layout(local_size_x = 128) in;  // cluster_triangles, cluster_vertices
 
-// Pixels of the largest box that one workgroup draws by itself.
-const int together_max_px = 1024;
+// Pixels of the largest box that a team draws.
+const int team_max_px = 1024;
+const uint team_size = 32u, teams = 4u;
 
 shared vec4 vertices[cluster_vertices];  // clip coordinates
-// Triangles for all invocations, member by member: glslang 12.0 crashes on storing a whole struct that holds `precise` values.
+// Triangles for teams, member by member: glslang 12.0 crashes on storing a whole struct that holds `precise` values.
 shared uint waiting;
 shared ivec4 waiting_ab[cluster_triangles];
 shared ivec2 waiting_c[cluster_triangles];
@@ -24,30 +25,39 @@ shared vec3 waiting_depth[cluster_triangles];
 shared uint waiting_id[cluster_triangles];
 
 void draw_triangle(vec4 a, vec4 b, vec4 c, uint id) {
-    ScreenTriangle t;
-    ivec4 box;
-    if (draw_small(a, b, c, id, t, box)) return;
-    ivec2 size = box.zw - box.xy + 1;
-    if (!fits_near(t) || size.x * size.y > together_max_px) {
-        if (!list_large(t, box)) draw_far(t, box, 0u, 1u);
+    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
+    if (!fits_grid(a, b, c)) {
+        list_clip(id);
         return;
     }
-    uint at = atomicAdd(waiting, 1u);
-    waiting_ab[at] = ivec4(t.a, t.b);
-    waiting_c[at] = t.c;
-    waiting_depth[at] = t.depth;
-    waiting_id[at] = t.id;
+    ScreenTriangle t;
+    if (!screen_triangle(a, b, c, id, t)) return;
+    ivec4 box = pixel_box(t);
+    ivec2 size = box.zw - box.xy + 1;
+    if (min(size.x, size.y) <= 0) return;
+    if (!fits_near(t) || size.x * size.y > team_max_px) {
+        if (!list_large(t, box)) draw_far(t, box, 0u, 1u);
+    } else if (size.x * size.y <= alone_max_px) {
+        draw_near(t, box, 0u, 1u);
+    } else {
+        uint at = atomicAdd(waiting, 1u);
+        waiting_ab[at] = ivec4(t.a, t.b);
+        waiting_c[at] = t.c;
+        waiting_depth[at] = t.depth;
+        waiting_id[at] = t.id;
+    }
 }
 
+// Each team takes every fourth of them.
 void draw_waiting(uint lane) {
-    for (uint i = 0u; i < waiting; ++i) {
+    for (uint i = lane / team_size; i < waiting; i += teams) {
         ScreenTriangle t;
         t.a = waiting_ab[i].xy;
         t.b = waiting_ab[i].zw;
         t.c = waiting_c[i];
         t.depth = waiting_depth[i];
         t.id = waiting_id[i];
-        draw_near(t, pixel_box(t), lane, 128u);
+        draw_near(t, pixel_box(t), lane % team_size, team_size);
     }
 }
 

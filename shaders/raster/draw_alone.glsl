@@ -16,25 +16,21 @@ void list_clip(uint id) {
     atomicMax(lists().at.clip_groups[1], (groups + groups_per_row - 1u) / groups_per_row);
 }
 
-// Draws a triangle (corners in clip coordinates) that is small or hidden, or lists it to be clipped. False where it is larger: that is
-// left to others.
-bool draw_small(vec4 a, vec4 b, vec4 c, uint id, out ScreenTriangle t, out ivec4 box) {
-    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return true;
+// Corners in clip coordinates.
+void draw_corners(vec4 a, vec4 b, vec4 c, uint id) {
+    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
     if (!fits_grid(a, b, c)) {
         list_clip(id);
-        return true;
+        return;
     }
-    if (!screen_triangle(a, b, c, id, t)) return true;
-    box = pixel_box(t);
-    ivec2 size = box.zw - box.xy + 1;
-    if (min(size.x, size.y) <= 0) return true;
-    if (!fits_near(t) || size.x * size.y > alone_max_px) return false;
-    draw_near(t, box, 0u, 1u);
-    return true;
-}
-
-void draw_corners(vec4 a, vec4 b, vec4 c, uint id) {
     ScreenTriangle t;
-    ivec4 box;
-    if (!draw_small(a, b, c, id, t, box) && !list_large(t, box)) draw_far(t, box, 0u, 1u);
+    if (!screen_triangle(a, b, c, id, t)) return;
+    ivec4 box = pixel_box(t);
+    ivec2 size = box.zw - box.xy + 1;
+    if (min(size.x, size.y) <= 0) return;
+    if (fits_near(t) && size.x * size.y <= alone_max_px) {
+        draw_near(t, box, 0u, 1u);
+    } else if (!list_large(t, box)) {
+        draw_far(t, box, 0u, 1u);
+    }
 }
