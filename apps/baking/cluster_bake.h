@@ -9,9 +9,9 @@
 
 namespace oro {
 
-// Posts that are built in one go: the graph of so many takes 2 GB of memory and some minutes
-// (docs/CLUSTERS.md).
-inline constexpr std::size_t most_clustered_posts = 16'000'000;
+// Posts that are built in one go. 3601 x 3601 of them took 2.5 GB of memory and 123 s of processor time
+// (docs/BENCHMARKS.md, I).
+inline constexpr std::size_t most_clustered_posts = 13'000'000;
 
 struct ClusterBakeReport {
     BakeReport region;

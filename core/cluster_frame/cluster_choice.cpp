@@ -12,7 +12,7 @@
 namespace oro {
 namespace {
 
-enum class Asked : char { no, stands, gives_way };
+enum class Asked : char { no, hidden, stands, gives_way };
 
 class Cut {
   public:
@@ -24,7 +24,8 @@ class Cut {
           asked_(clusters.groups().size(), Asked::no) {
         const ModelView view(camera, model, coding);
         horizon_ = view.horizon(occluder);
-        for (Plane& plane : planes_) plane.w += view.rounding_m();
+        // Drawn places are rounded.
+        for (Plane& plane : planes_) plane.w += view.rounding_m() + 0.01;
     }
 
     Result<ClusterChoice> choose() {
@@ -44,22 +45,25 @@ class Cut {
     // A cluster that no group stands for: it is drawn, or what it was made of is met in its turn.
     Result<void> meet(std::uint32_t cluster) {
         const std::uint32_t maker = clusters_.maker(cluster);
-        if (maker == no_group || asked_[maker] == Asked::stands) return draw(cluster);
-        if (asked_[maker] == Asked::gives_way) return {};
-        if (rule_.stands(clusters_.groups()[maker])) {
-            asked_[maker] = Asked::stands;
-            return draw(cluster);
-        }
-        asked_[maker] = Asked::gives_way;
-        const ClusterGroup& group = clusters_.groups()[maker];
+        if (maker == no_group) return draw(cluster);
+        if (asked_[maker] == Asked::no) ask(maker);
+        return asked_[maker] == Asked::stands ? draw(cluster) : Result<void>();
+    }
+
+    // A group's sphere holds what it made, too: where it is hidden nobody needs to read the group.
+    void ask(std::uint32_t number) {
+        const ClusterGroup& group = clusters_.groups()[number];
         const GroupRule::SeenSphere seen = rule_.seen(group.centre, group.radius_m);
         if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
             ++choice_.beyond_frustum;
-            return {};
+            asked_[number] = Asked::hidden;
+        } else if (rule_.stands(group)) {
+            asked_[number] = Asked::stands;
+        } else {
+            asked_[number] = Asked::gives_way;
+            ++choice_.groups_opened;
+            open_.push_back(number);
         }
-        ++choice_.groups_opened;
-        open_.push_back(maker);
-        return {};
     }
 
     Result<void> draw(std::uint32_t cluster) {

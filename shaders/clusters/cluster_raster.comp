@@ -15,14 +15,15 @@ layout(local_size_x = 128) in;  // cluster_triangles, cluster_vertices
 // Pixels of the largest box that a team draws.
 const int team_max_px = 1024;
 const uint team_size = 32u, teams = 4u;
+const uint waiting_max = 48u;  // triangles for teams: with more, the cluster's workgroup would keep all others waiting
 
 shared vec4 vertices[cluster_vertices];  // clip coordinates
 // Triangles for teams, member by member: glslang 12.0 crashes on storing a whole struct that holds `precise` values.
 shared uint waiting;
-shared ivec4 waiting_ab[cluster_triangles];
-shared ivec2 waiting_c[cluster_triangles];
-shared vec3 waiting_depth[cluster_triangles];
-shared uint waiting_id[cluster_triangles];
+shared ivec4 waiting_ab[waiting_max];
+shared ivec2 waiting_c[waiting_max];
+shared vec3 waiting_depth[waiting_max];
+shared uint waiting_id[waiting_max];
 
 void draw_triangle(vec4 a, vec4 b, vec4 c, uint id) {
     if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
@@ -35,12 +36,14 @@ void draw_triangle(vec4 a, vec4 b, vec4 c, uint id) {
     ivec4 box = pixel_box(t);
     ivec2 size = box.zw - box.xy + 1;
     if (min(size.x, size.y) <= 0) return;
-    if (!fits_near(t) || size.x * size.y > team_max_px) {
-        if (!list_large(t, box)) draw_far(t, box, 0u, 1u);
-    } else if (size.x * size.y <= alone_max_px) {
+    if (fits_near(t) && size.x * size.y <= alone_max_px) {
         draw_near(t, box, 0u, 1u);
+        return;
+    }
+    uint at = fits_near(t) && size.x * size.y <= team_max_px ? atomicAdd(waiting, 1u) : waiting_max;
+    if (at >= waiting_max) {
+        if (!list_large(t, box)) draw_far(t, box, 0u, 1u);
     } else {
-        uint at = atomicAdd(waiting, 1u);
         waiting_ab[at] = ivec4(t.a, t.b);
         waiting_c[at] = t.c;
         waiting_depth[at] = t.depth;
@@ -50,7 +53,7 @@ void draw_triangle(vec4 a, vec4 b, vec4 c, uint id) {
 
 // Each team takes every fourth of them.
 void draw_waiting(uint lane) {
-    for (uint i = lane / team_size; i < waiting; i += teams) {
+    for (uint i = lane / team_size; i < min(waiting, waiting_max); i += teams) {
         ScreenTriangle t;
         t.a = waiting_ab[i].xy;
         t.b = waiting_ab[i].zw;
