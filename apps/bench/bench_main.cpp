@@ -18,6 +18,7 @@
 #include "core/base/elapsed.h"
 #include "core/base/median.h"
 #include "core/base/parallel.h"
+#include "core/cluster_frame/region_clusters.h"
 #include "core/light/sun_position.h"
 #include "core/lod/ground_means.h"
 #include "render/device/raster_request.h"

@@ -29,25 +29,33 @@ class Cut {
     }
 
     Result<ClusterChoice> choose() {
-        for (const std::uint32_t cluster : clusters_.roots()) ORO_CHECK(meet(cluster));
+        meet(clusters_.roots());
+        // Wave by wave, so that what must be read is read together.
+        std::vector<std::uint32_t> wave;
         while (!open_.empty()) {
-            const std::uint32_t group = open_.back();
-            open_.pop_back();
-            ORO_TRY(const std::span<const std::uint32_t> members, clusters_.members(group));
-            for (const std::uint32_t cluster : members) ORO_CHECK(meet(cluster));
+            wave.clear();
+            wave.swap(open_);
+            ORO_CHECK(clusters_.read(wave));
+            for (const std::uint32_t group : wave) {
+                ORO_TRY(const std::span<const std::uint32_t> members, clusters_.members(group));
+                meet(members);
+            }
         }
+        ORO_CHECK(clusters_.reach_all(cut_));
+        for (const std::uint32_t cluster : cut_) ORO_CHECK(draw(cluster));
         std::ranges::sort(found_);
         for (const auto& [distance_m, cluster] : found_) choice_.clusters.push_back(cluster);
         return std::move(choice_);
     }
 
   private:
-    // A cluster that no group stands for: it is drawn, or what it was made of is met in its turn.
-    Result<void> meet(std::uint32_t cluster) {
-        const std::uint32_t maker = clusters_.maker(cluster);
-        if (maker == no_group) return draw(cluster);
-        if (asked_[maker] == Asked::no) ask(maker);
-        return asked_[maker] == Asked::stands ? draw(cluster) : Result<void>();
+    // Clusters that no group stands for: each is of the cut, or what it was made of is met in its turn.
+    void meet(std::span<const std::uint32_t> clusters) {
+        for (const std::uint32_t cluster : clusters) {
+            const std::uint32_t maker = clusters_.maker(cluster);
+            if (maker != no_group && asked_[maker] == Asked::no) ask(maker);
+            if (maker == no_group || asked_[maker] == Asked::stands) cut_.push_back(cluster);
+        }
     }
 
     // A group's sphere holds what it made, too: where it is hidden nobody needs to read the group.
@@ -88,6 +96,7 @@ class Cut {
     SeenHorizon horizon_;
     std::vector<Asked> asked_;  // of each group
     std::vector<std::uint32_t> open_;
+    std::vector<std::uint32_t> cut_;  // of what may be seen
     std::vector<std::pair<double, std::uint32_t>> found_;
     ClusterChoice choice_;
 };

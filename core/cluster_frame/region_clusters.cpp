@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -90,9 +91,7 @@ Result<std::span<const VertexTriangle>> RegionClusters::triangles(std::uint32_t 
     return std::span<const VertexTriangle>(whole->triangles).subspan(made.first_triangle, made.triangles);
 }
 
-Result<const ClusterReach*> RegionClusters::reach(std::uint32_t cluster) {
-    if (reaches_[cluster]) return reaches_[cluster].get();
-    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster));
+ClusterReach RegionClusters::reach_of(std::span<const VertexTriangle> all) const {
     std::vector<glm::dvec3> places_m;
     ClusterReach reach{{}, 0.0, {}, grid_.rows(), 0, grid_.columns(), 0};
     for (const VertexNumber number : vertices_of(all)) {
@@ -114,8 +113,48 @@ Result<const ClusterReach*> RegionClusters::reach(std::uint32_t cluster) {
     // Drawn places are rounded (core/surface/ground_bounds.cpp).
     reach.radius_m += 0.01 + 1.0e-6 * reach.radius_m;
     reach.horizon = horizon_cone(occluder_, places_m);
-    reaches_[cluster] = std::make_unique<ClusterReach>(reach);
+    return reach;
+}
+
+Result<const ClusterReach*> RegionClusters::reach(std::uint32_t cluster) {
+    if (reaches_[cluster]) return reaches_[cluster].get();
+    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster));
+    reaches_[cluster] = std::make_unique<ClusterReach>(reach_of(all));
     return reaches_[cluster].get();
+}
+
+Result<void> RegionClusters::read(std::span<const std::uint32_t> groups) {
+    std::vector<std::uint32_t> missing;
+    std::ranges::copy_if(groups, std::back_inserter(missing),
+                         [&](std::uint32_t group) { return !parts_[group]; });
+    std::vector<Result<void>> done(missing.size());
+    in_parallel(static_cast<int>(missing.size()), thread_count(), [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        auto part = std::make_unique<GroupPart>();
+        done[at] = read_(missing[at], *part);
+        if (done[at].ok()) parts_[missing[at]] = std::move(part);
+    });
+    for (const Result<void>& one : done) ORO_CHECK(one);
+    return {};
+}
+
+Result<void> RegionClusters::reach_all(std::span<const std::uint32_t> clusters) {
+    std::vector<std::uint32_t> missing, groups;
+    for (const std::uint32_t cluster : clusters) {
+        if (reaches_[cluster]) continue;
+        missing.push_back(cluster);
+        if (makers_[cluster] != no_group) groups.push_back(makers_[cluster]);
+    }
+    std::ranges::sort(groups);
+    const auto rest = std::ranges::unique(groups);
+    groups.erase(rest.begin(), rest.end());
+    ORO_CHECK(read(groups));
+    in_parallel(static_cast<int>(missing.size()), thread_count(), [&](int i) {
+        const std::uint32_t cluster = missing[static_cast<std::size_t>(i)];
+        const auto all = triangles(cluster);
+        if (all.ok()) reaches_[cluster] = std::make_unique<ClusterReach>(reach_of(*all));
+    });
+    return {};
 }
 
 Result<std::uint32_t> RegionClusters::fill(std::uint32_t cluster, const HeightQuantization& coding,

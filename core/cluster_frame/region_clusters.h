@@ -46,6 +46,10 @@ class RegionClusters {
     [[nodiscard]] std::span<const std::uint32_t> roots() const { return roots_; }
     // The group that made a cluster; no_group: a leaf.
     [[nodiscard]] std::uint32_t maker(std::uint32_t cluster) const { return makers_[cluster]; }
+    // Reads groups, and the reach of clusters, that nobody has asked for yet, by several threads. Errors:
+    // damage.
+    Result<void> read(std::span<const std::uint32_t> groups);
+    Result<void> reach_all(std::span<const std::uint32_t> clusters);
     // Clusters that a group uses. Errors: damage.
     Result<std::span<const std::uint32_t>> members(std::uint32_t group);
     Result<const ClusterReach*> reach(std::uint32_t cluster);
@@ -58,6 +62,7 @@ class RegionClusters {
     RegionClusters(const HeightField& field, const HorizonOccluder& occluder);
     Result<const GroupPart*> part(std::uint32_t group);
     Result<std::span<const VertexTriangle>> triangles(std::uint32_t cluster);
+    [[nodiscard]] ClusterReach reach_of(std::span<const VertexTriangle> triangles) const;
 
     PostGrid grid_;
     HorizonOccluder occluder_;

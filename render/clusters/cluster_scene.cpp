@@ -5,8 +5,15 @@
 
 #include "core/cluster_frame/cluster_choice.h"
 #include "core/cluster_frame/cluster_frame.h"
+#include "core/cluster_frame/region_clusters.h"
 
 namespace oro {
+
+ClusterScene::ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store)
+    : clusters_(std::move(clusters)), store_(std::move(store)) {}
+ClusterScene::ClusterScene(ClusterScene&&) noexcept = default;
+ClusterScene& ClusterScene::operator=(ClusterScene&&) noexcept = default;
+ClusterScene::~ClusterScene() = default;
 
 Result<ClusterScene> ClusterScene::create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
                                           std::uint64_t bytes) {

@@ -4,14 +4,18 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/cluster_frame/region_clusters.h"
 #include "core/frame/frame_plan.h"
 #include "render/clusters/cluster_store.h"
 
 namespace oro {
 
+class RegionClusters;
+
 class ClusterScene {
   public:
+    ClusterScene(ClusterScene&&) noexcept;
+    ClusterScene& operator=(ClusterScene&&) noexcept;
+    ~ClusterScene();
     // Clusters may take `bytes` on the GPU. Errors: out of memory.
     static Result<ClusterScene> create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
                                        std::uint64_t bytes);
@@ -25,8 +29,7 @@ class ClusterScene {
     [[nodiscard]] const ClusterStore& store() const { return store_; }
 
   private:
-    ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store)
-        : clusters_(std::move(clusters)), store_(std::move(store)) {}
+    ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store);
 
     std::unique_ptr<RegionClusters> clusters_;
     ClusterStore store_;

@@ -61,7 +61,8 @@ Result<std::size_t> ClusterStore::free_slot() {
     }
     const std::size_t slot = unused_.back();
     unused_.pop_back();
-    forget(slots_[slot].cluster);
+    // What never arrived in it may be in another by now.
+    if (slot_of_[slots_[slot].cluster] == slot) forget(slots_[slot].cluster);
     return slot;
 }
 

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "core/cluster_frame/region_clusters.h"
 #include "render/clusters/cluster_scene.h"
 #include "render/scene/scene.h"
 #include "tests/core/clusters/cluster_terrain.h"
