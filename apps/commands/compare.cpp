@@ -111,8 +111,6 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             region_pages(region, cuts.grids.front(), view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
-    // A picture is drawn again as it was.
-    if (view.mesh == "auto") view.mesh = "grid";
     ORO_TRY(const bool clusters, draws_clusters(region, view));
     ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
                                                {view.exaggeration, memory_of_pages(view, options.memory),

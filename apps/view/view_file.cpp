@@ -203,6 +203,13 @@ void read_region(const nlohmann::json& json, RegionRequest& region) {
     region.strict_datum = json_flag(json, "strict_datum");
 }
 
+// Only what was drawn by clusters says so; all else is drawn again by blocks.
+void read_mesh(const nlohmann::json& json, View& view) {
+    view.mesh = json.contains("mesh") ? json_string(json, "mesh") : "grid";
+    if (view.mesh != "auto" && view.mesh != "clusters" && view.mesh != "grid")
+        throw JsonFault{"'mesh' is '" + view.mesh + "', none of auto, clusters, grid"};
+}
+
 // What the parser of options would have refused must not come in by a file.
 View read_fields(const nlohmann::json& json) {
     View view;
@@ -250,10 +257,7 @@ View read_fields(const nlohmann::json& json) {
     if (!raster_request_named(view.pipeline))
         throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of " +
                         listed(words_of(raster_requests))};
-    // Only what was drawn by clusters says so.
-    if (json.contains("mesh")) view.mesh = json_string(json, "mesh");
-    if (view.mesh != "auto" && view.mesh != "clusters" && view.mesh != "grid")
-        throw JsonFault{"'mesh' is '" + view.mesh + "', none of auto, clusters, grid"};
+    read_mesh(json, view);
     // Nor have they a tau: they were drawn at full resolution.
     view.tau_px = json.contains("tau_px") ? number(json, "tau_px", limits::tau_px) : 0.0;
     read_models(json, view);

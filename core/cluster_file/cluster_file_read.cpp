@@ -54,6 +54,11 @@ Result<StoredGroup> read_record(const OpenFile& file, const ClusterOutline& outl
 
 }  // namespace
 
+Result<ClusterFile> ClusterFile::open(const std::string& path) {
+    ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    return open(std::move(file));
+}
+
 ClusterFile::ClusterFile(OpenFile file, ClusterOutline outline, std::uint64_t bytes)
     : file_(std::move(file)), outline_(std::move(outline)), bytes_(bytes) {
     std::uint32_t last = 0;
@@ -64,11 +69,6 @@ ClusterFile::ClusterFile(OpenFile file, ClusterOutline outline, std::uint64_t by
 std::uint32_t ClusterFile::level_of(std::uint32_t number) const {
     return 1 + static_cast<std::uint32_t>(std::upper_bound(last_groups_.begin(), last_groups_.end(), number) -
                                           last_groups_.begin());
-}
-
-Result<ClusterFile> ClusterFile::open(const std::string& path) {
-    ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
-    return open(std::move(file));
 }
 
 Result<ClusterFile> ClusterFile::open(OpenFile file) {

@@ -57,7 +57,7 @@ class ClusterPictures : public test::GpuTest {
         }
         std::printf(
             "%s, %s path, seed %u: %d cameras, %zu pixels of ground, pictures with background in them: %d\n",
-            name, name_of(path), seed, cameras, ground, holes);
+            name, name_of(path).c_str(), seed, cameras, ground, holes);
         EXPECT_GT(ground, static_cast<std::size_t>(cameras) * 1000U);
     }
 };
