@@ -113,9 +113,15 @@ struct PageBlock {
 };
 
 // Where a page's 129 x 129 posts are, on a net: steps of height_step_m along x, y and z of ECEF, from the
-// lattice point of the page's origin.
+// lattice point of the page's origin. In a page that reaches far (places_from_plane) they begin at a post's
+// place on a plane: middle + (row - middle_row) row_step + (column - middle_column) column_step.
 struct PagePlaces {
     int steps[49923];
+    int row_step[3];
+    int column_step[3];
+    int middle[3];
+    int middle_row;
+    int middle_column;
 };
 
 // A page of this frame: one that is drawn, or one above such a page. Its number in the frame's list is in the
@@ -133,7 +139,7 @@ struct FramePage {
     uvec3 from_eye_low;
     uvec3 from_eye_high;
     uint cull;  // bits: 1 the frustum, 2 the horizon may hide some meshlets of it; 4 none of its
-                // nodes may stand for finer ones
+                // nodes may stand for finer ones; 8 closes_gaps; 16 places_from_plane
     uint level;
     uint first_row;  // number in the region of the page's first post
     uint first_column;
@@ -167,6 +173,7 @@ ORO_CONST uint cull_by_horizon = 2u;
 ORO_CONST uint stands_never = 4u;
 ORO_CONST uint closes_gaps =
     8u;  // a page of a seam (core/seam) whose quads reach out by pixels, at least so many
+ORO_CONST uint places_from_plane = 16u;  // see PagePlaces
 ORO_CONST float least_gap_px = 0.05f;
 ORO_CONST uint seam_stride = 3u;         // posts of a seam's page from a quad to the next
 ORO_CONST float seam_unit = 1048576.0f;  // a unit vector's length in the places of its pages
