@@ -203,8 +203,13 @@ void read_region(const nlohmann::json& json, RegionRequest& region) {
     region.strict_datum = json_flag(json, "strict_datum");
 }
 
-// Only what was drawn by clusters says so; all else is drawn again by blocks.
-void read_mesh(const nlohmann::json& json, View& view) {
+// Views of before there was a choice have no pipeline. Only what was drawn by clusters says so; all else is
+// drawn again by blocks.
+void read_drawing(const nlohmann::json& json, View& view) {
+    if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
+    if (!raster_request_named(view.pipeline))
+        throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of " +
+                        listed(words_of(raster_requests))};
     view.mesh = json.contains("mesh") ? json_string(json, "mesh") : "grid";
     if (view.mesh != "auto" && view.mesh != "clusters" && view.mesh != "grid")
         throw JsonFault{"'mesh' is '" + view.mesh + "', none of auto, clusters, grid"};
@@ -252,13 +257,8 @@ View read_fields(const nlohmann::json& json) {
         read_choice(json, "edges", edges_named, edges);
         view.edges = edges;
     }
-    // Views of before there was a choice have none.
-    if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
-    if (!raster_request_named(view.pipeline))
-        throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of " +
-                        listed(words_of(raster_requests))};
-    read_mesh(json, view);
-    // Nor have they a tau: they were drawn at full resolution.
+    read_drawing(json, view);
+    // Views of before there was a tau were drawn at full resolution.
     view.tau_px = json.contains("tau_px") ? number(json, "tau_px", limits::tau_px) : 0.0;
     read_models(json, view);
     // The bundle's name alone: what it stood for is in the fields themselves, which somebody may have
