@@ -81,14 +81,10 @@ void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan,
-                           VkBuffer choice, bool first) const {
-    record_clear(commands, plan, first);
+void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines) const {
     const auto bind = [&](const OwnedPipeline& pipeline) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
     };
-    bind(pipelines.cull);
-    vkCmdDispatchIndirect(commands, choice, offsetof(gpu::LivePages, cull_groups));
     wait_for_lists(commands);
     bind(pipelines.raster);
     vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, meshlet_groups));

@@ -12,6 +12,7 @@
 #include "render/device/resources.h"
 #include "render/frame/compute_raster.h"
 #include "render/frame/grid_frame.h"
+#include "render/frame/occlusion.h"
 #include "render/frame/pipelines.h"
 #include "render/shading/air_tables.h"
 #include "render/shading/drape_wants.h"
@@ -21,12 +22,11 @@ namespace oro {
 // What a frame did and how long the GPU took for it.
 struct FrameReport {
     gpu::FrameCounts counts{};
-    std::uint64_t task_groups{};  // mesh path
-    std::uint64_t pages{};        // of the frame, parents of drawn ones included
-    double choose_s{};            // GPU timestamps: levels chosen
-    double raster_s{};            // from pages to triangle ids, by either path
-    double shade_s{};             // the shading pass
-    bool images_settled{true};    // images over the ground are as fine as the frame asks for
+    std::uint64_t pages{};      // of the frame, parents of drawn ones included
+    double choose_s{};          // GPU timestamps: levels chosen
+    double raster_s{};          // from pages to triangle ids, by either path
+    double shade_s{};           // the shading pass
+    bool images_settled{true};  // images over the ground are as fine as the frame asks for
     [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
 };
 
@@ -40,6 +40,8 @@ struct FrameRendererOptions {
     bool keep_triangles{false};    // for read_triangles()
     bool shades{true};             // false: there is nothing to be read but triangles; for times, too
     bool waits_for_images{true};   // false: a frame is drawn with what of them is there
+    OcclusionUse occlusion{OcclusionUse::if_it_pays};  // without record_positions
+    bool nearest_pyramid{false};                       // wrong occlusion, for the test that notices it
     RasterPath path{RasterPath::mesh};
 };
 
@@ -112,7 +114,14 @@ class FrameRenderer {
     void record(VkCommandBuffer commands, const FramePlan& plan);
     void record_upload(VkCommandBuffer commands, std::size_t grids) const;
     void record_choice(VkCommandBuffer commands, const GridFrame& grid, const FramePlan& plan) const;
-    void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_rounds(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_round(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;
+    void record_pyramid(VkCommandBuffer commands, const FramePlan& plan) const;
+    void push(VkCommandBuffer commands, const gpu::FrameRound& round) const;
+    void record_raster(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;
+    void record_meshes(VkCommandBuffer commands, std::size_t grid) const;
+    [[nodiscard]] bool remembers(const FramePlan& plan) const;
+    void remember(const FramePlan& plan, const gpu::FrameCounts& counts);
     Result<void> choose_shading(GridFrame& grid, bool first, gpu::FrameConstants& constants);
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
     void record_ids_alone(VkCommandBuffer commands) const;
@@ -129,6 +138,7 @@ class FrameRenderer {
     VkPipeline edges_{VK_NULL_HANDLE};  // of the frame
     std::vector<GridFrame> grids_;      // the plan's, then those beside it
     std::optional<ComputeRaster> compute_;
+    std::optional<Occlusion> occlusion_;
     AirTables air_;
     DrapeWants drape_;
     Commands commands_;

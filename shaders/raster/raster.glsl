@@ -1,6 +1,10 @@
 // Exact coverage on a grid of 1/256 px with integer edge functions: triangles that share an edge share no pixel and leave none
 // out, in whatever order they come. Needs frame.glsl and lists.glsl.
 #extension GL_KHR_memory_scope_semantics : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Visibility { uint64_t at[]; };
 
 const int subpixels = 256;
 const float farthest_px = 16384.0;  // outside the picture; what reaches farther is clipped first
@@ -78,7 +82,8 @@ int edge_bias(ivec2 from, ivec2 to) {
 void keep_nearest(ivec2 pixel, float depth, uint id) {
     Visibility visibility = Visibility(FRAME.visibility);
     uint at = uint(pixel.y) * FRAME.width_px + uint(pixel.x);
-    uint64_t candidate = (uint64_t(floatBitsToUint(depth)) << 32) | uint64_t(id);
+    // Where two are as near the lower id wins.
+    uint64_t candidate = (uint64_t(floatBitsToUint(depth)) << 32) | uint64_t(~id);
     // Most that is behind costs a load and no exchange. The load is atomic, too: others write while it reads.
     uint64_t nearest = atomicLoad(visibility.at[at], gl_ScopeDevice, gl_StorageSemanticsBuffer, gl_SemanticsRelaxed);
     if (candidate > nearest)
