@@ -141,8 +141,6 @@ void PageBuilder::place_origin() {
 
 void PageBuilder::fill_block() {
     set_spacing(grid_, summary_, block_);
-    const SineCosine lat = sine_cosine_deg(summary_.origin.lat_deg);
-    block_.up = gpu::vec2(lat.cosine, lat.sine);
     std::copy(heights_.steps.begin(), heights_.steps.end(), std::begin(block_.heights));
 }
 
@@ -328,6 +326,8 @@ std::int64_t post_beyond(const LevelAxis& axis, int post) {
 void set_spacing(const PostGrid& grid, const PageSummary& page, gpu::PageBlock& block) {
     const Geodetic& origin = page.origin;
     block.turn = gpu::vec3(0.0F);
+    const SineCosine lat = sine_cosine_deg(origin.lat_deg);
+    block.up = gpu::vec2(lat.cosine, lat.sine);
     if (grid.net) {
         set_net_spacing(*grid.net, page, block);
         return;
