@@ -203,9 +203,16 @@ struct FrameRound {
     uint is_last;      // 1: all pages are looked at
     uint nearest;      // 1: the pyramid is of the nearest depths, which is wrong (tests only)
     uint lists_round;  // 1: live_pages lists the pages that the round draws, not all
+    uint lists;        // number of the RasterLists of a grid's round (compute path)
     uint backwards;    // 1: last page, meshlet and triangle first (mesh path)
 };
 ORO_CONST uint round_shares = 256u;
+// What a picture of a frame's own parts shows (shade/show.comp).
+ORO_CONST uint show_colours = 0u;  // none of them
+ORO_CONST uint show_visible = 1u;  // whether the last round has drawn a pixel's meshlet, or one before
+ORO_CONST uint show_levels = 2u;
+ORO_CONST uint show_meshlets = 3u;
+ORO_CONST uint show_triangles = 4u;
 // The pyramid of the farthest depths: a level has a value for each square of 4, 8, 16, 32 and 64 pixels, row
 // by row, and the levels follow each other.
 ORO_CONST uint pyramid_finest = 2u;  // 2^2 = 4 pixels
@@ -229,6 +236,7 @@ struct RasterLists {
     uint tasks;  // squares of pixels of those
     uint task_groups[3];
 };
+ORO_CONST uint raster_lists_bytes = 64u;  // from one to the next
 // A triangle on the pixel grid, 1/256 px, with reversed depths; positive area.
 struct LargeTriangle {
     int ax, ay, bx, by, cx, cy;
@@ -424,6 +432,7 @@ struct FrameConstants {
     uvec2 page_before;      // uint[page_count]: a page's number in the last frame; no_page
     uvec2 pyramid;          // float: the pyramid of the farthest depths
     uvec2 ids_before;       // mesh path: uint for each pixel, row by row: its id before this round
+    uint show;              // show_...: what explains the frame, in the place of colours
     float placing_slack_m;  // a post may be drawn so far from where it is in its page's frame
 };
 

@@ -14,16 +14,16 @@ class ComputeRaster {
   public:
     static Result<ComputeRaster> create(const Gpu& gpu, VkExtent2D extent);
     Result<void> resize(VkExtent2D extent);
-    // Room for the meshlets of so many pages.
-    Result<void> reserve_pages(std::size_t count);
+    // Room for the meshlets of so many pages, and for so many lists.
+    Result<void> reserve(std::size_t pages, std::size_t lists);
 
     // Puts its addresses into the frame's constants.
     void address(gpu::FrameConstants& constants) const;
-    // Empties the lists, before a grid's meshlets of a round are listed. Before the first of a frame it
-    // clears the visibility buffer; all others draw into what is there.
-    void record_clear(VkCommandBuffer commands, const FramePlan& plan, bool first) const;
-    // Draws what was listed. Leaves the buffer ready for compute reads.
-    void record(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    // Clears the visibility buffer, and empties the lists of all grids and rounds.
+    void record_clear(VkCommandBuffer commands, const FramePlan& plan) const;
+    // Draws what was listed in one of them; FrameRound::lists is its number, and pushed. Leaves the buffer
+    // ready for compute reads.
+    void record(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint lists) const;
 
     // Depth << 32 | ~id for each pixel of the last frame, row by row, `width` to a row.
     [[nodiscard]] const Buffer& visibility() const { return visibility_; }

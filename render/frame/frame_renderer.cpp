@@ -113,7 +113,7 @@ Result<void> FrameRenderer::create_sets() {
 Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     std::size_t most_pages = std::max<std::size_t>(plan.pages.size(), 64);
     for (const FramePlan& other : plan.beside) most_pages = std::max(most_pages, other.pages.size());
-    if (compute_) ORO_CHECK(compute_->reserve_pages(most_pages));
+    if (compute_) ORO_CHECK(compute_->reserve(most_pages, Occlusion::most_rounds * (1 + plan.beside.size())));
     while (grids_.size() < 1 + plan.beside.size()) {
         GridFrame& grid = grids_.emplace_back();
         ORO_CHECK(grid.create_set(
@@ -170,9 +170,9 @@ Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first,
         ORO_CHECK(grid.casters.prepare(*gpu_, options_.path, *pipelines_, plan, constants));
         ORO_CHECK(choose_shading(grid, first, constants));
     }
+    occlusion_->address(constants);
     grid.address(plan);
     if (compute_) compute_->address(constants);
-    occlusion_->address(constants);
     grid.fill(plan);
     return {};
 }
@@ -224,6 +224,8 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     ORO_CHECK(number_pages(plan));
     ORO_CHECK(reserve(plan));
     occlusion_->begin(plan, remembers(plan));
+    if (!occlusion_->uses_last_frame())
+        for (GridFrame& grid : grids_) grid.forget();
     const FrameAsked asked{style, sample_index, sample_count, drape};
     ORO_CHECK(upload(grids_[0], plan, true, asked));
     for (std::size_t i = 0; i < plan.beside.size(); ++i)
@@ -234,7 +236,7 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
-    remember(plan, report.counts);
+    remember(plan);
     report.pages = plan.pages.size();
     for (const FramePlan& other : plan.beside) report.pages += other.pages.size();
     if (report.counts.triangles_not_clipped > 0)
@@ -253,6 +255,7 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     };
     report.choose_s = between_s(0);
     report.raster_s = between_s(1);
+    occlusion_->end(report.raster_s);
     report.shade_s = between_s(drape_.is_on() ? 4 : 2);
     return report;
 }

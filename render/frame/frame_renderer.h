@@ -121,7 +121,7 @@ class FrameRenderer {
     void record_raster(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;
     void record_meshes(VkCommandBuffer commands, std::size_t grid) const;
     [[nodiscard]] bool remembers(const FramePlan& plan) const;
-    void remember(const FramePlan& plan, const gpu::FrameCounts& counts);
+    void remember(const FramePlan& plan);
     Result<void> choose_shading(GridFrame& grid, bool first, gpu::FrameConstants& constants);
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
     void record_ids_alone(VkCommandBuffer commands) const;

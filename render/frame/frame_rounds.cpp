@@ -105,16 +105,17 @@ void FrameRenderer::record_pyramid(VkCommandBuffer commands, const FramePlan& pl
 void FrameRenderer::record_round(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const {
     const OwnedPipeline& chooses = number == 0 ? pipelines_->cull : pipelines_->uncover;
     gpu::FrameRound round = occlusion_->rounds()[number];
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+    const std::size_t grids = 1 + plan.beside.size();
+    for (std::size_t i = 0; i < grids; ++i) {
         const VkBuffer choice = grids_[i].choice().handle.get();
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        if (compute_) compute_->record_clear(commands, plan, number == 0 && i == 0);
         round.lists_round = 0;
+        round.lists = static_cast<gpu::uint>(number * grids + i);
         push(commands, round);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, chooses.get());
         vkCmdDispatchIndirect(commands, choice, offsetof(gpu::LivePages, cull_groups));
         if (compute_) {
-            compute_->record(commands, *pipelines_);
+            compute_->record(commands, *pipelines_, round.lists);
             continue;
         }
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
@@ -135,6 +136,7 @@ void FrameRenderer::record_round(VkCommandBuffer commands, const FramePlan& plan
 
 void FrameRenderer::record_rounds(VkCommandBuffer commands, const FramePlan& plan) const {
     const std::size_t count = occlusion_->rounds().size();
+    if (compute_) compute_->record_clear(commands, plan);
     for (std::size_t number = 0; number < count; ++number) {
         if (number > 0) record_pyramid(commands, plan);
         record_round(commands, plan, number);
@@ -148,14 +150,13 @@ bool FrameRenderer::remembers(const FramePlan& plan) const {
     return false;
 }
 
-void FrameRenderer::remember(const FramePlan& plan, const gpu::FrameCounts& counts) {
+void FrameRenderer::remember(const FramePlan& plan) {
     for (std::size_t i = 0; i < grids_.size(); ++i) {
         if (occlusion_->is_on() && i <= plan.beside.size())
             grids_[i].remember(i == 0 ? plan : plan.beside[i - 1]);
         else
             grids_[i].forget();
     }
-    occlusion_->end(counts);
 }
 
 }  // namespace oro

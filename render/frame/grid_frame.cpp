@@ -165,7 +165,8 @@ void GridFrame::address(FramePlan& plan) const {
         at += VkDeviceSize{4} * gpu::accepted_words * page_capacity_;
     }
     constants.seen = address_words(seen_[turn_].address);
-    if (remembers()) constants.seen_before = address_words(seen_[1 - turn_].address);
+    if (constants.occlusion != 0 && remembers())
+        constants.seen_before = address_words(seen_[1 - turn_].address);
     constants.page_before = address_words(data_.address + layout.before);
 }
 

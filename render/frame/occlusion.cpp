@@ -10,9 +10,9 @@ namespace {
 
 // Without a last frame: the nearest 16th of the pages that have something to draw, then a quarter, then all.
 constexpr gpu::uint first_share = gpu::round_shares / 16, second_share = gpu::round_shares / 4;
-// Where less than a third of the meshlets is hidden, rounds cost about what they spare; so many frames go
-// without then, until it is tried again.
-constexpr std::uint32_t hidden_share = 3, frames_without = 15;
+// Of if_it_pays: the slower way is tried again after so many frames, twice as many each time that it is
+// slower still.
+constexpr std::uint32_t first_patience = 16, most_patience = 1024;
 
 gpu::FrameRound round_of(gpu::uint first, gpu::uint last, bool is_last) {
     gpu::FrameRound round{};
@@ -64,24 +64,42 @@ bool Occlusion::shows_much_of(const FramePlan& plan) const {
     return moved_m <= 100.0F + 0.05F * std::abs(now.eye_h_m);
 }
 
+// Both ways are tried, and then that which took less time goes on. Other views begin anew, with occlusion:
+// where a view is seen once, that is what it costs least with by the mesh path.
+bool Occlusion::goes_without() {
+    if (with_s_ == 0.0) return false;
+    if (without_s_ == 0.0) return true;
+    const bool without_is_faster = without_s_ < with_s_;
+    if (wait_ > 0) {
+        --wait_;
+        return without_is_faster;
+    }
+    patience_ = std::min(2 * patience_, most_patience);
+    wait_ = patience_;
+    return !without_is_faster;
+}
+
 void Occlusion::begin(const FramePlan& plan, bool remembers) {
     rounds_.assign(1, round_of(0, gpu::round_shares, true));
-    may_tie_ = false;
+    may_tie_ = uses_last_frame_ = false;
     if (use_ == OcclusionUse::off) return;
     const bool much = shows_much_of(plan);
-    if (use_ == OcclusionUse::if_it_pays && frames_without_ > 0 && much) {
-        --frames_without_;
-        return;
-    }
     last_ = plan.constants;
-    if (much && remembers) {
+    last_.page_count = std::max(last_.page_count, 1U);
+    if (!much) {
+        with_s_ = without_s_ = 0.0;
+        patience_ = wait_ = first_patience;
+    }
+    if (use_ == OcclusionUse::if_it_pays && much && goes_without()) return;
+    uses_last_frame_ = much && remembers;
+    if (uses_last_frame_) {
         rounds_ = {round_of(0, 0, false), round_of(0, gpu::round_shares, true)};
     } else {
         rounds_ = {round_of(0, first_share, false), round_of(first_share, second_share, false),
                    round_of(0, gpu::round_shares, true)};
     }
     // Pages have numbers from the nearest on: rounds from near to far draw ids in their order.
-    may_tie_ = remembers || !plan.beside.empty();
+    may_tie_ = uses_last_frame_ || !plan.beside.empty();
     for (gpu::FrameRound& round : rounds_) round.nearest = nearest_ ? 1U : 0U;
 }
 
@@ -102,10 +120,11 @@ void Occlusion::record_pyramid(VkCommandBuffer commands, const Pipelines& pipeli
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-void Occlusion::end(const gpu::FrameCounts& counts) {
-    if (!is_on() || use_ != OcclusionUse::if_it_pays) return;
-    const std::uint64_t kept = std::uint64_t{counts.meshlets_drawn} + counts.meshlets_hidden;
-    frames_without_ = std::uint64_t{hidden_share} * counts.meshlets_hidden < kept ? frames_without : 0;
+void Occlusion::end(double raster_s) {
+    if (!is_on())
+        without_s_ = raster_s;
+    else if (uses_last_frame_)
+        with_s_ = raster_s;
 }
 
 }  // namespace oro

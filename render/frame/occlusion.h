@@ -15,7 +15,7 @@ namespace oro {
 enum class OcclusionUse {
     off,
     on,
-    if_it_pays  // a frame after one in which little was hidden goes without; now and then it is tried again
+    if_it_pays  // as it took less time when both were tried; now and then the other is tried again
 };
 
 class Occlusion {
@@ -30,24 +30,32 @@ class Occlusion {
     void begin(const FramePlan& plan, bool remembers);
     [[nodiscard]] const std::vector<gpu::FrameRound>& rounds() const { return rounds_; }
     [[nodiscard]] bool is_on() const { return rounds_.size() > 1; }
+    // Whether the first round draws what the last frame saw.
+    [[nodiscard]] bool uses_last_frame() const { return uses_last_frame_; }
     // Whether a round may draw what is as near as what an earlier one drew, and has a lower id.
     [[nodiscard]] bool may_tie() const { return may_tie_; }
     void address(gpu::FrameConstants& constants) const;
     // From what the rounds so far have drawn; the frame's first set is bound, and its depths are there to be
     // read. Leaves the pyramid ready for compute reads.
     void record_pyramid(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan) const;
-    // What came of the frame.
-    void end(const gpu::FrameCounts& counts);
+    // How long the frame's rounds took.
+    void end(double raster_s);
+    static constexpr std::size_t most_rounds = 3;
 
   private:
     [[nodiscard]] bool shows_much_of(const FramePlan& plan) const;
 
     OcclusionUse use_;
     bool nearest_;
-    bool may_tie_{};
+    bool may_tie_{}, uses_last_frame_{};
     std::vector<gpu::FrameRound> rounds_;
-    gpu::FrameConstants last_{};  // of the last frame that was drawn in rounds; no page in it: there is none
-    std::uint32_t frames_without_{};  // still to go without
+    gpu::FrameConstants
+        last_{};  // of the last frame that was drawn in rounds; its page_count 0: there is none
+    // Of if_it_pays: what a frame took with it and without, 0 where it was not tried; frames until the slower
+    // is tried again, and after how many that is.
+    [[nodiscard]] bool goes_without();
+    double with_s_{}, without_s_{};
+    std::uint32_t wait_{}, patience_{};
     Buffer pyramid_, ids_before_;
 };
 

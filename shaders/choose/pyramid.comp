@@ -38,14 +38,10 @@ void write_value(uint level, uvec2 square, float value) {
 
 void main() {
     uvec2 lane = gl_LocalInvocationID.xy, square = gl_WorkGroupID.xy * 16u + lane;
-    float none = round.nearest != 0u ? 0.0 : 1.0e30;  // beyond the picture
-    float value = none;
-    for (uint y = 0u; y < 4u; ++y) {
-        for (uint x = 0u; x < 4u; ++x) {
-            uvec2 pixel = square * 4u + uvec2(x, y);
-            if (pixel.x < FRAME.width_px && pixel.y < FRAME.height_px) value = further(value, depth_of(ivec2(pixel)));
-        }
-    }
+    // Beyond the picture its last pixel once more: it is in every larger square that reaches there.
+    uvec2 last = uvec2(FRAME.width_px, FRAME.height_px) - 1u;
+    float value = depth_of(ivec2(min(square * 4u, last)));
+    for (uint i = 1u; i < 16u; ++i) value = further(value, depth_of(ivec2(min(square * 4u + uvec2(i & 3u, i >> 2u), last))));
     write_value(pyramid_finest, square, value);
     for (uint level = pyramid_finest + 1u; level <= pyramid_coarsest; ++level) {
         farthest[lane.y][lane.x] = value;

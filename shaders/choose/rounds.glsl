@@ -1,5 +1,4 @@
 // What a frame's rounds hand on: bits for each node of a page, and what the rasterisers draw. Needs frame.glsl and lists.glsl.
-layout(push_constant, scalar) uniform Round { FrameRound round; };
 // The compute rasteriser takes lists of meshlets, the mesh path bits of pages.
 layout(constant_id = 0) const bool for_compute = true;
 

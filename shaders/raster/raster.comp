@@ -62,7 +62,7 @@ void draw_triangle(uint frame_page, uint meshlet, uint triangle) {
     if (fits_near(t) && size.x * size.y <= alone_max_px) {
         draw_near(t, box, 0u, 1u);
     } else if (!list_large(t, box)) {
-        draw_far(t, box, 0u, 1u);
+        draw_far(t, box);
     }
 }
 

@@ -80,6 +80,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameRound, is_last),
         ORO_MEMBER(FrameRound, nearest),
         ORO_MEMBER(FrameRound, lists_round),
+        ORO_MEMBER(FrameRound, lists),
         ORO_MEMBER(FrameRound, backwards),
         ORO_MEMBER(LivePages, count),
         ORO_MEMBER(LivePages, task_groups),
@@ -319,6 +320,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, page_before),
         ORO_MEMBER(FrameConstants, pyramid),
         ORO_MEMBER(FrameConstants, ids_before),
+        ORO_MEMBER(FrameConstants, show),
         ORO_MEMBER(FrameConstants, placing_slack_m),
     };
 #undef ORO_MEMBER
