@@ -11,8 +11,9 @@
 layout(local_size_x = 128) in;  // a triangle an invocation
 
 // Pixels of the largest box that one invocation draws by itself. What is larger goes to other workgroups: near the eye a few
-// meshlets cover most of the picture, and whoever drew them alone would keep all others waiting.
-const int alone_max_px = 64;
+// meshlets cover most of the picture, and whoever drew them alone would keep all others waiting. A processor has nobody to keep
+// waiting, and takes longer to begin with a workgroup.
+layout(constant_id = 1) const int alone_max_px = 64;
 
 shared vec4 posts[meshlet_vertices];  // clip coordinates; w = 0 where void
 shared uint places[meshlet_vertices];  // row << 8 | column in the page, after stitching

@@ -145,9 +145,9 @@ void draw_far_square(ScreenTriangle t, ivec4 box, uint start, uint stride) {
     bool within = least >= 0;
     float area = float(doubled_area(t.a, t.b, t.c));
     vec3 share_b = vec3(float(ca), float(ca_x), float(ca_y)) / area, share_c = vec3(float(ab), float(ab_x), float(ab_y)) / area;
-    for (uint i = start; i < large_square_px * large_square_px; i += stride) {
+    for (uint i = start; i < uint(more.y + 1) * large_square_px; i += stride) {
         ivec2 step = ivec2(i % large_square_px, i / large_square_px);
-        if (step.x > more.x || step.y > more.y) continue;
+        if (step.x > more.x) continue;
         if (!within) {
             int64_t x = int64_t(step.x), y = int64_t(step.y);
             if (((ab_in + ab_x * x + ab_y * y) | (bc_in + bc_x * x + bc_y * y) | (ca_in + ca_x * x + ca_y * y)) < 0) continue;

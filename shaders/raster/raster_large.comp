@@ -21,5 +21,6 @@ void main() {
     t.id = large.id;
     ivec4 box = in_square(pixel_box(t), ivec2(task.square & 0xffffu, task.square >> 16));
     if (box.z < box.x || box.w < box.y) return;
-    draw_far_square(t, box, gl_LocalInvocationIndex, 128u);
+    if (fits_near(t)) draw_near(t, box, gl_LocalInvocationIndex, 128u);
+    else draw_far_square(t, box, gl_LocalInvocationIndex, 128u);
 }
