@@ -149,8 +149,9 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
 // All that a grid's programs read of a frame. `first`: of the frame's grids; only it has images over the
 // ground.
 Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first, const FrameAsked& asked) {
-    ORO_CHECK(grid.reserve(*gpu_, plan));
     gpu::FrameConstants& constants = plan.constants;
+    occlusion_->address(constants);
+    ORO_CHECK(grid.reserve(*gpu_, plan));
     constants.sample_index = asked.sample_index;
     constants.sample_count = asked.sample_count;
     constants.counts = address_words(counts_.address);
@@ -170,7 +171,6 @@ Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first,
         ORO_CHECK(grid.casters.prepare(*gpu_, options_.path, *pipelines_, plan, constants));
         ORO_CHECK(choose_shading(grid, first, constants));
     }
-    occlusion_->address(constants);
     grid.address(plan);
     if (compute_) compute_->address(constants);
     grid.fill(plan);
@@ -224,7 +224,7 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     ORO_CHECK(number_pages(plan));
     ORO_CHECK(reserve(plan));
     occlusion_->begin(plan, remembers(plan));
-    if (!occlusion_->uses_last_frame())
+    if (occlusion_->is_on() && !occlusion_->uses_last_frame())
         for (GridFrame& grid : grids_) grid.forget();
     const FrameAsked asked{style, sample_index, sample_count, drape};
     ORO_CHECK(upload(grids_[0], plan, true, asked));

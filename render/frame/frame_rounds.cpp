@@ -151,12 +151,10 @@ bool FrameRenderer::remembers(const FramePlan& plan) const {
 }
 
 void FrameRenderer::remember(const FramePlan& plan) {
-    for (std::size_t i = 0; i < grids_.size(); ++i) {
-        if (occlusion_->is_on() && i <= plan.beside.size())
-            grids_[i].remember(i == 0 ? plan : plan.beside[i - 1]);
-        else
-            grids_[i].forget();
-    }
+    if (!occlusion_->is_on()) return;
+    grids_[0].remember(plan);
+    for (std::size_t i = 0; i < plan.beside.size(); ++i) grids_[i + 1].remember(plan.beside[i]);
+    for (std::size_t i = 1 + plan.beside.size(); i < grids_.size(); ++i) grids_[i].forget();
 }
 
 }  // namespace oro

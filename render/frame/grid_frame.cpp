@@ -109,10 +109,10 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const FramePlan& plan) {
                                        MemoryKind::device, "choice of levels"));
         page_capacity_ = capacity;
     }
-    return reserve_seen(gpu, plan.pages.size());
+    return plan.constants.occlusion != 0 ? reserve_seen(gpu, plan.pages.size()) : Result<void>();
 }
 
-// The last frame's stay as they are.
+// Of this frame in rounds; those of the last one stay as they are.
 Result<void> GridFrame::reserve_seen(const Gpu& gpu, std::size_t pages) {
     turn_ = 1 - turn_;
     const VkDeviceSize bytes = VkDeviceSize{4} * gpu::accepted_words * std::max<std::size_t>(pages, 64);
@@ -177,6 +177,7 @@ void GridFrame::fill(const FramePlan& plan) {
         if (!values.empty())
             std::memcpy(staging_.mapped + at, values.data(), values.size() * sizeof(values[0]));
     };
+    clears_seen_ = plan.constants.occlusion != 0;
     std::memcpy(staging_.mapped, &plan.constants, sizeof(plan.constants));
     copy(pages_offset, plan.pages);
     copy(layout.rows, plan.row_terms);
@@ -187,7 +188,7 @@ void GridFrame::fill(const FramePlan& plan) {
 void GridFrame::record_upload(VkCommandBuffer commands) const {
     const VkBufferCopy copy{0, 0, size_};
     vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
-    vkCmdFillBuffer(commands, seen_[turn_].handle.get(), 0, VK_WHOLE_SIZE, 0);
+    if (clears_seen_) vkCmdFillBuffer(commands, seen_[turn_].handle.get(), 0, VK_WHOLE_SIZE, 0);
 }
 
 void GridFrame::bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const {

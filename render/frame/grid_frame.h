@@ -27,7 +27,7 @@ class GridFrame {
     void record_upload(VkCommandBuffer commands) const;
     void bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const;
 
-    // The frame was drawn in rounds: the next one knows which of its nodes were seen. Or nobody knows.
+    // The frame was drawn in rounds: the next such one knows which of its nodes were seen. Or nobody knows.
     void remember(const FramePlan& plan);
     void forget() { before_.clear(); }
     [[nodiscard]] bool remembers() const { return !before_.empty(); }
@@ -49,10 +49,11 @@ class GridFrame {
     Buffer staging_;  // constants, then pages, then rows and columns, then FrameConstants::page_before
     Buffer data_;     // the same on the device
     Buffer choice_;
-    std::array<Buffer, 2> seen_;  // of this frame and of the last, by turns
+    std::array<Buffer, 2> seen_;  // of this frame in rounds and of the last such one, by turns
     std::size_t turn_{};
-    std::vector<PageIndex> before_;  // the last frame's pages; none: nothing is known of it
+    std::vector<PageIndex> before_;  // the last such frame's pages; none: nothing is known of it
     std::size_t page_capacity_{};
+    bool clears_seen_{};
     VkDeviceSize size_{};  // that a frame sends
 };
 

@@ -74,8 +74,9 @@ bool Occlusion::goes_without() {
         --wait_;
         return without_is_faster;
     }
-    patience_ = std::min(2 * patience_, most_patience);
-    wait_ = patience_;
+    // With it twice: what the first such frame knows of what is seen may be old.
+    if (trials_ == 0) trials_ = without_is_faster ? 2 : 1;
+    if (--trials_ == 0) wait_ = patience_ = std::min(2 * patience_, most_patience);
     return !without_is_faster;
 }
 
@@ -85,10 +86,12 @@ void Occlusion::begin(const FramePlan& plan, bool remembers) {
     if (use_ == OcclusionUse::off) return;
     const bool much = shows_much_of(plan);
     last_ = plan.constants;
-    last_.page_count = std::max(last_.page_count, 1U);
+    for (const FramePlan& other : plan.beside) last_.page_count += other.constants.page_count;
+    if (last_.page_count == 0) return;  // nothing hides anything
     if (!much) {
         with_s_ = without_s_ = 0.0;
         patience_ = wait_ = first_patience;
+        trials_ = 0;
     }
     if (use_ == OcclusionUse::if_it_pays && much && goes_without()) return;
     uses_last_frame_ = much && remembers;
@@ -123,8 +126,9 @@ void Occlusion::record_pyramid(VkCommandBuffer commands, const Pipelines& pipeli
 void Occlusion::end(double raster_s) {
     if (!is_on())
         without_s_ = raster_s;
-    else if (uses_last_frame_)
+    else if (was_on_)
         with_s_ = raster_s;
+    was_on_ = is_on();
 }
 
 }  // namespace oro

@@ -55,7 +55,8 @@ class Occlusion {
     // is tried again, and after how many that is.
     [[nodiscard]] bool goes_without();
     double with_s_{}, without_s_{};
-    std::uint32_t wait_{}, patience_{};
+    std::uint32_t wait_{}, patience_{}, trials_{};
+    bool was_on_{};
     Buffer pyramid_, ids_before_;
 };
 

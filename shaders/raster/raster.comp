@@ -60,11 +60,9 @@ void draw_triangle(uint frame_page, uint meshlet, uint triangle) {
     ivec4 box = pixel_box(t);
     ivec2 size = box.zw - box.xy + 1;
     if (min(size.x, size.y) <= 0) return;
-    if (fits_near(t) && size.x * size.y <= alone_max_px) {
-        draw_near(t, box, 0u, 1u);
-    } else if (!list_large(t, box)) {
-        draw_far(t, box);
-    }
+    // Where the lists are full raster_clip draws it alone: that code would take registers from all others here.
+    if (fits_near(t) && size.x * size.y <= alone_max_px) draw_near(t, box, 0u, 1u);
+    else if (!list_large(t, box)) list_clip(id);
 }
 
 void main() {
