@@ -49,8 +49,9 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     assert(options.extent.height > 0 && options.extent.height <= gpu.report().max_picture_side_px);
     FrameRenderer renderer(gpu);
     renderer.options_ = options;
-    ORO_TRY(renderer.pipelines_,
-            shared_pipelines(gpu, options.path, {options.record_positions, options.keep_triangles}));
+    ORO_TRY(renderer.pipelines_, shared_pipelines(gpu, options.path,
+                                                  {options.record_positions, options.keep_triangles,
+                                                   options.show != gpu::show_colours}));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -163,6 +164,7 @@ Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first,
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = asked.style;
+    constants.show = options_.show;
     if (first)
         ORO_CHECK(drape_.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? asked.drape : nullptr,
                                  constants));
@@ -220,7 +222,8 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
                                         DrapeStore* drape) {
     assert(plan.constants.width_px <= options_.extent.width &&
            plan.constants.height_px <= options_.extent.height);
-    assert(sample_count == 1 || (options_.several_samples && !options_.smooth_edges));
+    assert(sample_count == 1 ||
+           (options_.several_samples && !options_.smooth_edges && options_.show == gpu::show_colours));
     ORO_CHECK(number_pages(plan));
     ORO_CHECK(reserve(plan));
     occlusion_->begin(plan, remembers(plan));

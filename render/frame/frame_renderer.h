@@ -39,6 +39,7 @@ struct FrameRendererOptions {
     bool keep_depths{false};       // for read_depths()
     bool keep_triangles{false};    // for read_triangles()
     bool shades{true};             // false: there is nothing to be read but triangles; for times, too
+    gpu::uint show{};              // gpu::show_...: what explains a frame of one sample, not its colours
     bool waits_for_images{true};   // false: a frame is drawn with what of them is there
     OcclusionUse occlusion{OcclusionUse::if_it_pays};  // without record_positions
     bool nearest_pyramid{false};                       // wrong occlusion, for the test that notices it
@@ -124,6 +125,7 @@ class FrameRenderer {
     void remember(const FramePlan& plan);
     Result<void> choose_shading(GridFrame& grid, bool first, gpu::FrameConstants& constants);
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
+    void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
     Result<void> ask_again(const FramePlan& plan, std::uint32_t seed);

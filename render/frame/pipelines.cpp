@@ -16,6 +16,7 @@
 #include "spirv/raster_clip_comp.h"
 #include "spirv/raster_comp.h"
 #include "spirv/raster_large_comp.h"
+#include "spirv/show_comp.h"
 #include "spirv/terrain_frag.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_mesh_two.h"
@@ -288,10 +289,13 @@ Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath p
         ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants.record_positions));
         kept = std::make_shared<Pipelines>(std::move(pipelines));
     }
+    const VkBool32 compute = path == RasterPath::compute ? VK_TRUE : VK_FALSE;
+    const VkSpecializationMapEntry entry{0, 0, sizeof(compute)};
+    const VkSpecializationInfo constants{1, &entry, sizeof(compute), &compute};
+    if (wants.show && !kept->show) {
+        ORO_TRY(kept->show, create_compute_pipeline(gpu, *kept, show_comp_spirv, "show", &constants));
+    }
     if (wants.triangles && !kept->triangles) {
-        const VkBool32 compute = path == RasterPath::compute ? VK_TRUE : VK_FALSE;
-        const VkSpecializationMapEntry entry{0, 0, sizeof(compute)};
-        const VkSpecializationInfo constants{1, &entry, sizeof(compute), &compute};
         ORO_TRY(kept->triangles, create_compute_pipeline(gpu, *kept, triangles_comp_spirv, "triangles",
                                                          &constants, VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
     }

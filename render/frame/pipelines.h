@@ -57,12 +57,14 @@ struct Pipelines {
     // Off and on a net: of every second pixel, of all; 16 x 16 of them.
     std::array<std::array<OwnedPipeline, 2>, 2> sun_shares;
     OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
+    OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8
 };
 
 // What a renderer is asked for besides triangle ids.
 struct PipelineWants {
     bool record_positions{false};  // the mesh shader writes each placed post to FrameConstants.recorded
     bool triangles{false};         // `triangles` is there
+    bool show{false};              // `show` is there
 };
 
 // Made once and kept until the device ends, with all that has been added since: drivers take longer to make
