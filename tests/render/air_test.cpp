@@ -1,5 +1,6 @@
 // The sky against a reference that integrates by brute force.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
@@ -192,13 +193,20 @@ AirSeen seen_in(const std::vector<float>& tables, const GroundLine& line, double
                    i = std::min(static_cast<unsigned>(line.row) - half, gpu::aerial_rises - 2) + half,
                    j = std::min(static_cast<unsigned>(line.column), gpu::aerial_turns - 2),
                    k = std::min(static_cast<unsigned>(line.slice), gpu::aerial_slices - 2);
+    // Nine logarithms in 16 bits each: light but for what dust scatters, that, what is let through.
+    const auto code = [&](std::size_t number) {
+        const auto word = std::bit_cast<std::uint32_t>(tables[number / 2]);
+        return gpu::aerial_log_low + (number % 2 == 0 ? word & 65535U : word >> 16U) *
+                                         (static_cast<double>(gpu::aerial_log_high) - gpu::aerial_log_low) /
+                                         65535.0;
+    };
     const auto entry = [&](unsigned part, unsigned slice) {
         const auto one = [&](unsigned row, unsigned column) {
             const std::size_t at =
-                4 * (gpu::aerial_first +
-                     3 * ((row * gpu::aerial_turns + column) * gpu::aerial_slices + slice)) +
+                8 * (gpu::aerial_first +
+                     2 * ((row * gpu::aerial_turns + column) * gpu::aerial_slices + slice)) +
                 3 * part;
-            return glm::dvec3(tables[at], tables[at + 1], tables[at + 2]);
+            return glm::dvec3(code(at), code(at + 1), code(at + 2));
         };
         return glm::mix(glm::mix(one(i, j), one(i, j + 1), line.column - j),
                         glm::mix(one(i + 1, j), one(i + 1, j + 1), line.column - j), line.row - i);
@@ -206,7 +214,7 @@ AirSeen seen_in(const std::vector<float>& tables, const GroundLine& line, double
     const auto way_of = [](double x) { return x < 0.5 ? 2.0 * x * x : 1.0 - 2.0 * (1.0 - x) * (1.0 - x); };
     const double last = gpu::aerial_slices - 1, low = way_of(k / last), high = way_of((k + 1) / last),
                  on = (line.way - low) / (high - low);
-    const glm::dvec3 let = entry(3, k + 1) / entry(3, k), here = glm::pow(let, glm::dvec3(on));
+    const glm::dvec3 let = glm::exp(entry(2, k + 1) - entry(2, k)), here = glm::pow(let, glm::dvec3(on));
     glm::dvec3 come = (1.0 - here) / (1.0 - let);
     for (int c = 0; c < 3; ++c)
         if (let[c] > 0.999) come[c] = on;
@@ -214,11 +222,9 @@ AirSeen seen_in(const std::vector<float>& tables, const GroundLine& line, double
         return glm::mix(glm::exp(entry(part, k)), glm::exp(entry(part, k + 1)), come);
     };
     const double g = 0.8;
-    return {between(0) * (3.0 / (16.0 * pi) * (1.0 + to_sun * to_sun)) +
-                between(1) * (3.0 / (8.0 * pi) * (1.0 - g * g) * (1.0 + to_sun * to_sun) /
-                              ((2.0 + g * g) * std::pow(1.0 + g * g - 2.0 * g * to_sun, 1.5))) +
-                between(2),
-            entry(3, k) * here};
+    return {between(0) + between(1) * (3.0 / (8.0 * pi) * (1.0 - g * g) * (1.0 + to_sun * to_sun) /
+                                       ((2.0 + g * g) * std::pow(1.0 + g * g - 2.0 * g * to_sun, 1.5))),
+            glm::exp(entry(2, k)) * here};
 }
 
 // What lies between the eye and the ground: light within 2 % of what white ground sends through it and of
