@@ -113,9 +113,15 @@ struct PageBlock {
 };
 
 // Where a page's 129 x 129 posts are, on a net: steps of height_step_m along x, y and z of ECEF, from the
-// lattice point of the page's origin.
+// lattice point of the page's origin. In a page that reaches far (places_from_plane) they begin at a post's
+// place on a plane: middle + (row - middle_row) row_step + (column - middle_column) column_step.
 struct PagePlaces {
     int steps[49923];
+    int row_step[3];
+    int column_step[3];
+    int middle[3];
+    int middle_row;
+    int middle_column;
 };
 
 // A page of this frame: one that is drawn, or one above such a page. Its number in the frame's list is in the
@@ -133,7 +139,7 @@ struct FramePage {
     uvec3 from_eye_low;
     uvec3 from_eye_high;
     uint cull;  // bits: 1 the frustum, 2 the horizon may hide some meshlets of it; 4 none of its
-                // nodes may stand for finer ones
+                // nodes may stand for finer ones; 8 closes_gaps; 16 places_from_plane
     uint level;
     uint first_row;  // number in the region of the page's first post
     uint first_column;
@@ -167,6 +173,7 @@ ORO_CONST uint cull_by_horizon = 2u;
 ORO_CONST uint stands_never = 4u;
 ORO_CONST uint closes_gaps =
     8u;  // a page of a seam (core/seam) whose quads reach out by pixels, at least so many
+ORO_CONST uint places_from_plane = 16u;  // see PagePlaces
 ORO_CONST float least_gap_px = 0.05f;
 ORO_CONST uint seam_stride = 3u;         // posts of a seam's page from a quad to the next
 ORO_CONST float seam_unit = 1048576.0f;  // a unit vector's length in the places of its pages
@@ -220,49 +227,7 @@ ORO_CONST uint tasks_max = 1048576u;
 
 #include "shaders/shared_style.h"
 
-// What casts shadows into a frame: pages of all levels, those that are drawn and others, behind the eye, too.
-// Of each level the pages within a rectangle (rows and columns of pages) may be there.
-struct CasterLevel {
-    uint first_row;
-    uint first_column;
-    uint rows;
-    uint columns;
-    uint first;  // of its entries in the table: numbers of pages, row by row; no_page where there is none
-};
-struct CasterPage {
-    uvec2 block;  // device address of its PageBlock
-    uint level;
-    uint row;
-    uint column;
-};
-ORO_CONST uint open_corners = 17u;       // along a page's side
-ORO_CONST uint open_groups_a_page = 5u;  // workgroups of 64
-struct Casters {
-    CasterLevel levels[31];
-    uint level_count;
-    float row_rad;  // from one post of level 0 to the next
-    float column_rad;
-    uint page_count;
-    float top_m;        // nothing is higher above the ellipsoid, as drawn
-    float error_per_m;  // casters may be off by so much for each metre from the eye to what they shade, times
-                        // the slope of the light there: its rise on a level metre, 0.02 to 1
-    uvec2 pages;        // CasterPage
-    uvec2 table;        // uint
-    uvec2 nodes;        // CasterNode, 256 a page
-    uvec2 openness;  // float[open_corners^2] for each page of the frame: the share of the sky that its nodes'
-                     // corners see
-    uvec2 sun_shares;  // float for each pixel, row by row: what it sees of the sun
-};
-ORO_CONST float no_node_m = 1.0e30f;
-// A node of such a page.
-struct CasterNode {
-    float top_m;          // nothing that it stands for is higher
-    float error_m;        // of the pyramid
-    float above_top_m;    // the same of the node of the next coarser level that holds it;
-    float above_error_m;  // ... no_node_m where that is not there
-    uint finer;           // 1: the page of the next finer level is there
-    uvec2 block;          // device address of its page's PageBlock
-};
+#include "shaders/shared_casters.h"
 
 // The geoid's undulation N at nodes of its own, bilinear between them; the nearest beyond them.
 struct UndulationTable {

@@ -39,11 +39,6 @@ void begin_with_region_at(const Geodetic& eye, Region& region) {
     region = std::move(first);
 }
 
-// Images are of one grid yet.
-bool draws_grids_apart(const View& view) {
-    return view.drape.empty();
-}
-
 // Where the data that a view names are gone: what to do about it.
 Error with_way_out(Error fault, const View& view, const RegionOptions& options) {
     if (!options.paths.empty()) return fault;
@@ -120,7 +115,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         // A sun that its file told stays where the file has it: the same view, the same bytes.
         if (view_options.sun_time) aim_sun(view.sun, view.camera.eye);
         ORO_CHECK(change_region(view, region_options));
-        view.region.grids_apart = view.several_grids && draws_grids_apart(view);
+        view.region.grids_apart = view.several_grids;
         if (view.region.paths.empty())
             return Error{ErrorKind::usage, "--view " + view_file,
                          "does not tell where its elevation data lie: name them, too"};
@@ -141,7 +136,6 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
-    view.region.grids_apart = draws_grids_apart(view);
     ORO_TRY(region, open_region(view.region, progress));
     view.own_posts = keeps_own_posts(region);
     view.several_grids = !region.beside.empty();

@@ -298,6 +298,8 @@ gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
                  (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
     if (!model_.culls_nodes() || pages_.is_seam()) frame.cull = 0;
     if (pages_.closes_gaps(summary.index)) frame.cull |= gpu::closes_gaps;
+    if (pages_.facts().grid.net && !pages_.is_seam() && reaches_far(summary))
+        frame.cull |= gpu::places_from_plane;
     if (!model_.may_stand(page.record)) frame.cull |= gpu::stands_never;
     frame.block = {static_cast<gpu::uint>(page.address), static_cast<gpu::uint>(page.address >> 32U)};
     frame.level = static_cast<gpu::uint>(summary.index.level);

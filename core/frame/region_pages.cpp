@@ -71,7 +71,7 @@ Result<void> RegionPages::load_places(const PageIndex& page, const gpu::PageBloc
     if (fill_places(facts_.grid, whole.summary, heights, places)) return {};
     return Error{
         ErrorKind::failed, "region too large",
-        "its own posts lie more than 1,048 km from the middle of one page; open a part of it (--bbox)"};
+        "its own posts lie more than 1,048 km from the plane of one page; open a part of it (--bbox)"};
 }
 
 std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,

@@ -143,9 +143,9 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     return {};
 }
 
-// All that a grid's programs read of a frame. `first`: of the frame's grids; only it has images over the
-// ground.
-Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first, const FrameAsked& asked) {
+// All that the programs of the frame's grid of that number read of it.
+Result<void> FrameRenderer::upload(std::size_t number, FramePlan& plan, const FrameAsked& asked) {
+    GridFrame& grid = grids_[number];
     ORO_CHECK(grid.reserve(*gpu_, plan));
     gpu::FrameConstants& constants = plan.constants;
     constants.sample_index = asked.sample_index;
@@ -159,13 +159,13 @@ Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first,
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = asked.style;
-    if (first)
-        ORO_CHECK(drape_.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? asked.drape : nullptr,
-                                 constants));
+    DrapeStore* const drape = number < asked.drapes.size() ? asked.drapes[number] : nullptr;
+    ORO_CHECK(
+        grid.drape.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? drape : nullptr, constants));
     if (options_.shades) {
         ORO_CHECK(air_.prepare(*gpu_, *pipelines_, constants));
         ORO_CHECK(grid.casters.prepare(*gpu_, options_.path, *pipelines_, plan, constants));
-        ORO_CHECK(choose_shading(grid, first, constants));
+        ORO_CHECK(choose_shading(grid, constants));
     }
     grid.address(plan);
     if (compute_) compute_->address(constants);
@@ -261,7 +261,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
         record_raster(commands, plan);
     }
     stamp(2);
-    if (drape_.is_on()) {
+    if (has_images(plan)) {
         record_wants(commands, plan);
     } else if (options_.shades) {
         record_shade(commands, plan);
@@ -280,16 +280,15 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
 
 Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& style,
                                         std::uint32_t sample_index, std::uint32_t sample_count,
-                                        DrapeStore* drape) {
+                                        std::vector<DrapeStore*> drapes) {
     assert(plan.constants.width_px <= options_.extent.width &&
            plan.constants.height_px <= options_.extent.height);
     assert(sample_count == 1 || (options_.several_samples && !options_.smooth_edges));
     ORO_CHECK(number_pages(plan));
     ORO_CHECK(reserve(plan));
-    const FrameAsked asked{style, sample_index, sample_count, drape};
-    ORO_CHECK(upload(grids_[0], plan, true, asked));
-    for (std::size_t i = 0; i < plan.beside.size(); ++i)
-        ORO_CHECK(upload(grids_[i + 1], plan.beside[i], false, asked));
+    const FrameAsked asked{style, sample_index, sample_count, drapes};
+    ORO_CHECK(upload(0, plan, asked));
+    for (std::size_t i = 0; i < plan.beside.size(); ++i) ORO_CHECK(upload(i + 1, plan.beside[i], asked));
     last_width_px_ = plan.constants.width_px;
     last_grids_.assign(1, 1);
     for (const FramePlan& other : plan.beside) last_grids_.push_back(other.pages.empty() ? 0 : 1);
@@ -305,11 +304,12 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
         return Error{ErrorKind::failed, "picture",
                      std::to_string(report.counts.triangles_not_clipped) +
                          " triangles more than the compute path can clip in a frame; --pipeline mesh can"};
-    if (drape_.is_on()) {
+    const bool images = has_images(plan);
+    if (images) {
         ORO_TRY(report.images_settled, shade_with_images(plan));
     }
     std::array<std::uint64_t, timestamp_count> ticks{};
-    const std::uint32_t written = drape_.is_on() ? timestamp_count : 4;
+    const std::uint32_t written = images ? timestamp_count : 4;
     ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, written, sizeof(ticks), ticks.data(),
                                  sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     const auto between_s = [&](std::size_t from) {
@@ -317,7 +317,7 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     };
     report.choose_s = between_s(0);
     report.raster_s = between_s(1);
-    report.shade_s = between_s(drape_.is_on() ? 4 : 2);
+    report.shade_s = between_s(images ? 4 : 2);
     return report;
 }
 

@@ -14,7 +14,6 @@
 #include "render/frame/grid_frame.h"
 #include "render/frame/pipelines.h"
 #include "render/shading/air_tables.h"
-#include "render/shading/drape_wants.h"
 
 namespace oro {
 
@@ -58,9 +57,9 @@ class FrameRenderer {
 
     // Draws one sample of a plan (its tile is within the extent, its pages are on the GPU) and waits for it.
     // With sample_count > 1 the picture is complete after the last sample_index. Same plan, pages and style:
-    // same bytes, on one driver. drape: images over the ground, or null.
+    // same bytes, on one driver. drapes: images over the ground of each grid, or null (Scene::drapes()).
     Result<FrameReport> draw(FramePlan plan, const gpu::FrameStyle& style, std::uint32_t sample_index = 0,
-                             std::uint32_t sample_count = 1, DrapeStore* drape = nullptr);
+                             std::uint32_t sample_count = 1, std::vector<DrapeStore*> drapes = {});
 
     // The picture's top left width x height pixels as RGBA rows, sRGB.
     Result<std::vector<std::uint8_t>> read_picture(std::uint32_t width, std::uint32_t height);
@@ -102,9 +101,9 @@ class FrameRenderer {
     struct FrameAsked {
         const gpu::FrameStyle& style;
         std::uint32_t sample_index, sample_count;
-        DrapeStore* drape;
+        std::span<DrapeStore* const> drapes;
     };
-    Result<void> upload(GridFrame& grid, FramePlan& plan, bool first, const FrameAsked& asked);
+    Result<void> upload(std::size_t number, FramePlan& plan, const FrameAsked& asked);
     Result<void> add_triangles(std::uint32_t grid, std::uint32_t first_row, std::uint32_t rows,
                                std::vector<ShownTriangle>& shown);
     Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
@@ -113,12 +112,13 @@ class FrameRenderer {
     void record_upload(VkCommandBuffer commands, std::size_t grids) const;
     void record_choice(VkCommandBuffer commands, const GridFrame& grid, const FramePlan& plan) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
-    Result<void> choose_shading(GridFrame& grid, bool first, gpu::FrameConstants& constants);
+    Result<void> choose_shading(GridFrame& grid, gpu::FrameConstants& constants);
+    [[nodiscard]] bool has_images(const FramePlan& plan) const;
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
-    Result<void> ask_again(const FramePlan& plan, std::uint32_t seed);
-    Result<bool> bring_images(const FramePlan& plan);
+    Result<void> ask_again(const GridFrame& grid, const FramePlan& plan, std::uint32_t seed);
+    Result<bool> bring_images(const GridFrame& grid, const FramePlan& plan);
     Result<bool> shade_with_images(const FramePlan& plan);
     Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect,
                                               ImageUse last_use, std::uint32_t width, std::uint32_t height);
@@ -130,7 +130,6 @@ class FrameRenderer {
     std::vector<GridFrame> grids_;      // the plan's, then those beside it
     std::optional<ComputeRaster> compute_;
     AirTables air_;
-    DrapeWants drape_;
     Commands commands_;
     Image ids_, depth_, sum_, picture_;
     OwnedQueryPool timestamps_;

@@ -21,12 +21,12 @@ std::uint32_t tiles_of(std::uint32_t pixels) {
 
 // The programs of a frame, and what they hand to each other. In air, near ground has a program without the
 // code for footprints of several parts: those are few, and the code takes registers from all pixels.
-Result<void> FrameRenderer::choose_shading(GridFrame& grid, bool first, gpu::FrameConstants& constants) {
+Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants& constants) {
     const gpu::FrameStyle& style = constants.style;
     ShadingKind kind = shading_of(style);
     kind.casts = grid.casters.casts();
     kind.opens = grid.casters.opens();
-    kind.draped = first && drape_.is_on();
+    kind.draped = grid.drape.is_on();
     kind.by_means = constants.has_means != 0 && asks_for_means(style);
     kind.edges_follow = options_.smooth_edges;
     kind.on_net = constants.has_net != 0;
@@ -60,9 +60,9 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     air_.record(commands, *pipelines_);
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
-                  drape_.is_on() ? shader_read
-                  : compute_     ? unused
-                                 : as_colour,
+                  has_images(plan) ? shader_read
+                  : compute_       ? unused
+                                   : as_colour,
                   shader_read);
     for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
         if (!grids_[i].casters.any()) continue;
@@ -104,41 +104,55 @@ void FrameRenderer::record_ids_alone(VkCommandBuffer commands) const {
 
 void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {
     record_ids_alone(commands);
-    grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-    drape_.record(commands, *pipelines_, plan.constants);
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        if (!grids_[i].drape.is_on()) continue;
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        grids_[i].drape.record(commands, *pipelines_, plan.constants);
+    }
 }
 
 // The same question again. Another seed: two tiles of one hash have others now.
-Result<void> FrameRenderer::ask_again(const FramePlan& plan, std::uint32_t seed) {
+Result<void> FrameRenderer::ask_again(const GridFrame& grid, const FramePlan& plan, std::uint32_t seed) {
     return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         constexpr VkDeviceSize at =
             offsetof(gpu::FrameConstants, drape) + offsetof(gpu::DrapeTable, wanted_seed);
-        vkCmdUpdateBuffer(commands, grids_[0].data().handle.get(), at, sizeof(seed), &seed);
+        vkCmdUpdateBuffer(commands, grid.data().handle.get(), at, sizeof(seed), &seed);
         memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
                        VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_UNIFORM_READ_BIT);
-        grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        drape_.record(commands, *pipelines_, plan.constants);
+        grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        grid.drape.record(commands, *pipelines_, plan.constants);
     });
 }
 
-// Brings the tiles that the frame is coloured from: all of them, unless there is no room or nobody waits.
-Result<bool> FrameRenderer::bring_images(const FramePlan& plan) {
+// Whether images lie over one of its grids.
+bool FrameRenderer::has_images(const FramePlan& plan) const {
+    return std::any_of(grids_.begin(), grids_.begin() + 1 + static_cast<std::ptrdiff_t>(plan.beside.size()),
+                       [](const GridFrame& grid) { return grid.drape.is_on(); });
+}
+
+// Brings the tiles that a grid is coloured from: all of them, unless there is no room or nobody waits.
+Result<bool> FrameRenderer::bring_images(const GridFrame& grid, const FramePlan& plan) {
     constexpr std::uint32_t most_tries = 64;
-    DrapeStore& store = drape_.store();
+    DrapeStore& store = grid.drape.store();
     store.begin_frame();
     for (std::uint32_t turn = 1;; ++turn) {
-        const bool missing = drape_.is_missing_any();
-        ORO_TRY(const DrapeStore::Served served, store.serve(drape_.wanted(), options_.waits_for_images));
+        const bool missing = grid.drape.is_missing_any();
+        ORO_TRY(const DrapeStore::Served served, store.serve(grid.drape.wanted(), options_.waits_for_images));
         if (!missing) return true;
         if (served.is_full || !options_.waits_for_images || turn == most_tries) return false;
-        ORO_CHECK(ask_again(plan, turn));
+        ORO_CHECK(ask_again(grid, plan, turn));
     }
 }
 
 // True where the images are as fine as the frame asks for.
 Result<bool> FrameRenderer::shade_with_images(const FramePlan& plan) {
-    ORO_TRY(const bool settled, bring_images(plan));
+    bool settled = true;
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        if (!grids_[i].drape.is_on()) continue;
+        ORO_TRY(const bool here, bring_images(grids_[i], plan));
+        settled = settled && here;
+    }
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 4);

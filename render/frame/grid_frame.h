@@ -9,6 +9,7 @@
 #include "render/device/resources.h"
 #include "render/frame/pipelines.h"
 #include "render/shading/caster_buffers.h"
+#include "render/shading/drape_wants.h"
 
 namespace oro {
 
@@ -31,6 +32,7 @@ class GridFrame {
     [[nodiscard]] std::size_t page_capacity() const { return page_capacity_; }
 
     CasterBuffers casters;
+    DrapeWants drape;
     VkPipeline shade{VK_NULL_HANDLE}, shade_parts{VK_NULL_HANDLE};  // of the frame
 
   private:

@@ -36,7 +36,7 @@ Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle
         }
         ORO_TRY(const FrameReport drawn,
                 renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),
-                              static_cast<std::uint32_t>(options.samples), scene.drape()));
+                              static_cast<std::uint32_t>(options.samples), scene.drapes()));
         report.images_settled = report.images_settled && drawn.images_settled;
         if (i == 0) add_counts(report, drawn);
         report.choose_s += drawn.choose_s;

@@ -182,8 +182,15 @@ vec2 shares_change(vec3 ray_step, vec3 first, vec3 edge_b, vec3 edge_c, vec2 sha
     return vec2(dot(-first, p), dot(ray_step, cross(-first, edge_b))) - shares * dot(edge_b, p);
 }
 
-// A place in a page (row, column, fractional) in the region, without the rounding that a large number would bring.
-void drape_place(FramePage page, vec2 post, out ivec2 whole, out vec2 part) {
+// A place in a page (row, column, fractional) in the region, without the rounding that a large number would bring. Of a seam that of
+// region_place().
+void drape_place(FramePage page, vec2 post, vec2 region, out ivec2 whole, out vec2 part) {
+    if (HAS_NET && FRAME.is_seam != 0u) {
+        vec2 seam_post = floor(region);
+        whole = ivec2(seam_post);
+        part = region - seam_post;
+        return;
+    }
     ivec2 first = ivec2(page.first_row, page.first_column), last = ivec2(FRAME.last_row, FRAME.last_column);
     vec2 quad = floor(post);
     ivec2 from = min(first + (ivec2(quad) << page.level), last), to = min(from + (1 << page.level), last);
@@ -242,7 +249,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     vec2 region = region_place(page, point.post, point.view);
     float undulation_m = undulation_at(region);
     point.H_m = (point.h_m - undulation_m) / FRAME.exaggeration;
-    if (draped) drape_place(page, point.post, point.drape_post, point.drape_part);
+    if (draped) drape_place(page, point.post, region, point.drape_post, point.drape_part);
     point.mean_H_m = point.H_m;
     point.parts = 0;
     point.is_left = false;
