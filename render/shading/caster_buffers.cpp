@@ -18,8 +18,8 @@ VkDeviceSize aligned(VkDeviceSize size) {
     return (size + 15) / 16 * 16;
 }
 
-// Behind the shares of all pixels (shares.comp): a count, three numbers of workgroups, the turn; then pixels.
-constexpr std::array<std::uint32_t, 8> empty_list{0, 0, 1, 1, 1};
+// Behind the shares of all pixels (shares.comp): a count, three numbers of workgroups; then pixels.
+constexpr std::array<std::uint32_t, 4> empty_list{0, 0, 1, 1};
 constexpr VkDeviceSize groups_at = sizeof(std::uint32_t);
 VkDeviceSize list_at(VkExtent2D extent) {
     return aligned(VkDeviceSize{extent.width} * extent.height * sizeof(float));

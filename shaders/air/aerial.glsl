@@ -80,8 +80,8 @@ AirRay aerial_ray(uint row, uint column) {
 float way_of_slice(float x) { return x < 0.5 ? 2.0 * x * x : 1.0 - 2.0 * (1.0 - x) * (1.0 - x); }
 float slice_of_way(float share) { return share < 0.5 ? sqrt(0.5 * share) : 1.0 - sqrt(0.5 * (1.0 - share)); }
 
-// An entry is light that comes to the eye but for what dust scatters, then that without the angle's share, then what is let through: nine
-// logarithms (at dusk light falls fast) in 16 bits each, in steps of 0.05 %.
+// An entry is light that comes to the eye but for what dust scatters, then that without the angle's share, then what is let through: six
+// logarithms (at dusk light falls fast) in steps of 0.05 %, and three shares, in 16 bits each.
 uint aerial_at(uint row, uint column, uint slice) { return aerial_first + 2u * ((row * aerial_turns + column) * aerial_slices + slice); }
 const float aerial_log_step = (aerial_log_high - aerial_log_low) / 65535.0;
 uint aerial_code(float value) { return uint(clamp((log(value) - aerial_log_low) / aerial_log_step + 0.5, 0.0, 65535.0)); }
@@ -130,12 +130,13 @@ SeenAir aerial_light(AirRay ray, float distance_m) {
         add_aerial(far, table, at + 2u, weight);
     }
     // Within a slice as in even air: light comes to the eye as the air lets it through.
-    vec3 let = clamp((far.through - near.through) * (65536.0 * aerial_log_step), vec3(-14.0), vec3(0.0));
-    vec3 here = exp(let * on), come = mix((1.0 - here) / max(1.0 - exp(let), vec3(1.0e-6)), vec3(on), greaterThan(let, vec3(-0.001)));
+    vec3 through = (near.through - 1.0) * (65536.0 / 65535.0);
+    vec3 let = clamp((far.through - 1.0) / max(near.through - 1.0, vec3(1.0e-30)), vec3(1.0e-6), vec3(1.0));
+    vec3 here = exp(log(let) * on), come = mix((1.0 - here) / max(1.0 - let, vec3(1.0e-6)), vec3(on), greaterThan(let, vec3(0.999)));
     float by_dust = dust_towards(ray.to_sun);
     vec3 light = exp(aerial_log(near.light)) + by_dust * exp(aerial_log(near.dust));
     vec3 beyond = exp(aerial_log(far.light)) + by_dust * exp(aerial_log(far.dust));
-    return SeenAir(mix(light, beyond, come), exp(aerial_log(near.through)) * here);
+    return SeenAir(mix(light, beyond, come), through * here);
 }
 
 // The light of the sun and of the sky at a place, which together cost as much as one of them: FrameStyle.air alone decides this table.

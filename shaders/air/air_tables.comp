@@ -126,7 +126,7 @@ void put_aerial(uint at, AirLight seen, float to_sun) {
     for (int i = 0; i < 3; ++i) {
         codes[i] = aerial_code(light[i]);
         codes[i + 3] = aerial_code(dust[i]);
-        codes[i + 6] = aerial_code(through[i]);
+        codes[i + 6] = uint(clamp(through[i], 0.0, 1.0) * 65535.0 + 0.5);
     }
     AerialTable table = AerialTable(FRAME.air);
     table.at[at] = uvec4(codes[0] | codes[1] << 16, codes[2] | codes[3] << 16, codes[4] | codes[5] << 16, codes[6] | codes[7] << 16);

@@ -64,9 +64,8 @@ float share_around(ivec2 pixel) {
     return is_whole && before == vec3(share) && beside == before && behind == before ? share : no_sun_share;
 }
 
-// Behind the shares: how many pixels the second turn lists, the workgroups of its dispatch, and whether it has begun; then the pixels.
-// Lines are long or short, and a workgroup waits for its longest: so those of the whole picture stand one after the other.
-const uint list_head = 8u, count_at = 0u, groups_at = 1u, turn_at = 4u;
+// Behind the shares: how many pixels the second turn lists (none before it), and the workgroups of its dispatch; then the pixels.
+const uint list_head = 4u, count_at = 0u, groups_at = 1u;
 uint list_at() { return (FRAME.width_px * FRAME.height_px + 3u) / 4u * 4u; }
 
 bool is_in_picture(ivec2 pixel) { return pixel.x < int(FRAME.width_px) && pixel.y < int(FRAME.height_px); }
@@ -91,7 +90,6 @@ bool needs_line(ivec2 pixel) {
 
 void list_in_picture(ivec2 pixel) {
     if (!needs_line(pixel)) return;
-    put(list_at() + turn_at, 2u);
     put(list_at() + list_head + next_listed(), uint(pixel.y) * FRAME.width_px + uint(pixel.x));
 }
 // The next pixel of the list; false behind its end.
@@ -123,7 +121,7 @@ void main() {
         list_in_picture(ivec2(gl_GlobalInvocationID.xy));
         return;
     }
-    bool is_second = does == both_turns && Words(CASTERS.sun_shares).at[list_at() + turn_at] == 2u;
+    bool is_second = does == both_turns && Words(CASTERS.sun_shares).at[list_at() + count_at] != 0u;
     if (does == second_turn && !is_listed_in_square(pixel)) return;
     if (is_second && !is_listed_in_picture(pixel)) return;
     if (is_in_picture(pixel)) keep(pixel, share_at(pixel));

@@ -56,7 +56,7 @@ void keep_depth(ivec2 pixel, float depth) {
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer TilesInParts { uint at[]; };
 uint tile_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 bool tile_has_parts() { return TilesInParts(FRAME.tiles_in_parts).at[tile_number()] != 0u; }
-void keep_tile() { TilesInParts(FRAME.tiles_in_parts).at[tile_number()] = 1u; }
+void keep_tile() { atomicOr(TilesInParts(FRAME.tiles_in_parts).at[tile_number()], 1u); }
 
 void keep_colour(ivec2 pixel, vec3 colour, float ground) {
     if (edges_follow) imageStore(sum, pixel, vec4(colour, ground));
