@@ -93,7 +93,7 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_ids(std::uint32_t width, 
     assert(width == last_width_px_);
     ORO_TRY(std::vector<std::uint32_t> words,
             read_words(compute_->visibility(), 0, std::size_t{2} * width * height));
-    for (std::size_t i = 0; i < words.size() / 2; ++i) words[i] = words[2 * i];
+    for (std::size_t i = 0; i < words.size() / 2; ++i) words[i] = words[2 * i] == 0 ? 0 : ~words[2 * i];
     words.resize(words.size() / 2);
     return words;
 }

@@ -94,6 +94,19 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
         pass(grids_[i], grids_[i].shade_parts);
     }
     for (std::size_t i = 0; options_.smooth_edges && i <= plan.beside.size(); ++i) pass(grids_[i], edges_);
+    if (options_.show != gpu::show_colours) record_show(commands, plan);
+}
+
+// What draws each pixel, over its colours.
+void FrameRenderer::record_show(VkCommandBuffer commands, const FramePlan& plan) const {
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->show.get());
+        vkCmdDispatch(commands, tiles_of(plan.constants.width_px), tiles_of(plan.constants.height_px), 1);
+    }
 }
 
 // For those who read them instead of the shading pass.

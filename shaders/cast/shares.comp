@@ -30,7 +30,7 @@ layout(constant_id = 1) const uint does = first_turn;
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 
 float share_at(ivec2 pixel) {
-    uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
+    uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
                            : imageLoad(ids, pixel).x;
     if (!is_of_grid(id)) return no_sun_share;
     vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;

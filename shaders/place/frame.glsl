@@ -16,8 +16,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Words { uin
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Floats { float at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Counts { FrameCounts at; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Recorded { vec3 at[]; };
-// The compute rasteriser's visibility buffer as words: x the triangle id, y the bits of the depth.
+// The compute rasteriser's visibility buffer as words: x all bits of the triangle id turned round (0: none), y those of the depth.
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer VisibilityWords { uvec2 at[]; };
+
+// The id in a pixel of it.
+uint id_of(uvec2 word) { return word.x == 0u ? 0u : ~word.x; }
 
 // The frame's constants, read where they are used: a copy would drag the tint table into every invocation.
 layout(binding = 3, scalar) uniform Frame { FrameConstants frame; };

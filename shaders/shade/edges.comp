@@ -26,7 +26,7 @@ layout(binding = 2, rgba8) uniform writeonly image2D picture;
 float depth_at(ivec2 pixel) { return Floats(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]; }
 bool within(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(FRAME.width_px, FRAME.height_px))); }
 uint id_at(ivec2 pixel) {
-    return from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x : imageLoad(ids, pixel).x;
+    return from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]) : imageLoad(ids, pixel).x;
 }
 
 // Two pixels beside each other, by a number: those of each row of the workgroup's square and the ones before and behind it, then those of

@@ -75,7 +75,7 @@ bool shade(ivec2 pixel) {
     if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return true;
     vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
-    uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
+    uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
                            : imageLoad(ids, pixel).x;
     if (FRAME.grids_beside != 0u && is_left_to_others(id)) return true;
     if (id == 0u && parts_alone) return false;
