@@ -106,6 +106,10 @@ struct PageBlock {
     // next row and the next column add. In a grid with a CRS of its own (FrameConstants.has_net); there
     // column_spacing_m needs no cosine of a latitude.
     vec3 turn;
+    vec2 up;  // the ellipsoid's normal at the page's origin, in the page frame: along x, along z
+    // Of each meshlet: how far its posts are from the centre of its sphere, along east, north and that
+    // normal, in 1023rds of its radius, 10 bits each.
+    uint boxes[256];
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
     // (core/terrain/height_quantization.h).
@@ -139,7 +143,8 @@ struct FramePage {
     uvec3 from_eye_low;
     uvec3 from_eye_high;
     uint cull;  // bits: 1 the frustum, 2 the horizon may hide some meshlets of it; 4 none of its
-                // nodes may stand for finer ones; 8 closes_gaps; 16 places_from_plane
+                // nodes may stand for finer ones; 8 closes_gaps; 16 places_from_plane;
+                // 32 cull_by_occlusion
     uint level;
     uint first_row;  // number in the region of the page's first post
     uint first_column;
@@ -174,6 +179,8 @@ ORO_CONST uint stands_never = 4u;
 ORO_CONST uint closes_gaps =
     8u;  // a page of a seam (core/seam) whose quads reach out by pixels, at least so many
 ORO_CONST uint places_from_plane = 16u;  // see PagePlaces
+ORO_CONST uint cull_by_occlusion =
+    32u;  // its nodes are left out where other ground hides them (choose/occlusion.glsl)
 ORO_CONST float least_gap_px = 0.05f;
 ORO_CONST uint seam_stride = 3u;         // posts of a seam's page from a quad to the next
 ORO_CONST float seam_unit = 1048576.0f;  // a unit vector's length in the places of its pages
@@ -189,7 +196,13 @@ struct FrameCounts {
     uint triangles_drawn;
     uint mesh_groups;            // mesh path: workgroups of mesh shaders
     uint triangles_not_clipped;  // compute path: no room in the list; the frame has holes
+    uint task_groups;            // mesh path: workgroups of task shaders
+    uint meshlets_tested;        // whether other ground hides them, by the last round
+    uint meshlets_hidden;        // ... those that it hides, and that no round has drawn
+    uint meshlets_drawn_later;   // by another round than the first
 };
+
+#include "shaders/shared_rounds.h"
 
 // The pages that have something to draw, in the frame's order, and how many workgroups go through them.
 struct LivePages {
@@ -209,6 +222,7 @@ struct RasterLists {
     uint tasks;  // squares of pixels of those
     uint task_groups[3];
 };
+ORO_CONST uint raster_lists_bytes = 64u;  // from one to the next
 // A triangle on the pixel grid, 1/256 px, with reversed depths; positive area.
 struct LargeTriangle {
     int ax, ay, bx, by, cx, cy;
@@ -338,7 +352,7 @@ struct FrameConstants {
     uint triangle_rows;
     uvec2 recorded;    // device address of recorded positions, or 0 (tests only)
     uint record_view;  // 1: positions in view coordinates are recorded, not those in the eye's meridian frame
-    uvec2 visibility;  // compute rasteriser: device address of depth << 32 | id for each pixel, row by row
+    uvec2 visibility;  // compute rasteriser: device address of depth << 32 | ~id for each pixel, row by row
     uvec2 lists;       // RasterLists
     uvec2 meshlet_list;  // frame page * 256 + meshlet, edges << 28
     uvec2 clip_list;     // triangle ids
@@ -352,7 +366,20 @@ struct FrameConstants {
     NetMap net;
     DrapeTable drape;
     // Last, so that addresses before it stay at multiples of 8 bytes: it would cost 2 to 4 % of a frame.
-    uint is_seam;  // 1: what lies between grids (place/seam.glsl)
+    uint is_seam;           // 1: what lies between grids (place/seam.glsl)
+    uint occlusion;         // 1: the frame is drawn in several rounds, see FrameRound
+    uvec2 round_pages;      // LivePages of the pages that a round draws (mesh path)
+    uvec2 round_live;       // uint[2 page_count]: as `live`, of a round
+    uvec2 kept;             // accepted_words a page: nodes that neither the frustum nor the horizon hides
+    uvec2 drawn;            // ... that the rounds so far have drawn
+    uvec2 drawn_now;        // ... that this round draws
+    uvec2 seen;             // ... that nothing hides, as far as the last round knows
+    uvec2 seen_before;      // the same of the last frame; 0: nothing is known of it
+    uvec2 page_before;      // uint[page_count]: a page's number in the last frame; no_page
+    uvec2 pyramid;          // float: the pyramid of the farthest depths
+    uvec2 ids_before;       // mesh path: uint for each pixel, row by row: its id before this round
+    uint show;              // show_...: what explains the frame, in the place of colours
+    float placing_slack_m;  // a post may be drawn so far from where it is in its page's frame
     ClusterTable clusters;
 };
 

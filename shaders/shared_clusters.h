@@ -20,8 +20,8 @@ struct DrawnCluster {
 };
 // The clusters of a frame.
 struct ClusterTable {
-    uint on;      // 1: clusters are drawn, not nodes of pages
     uvec2 drawn;  // device address of DrawnCluster[count]
+    uint on;      // 1: clusters are drawn, not nodes of pages
     uint count;
     uint rows;     // place of the terms of the region's first row in the frame's table; all follow
     uint columns;  // likewise

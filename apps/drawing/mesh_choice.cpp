@@ -1,5 +1,7 @@
 #include "apps/drawing/mesh_choice.h"
 
+#include "apps/view/model_names.h"
+
 namespace oro {
 namespace {
 
@@ -10,6 +12,8 @@ std::string without_clusters(const Region& region, const View& view) {
         return "the region has no clusters: bake it with --mesh clusters, and draw the whole .oro file";
     if (view.exaggeration != 1.0) return "clusters are of heights without exaggeration";
     if (view.model.earth != Earth::ellipsoid) return "clusters are drawn on the ellipsoid";
+    if (view.show == Show::levels || view.show == Show::visible)
+        return "--show " + std::string(name_of(*view.show)) + " tells of blocks, not of clusters";
     if (region.field.undulation.N_m.size() != region.file->outline().undulation.N_m.size())
         return "clusters are of heights with the geoid";
     return "";

@@ -15,9 +15,9 @@ inline std::vector<std::string> mesh_words() {
 }
 
 // True where the region was baked with clusters and the view can be drawn by them: at its own heights and
-// geoid, on the ellipsoid, one grid alone; unless the view asks for the grid. Puts what is drawn into
-// view.mesh
-// ("clusters", or "auto" for the grid). Errors: the view asks for clusters, and why there are none.
+// geoid, on the ellipsoid, one grid alone; unless the view asks for the grid, or shows what clusters do not
+// have. Puts what is drawn into view.mesh ("clusters", or "auto" for the grid). Errors: the view asks for
+// clusters, and why there are none.
 Result<bool> draws_clusters(const Region& region, View& view);
 
 }  // namespace oro

@@ -376,6 +376,7 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_TRY(renderer_options.path, choose_path(view.pipeline, *gpu));
     renderer_options.waits_for_images = false;
     renderer_options.smooth_edges = style.frame.smooth_edges != 0;
+    if (view.show) renderer_options.show = shown_by(*view.show);
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
     Viewer viewer{options,

@@ -12,6 +12,7 @@
 #include "render/device/resources.h"
 #include "render/frame/compute_raster.h"
 #include "render/frame/grid_frame.h"
+#include "render/frame/occlusion.h"
 #include "render/frame/pipelines.h"
 #include "render/shading/air_tables.h"
 
@@ -20,12 +21,11 @@ namespace oro {
 // What a frame did and how long the GPU took for it.
 struct FrameReport {
     gpu::FrameCounts counts{};
-    std::uint64_t task_groups{};  // mesh path
-    std::uint64_t pages{};        // of the frame, parents of drawn ones included
-    double choose_s{};            // GPU timestamps: levels chosen
-    double raster_s{};            // from pages to triangle ids, by either path
-    double shade_s{};             // the shading pass
-    bool images_settled{true};    // images over the ground are as fine as the frame asks for
+    std::uint64_t pages{};      // of the frame, parents of drawn ones included
+    double choose_s{};          // GPU timestamps: levels chosen
+    double raster_s{};          // from pages to triangle ids, by either path
+    double shade_s{};           // the shading pass
+    bool images_settled{true};  // images over the ground are as fine as the frame asks for
     [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
 };
 
@@ -38,7 +38,10 @@ struct FrameRendererOptions {
     bool keep_depths{false};       // for read_depths()
     bool keep_triangles{false};    // for read_triangles()
     bool shades{true};             // false: there is nothing to be read but triangles; for times, too
+    gpu::uint show{};              // gpu::show_...: what explains a frame of one sample, not its colours
     bool waits_for_images{true};   // false: a frame is drawn with what of them is there
+    OcclusionUse occlusion{OcclusionUse::if_it_pays};  // without record_positions
+    bool nearest_pyramid{false};                       // wrong occlusion, for the test that notices it
     RasterPath path{RasterPath::mesh};
 };
 
@@ -111,10 +114,18 @@ class FrameRenderer {
     void record(VkCommandBuffer commands, const FramePlan& plan);
     void record_upload(VkCommandBuffer commands, std::size_t grids) const;
     void record_choice(VkCommandBuffer commands, const GridFrame& grid, const FramePlan& plan) const;
-    void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_rounds(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_round(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;
+    void record_pyramid(VkCommandBuffer commands, const FramePlan& plan) const;
+    void push(VkCommandBuffer commands, const gpu::FrameRound& round) const;
+    void record_raster(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;
+    void record_meshes(VkCommandBuffer commands, std::size_t grid) const;
+    [[nodiscard]] bool remembers(const FramePlan& plan) const;
+    void remember(const FramePlan& plan);
     Result<void> choose_shading(GridFrame& grid, gpu::FrameConstants& constants);
     [[nodiscard]] bool has_images(const FramePlan& plan) const;
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
+    void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
     Result<void> ask_again(const GridFrame& grid, const FramePlan& plan, std::uint32_t seed);
@@ -129,6 +140,7 @@ class FrameRenderer {
     VkPipeline edges_{VK_NULL_HANDLE};  // of the frame
     std::vector<GridFrame> grids_;      // the plan's, then those beside it
     std::optional<ComputeRaster> compute_;
+    std::optional<Occlusion> occlusion_;
     AirTables air_;
     Commands commands_;
     Image ids_, depth_, sum_, picture_;

@@ -42,7 +42,7 @@ void draw_triangle(vec4 a, vec4 b, vec4 c, uint id) {
     }
     uint at = fits_near(t) && size.x * size.y <= team_max_px ? atomicAdd(waiting, 1u) : waiting_max;
     if (at >= waiting_max) {
-        if (!list_large(t, box)) draw_far(t, box, 0u, 1u);
+        if (!list_large(t, box)) list_clip(id);
     } else {
         waiting_ab[at] = ivec4(t.a, t.b);
         waiting_c[at] = t.c;

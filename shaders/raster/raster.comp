@@ -33,7 +33,20 @@ void draw_triangle(uint frame_page, uint meshlet, uint triangle) {
     vec4 a, b, c;
     if (!corners(frame_page, triangle, a, b, c)) return;
     atomicAdd(drawn_count, 1u);
-    draw_corners(a, b, c, triangle_id(frame_page, meshlet, triangle));
+    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
+    uint id = triangle_id(frame_page, meshlet, triangle);
+    if (!fits_grid(a, b, c)) {
+        list_clip(id);
+        return;
+    }
+    ScreenTriangle t;
+    if (!screen_triangle(a, b, c, id, t)) return;
+    ivec4 box = pixel_box(t);
+    ivec2 size = box.zw - box.xy + 1;
+    if (min(size.x, size.y) <= 0) return;
+    // Where the lists are full raster_clip draws it alone: that code would take registers from all others here.
+    if (fits_near(t) && size.x * size.y <= alone_max_px) draw_near(t, box, 0u, 1u);
+    else if (!list_large(t, box)) list_clip(id);
 }
 
 void main() {

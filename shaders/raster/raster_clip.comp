@@ -37,14 +37,17 @@ int clipped(inout vec4 corners[corners_max], int count, int plane) {
     return kept_count;
 }
 
+void main() {
+    uint number = folded(gl_WorkGroupID) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+    if (number >= min(lists().at.clips, clips_max)) return;
+    uint id = Words(FRAME.clip_list).at[number], own = triangle_of_id(id);
+    vec4 corners[corners_max];
+    // Not by functions: each would copy all corners.
 #ifdef CLUSTERS
-void find_corners(uint own, inout vec4 corners[corners_max]) {
     ClusterBlocks block = ClusterBlocks(drawn_cluster(own / cluster_triangles).block);
     uvec3 at = corners_in_cluster(block, own % cluster_triangles);
     for (int i = 0; i < 3; ++i) corners[i] = project(vertex_in_view(block.at.vertices[at[i]]));
-}
 #else
-void find_corners(uint own, inout vec4 corners[corners_max]) {
     uint triangle = own % meshlet_triangles, meshlet = own / meshlet_triangles % meshlets_per_page;
     FramePage page = frame_pages().at[own / (meshlet_triangles * meshlets_per_page)];
     PageBlocks block = PageBlocks(page.block);
@@ -55,15 +58,7 @@ void find_corners(uint own, inout vec4 corners[corners_max]) {
         uvec2 post = vertex_post(page, meshlet, posts[i], edges);
         corners[i] = project(place_in_view(page, post, post_height(block, post)));
     }
-}
 #endif
-
-void main() {
-    uint number = folded(gl_WorkGroupID) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-    if (number >= min(lists().at.clips, clips_max)) return;
-    uint id = Words(FRAME.clip_list).at[number];
-    vec4 corners[corners_max];
-    find_corners(triangle_of_id(id), corners);
     int count = 3;
     [[dont_unroll]] for (int plane = 0; plane < clip_planes && count >= 3; ++plane) count = clipped(corners, count, plane);
     [[dont_unroll]] for (int i = 1; i + 1 < count; ++i) {
@@ -71,6 +66,6 @@ void main() {
         if (!screen_triangle(corners[0], corners[i], corners[i + 1], id, t)) continue;
         ivec4 box = pixel_box(t);
         if (box.z < box.x || box.w < box.y) continue;
-        if (!list_large(t, box)) draw_far(t, box, 0u, 1u);
+        if (!list_large(t, box)) draw_far(t, box);
     }
 }

@@ -89,7 +89,7 @@ uint first_of_rim(uint id, vec2 middle, out FramePage page, out GridTriangle tri
     vec2 shares = met_shares(vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0), at, scale);
     float share_a = 1.0 - shares.x - shares.y;
     vec2 post = place_on_page(page, id, posts, vec3(share_a, shares));
-    descend(page, post, length(share_a * at[0] + shares.x * at[1] + shares.y * at[2]));
+    page = frame_pages().at[descend(page_number(id), page, post, length(share_a * at[0] + shares.x * at[1] + shares.y * at[2]))];
     ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 in_cell = post - vec2(cell);
     triangle = GridTriangle(cell, in_cell.x >= in_cell.y ? 0u : 1u);
