@@ -202,29 +202,7 @@ struct FrameCounts {
     uint meshlets_drawn_later;   // by another round than the first
 };
 
-// A frame is drawn in rounds; each leaves out what the ground of those before it hides. What a program is
-// told of its round.
-struct FrameRound {
-    uint first_share;  // of the pages that have something to draw, in 256ths of their number, nearest first:
-                       // these
-    uint last_share;   // ... are looked at; from the first round all that was seen in the last frame, too
-    uint is_last;      // 1: all pages are looked at
-    uint nearest;      // 1: the pyramid is of the nearest depths, which is wrong (tests only)
-    uint lists_round;  // 1: live_pages lists the pages that the round draws, not all
-    uint lists;        // number of the RasterLists of a grid's round (compute path)
-    uint backwards;    // 1: last page, meshlet and triangle first (mesh path)
-};
-ORO_CONST uint round_shares = 256u;
-// What a picture of a frame's own parts shows (shade/show.comp).
-ORO_CONST uint show_colours = 0u;  // none of them
-ORO_CONST uint show_visible = 1u;  // whether the last round has drawn a pixel's meshlet, or one before
-ORO_CONST uint show_levels = 2u;
-ORO_CONST uint show_meshlets = 3u;
-ORO_CONST uint show_triangles = 4u;
-// The pyramid of the farthest depths: a level has a value for each square of 4, 8, 16, 32 and 64 pixels, row
-// by row, and the levels follow each other.
-ORO_CONST uint pyramid_finest = 2u;  // 2^2 = 4 pixels
-ORO_CONST uint pyramid_coarsest = 6u;
+#include "shaders/shared_rounds.h"
 
 // The pages that have something to draw, in the frame's order, and how many workgroups go through them.
 struct LivePages {

@@ -203,6 +203,18 @@ void read_region(const nlohmann::json& json, RegionRequest& region) {
     region.strict_datum = json_flag(json, "strict_datum");
 }
 
+// What is shown where ground ends, and in the place of colours.
+void read_show(const nlohmann::json& json, View& view) {
+    if (Show show{}; json.contains("show")) {
+        read_choice(json, "show", show_named, show);
+        view.show = show;
+    }
+    if (Edges edges{}; json.contains("edges")) {
+        read_choice(json, "edges", edges_named, edges);
+        view.edges = edges;
+    }
+}
+
 // What the parser of options would have refused must not come in by a file.
 View read_fields(const nlohmann::json& json) {
     View view;
@@ -241,14 +253,7 @@ View read_fields(const nlohmann::json& json) {
     // Views of before there were labels were drawn without.
     view.labels = false;
     read_choice(json, "labels", labels_named, view.labels);
-    if (Show show{}; json.contains("show")) {
-        read_choice(json, "show", show_named, show);
-        view.show = show;
-    }
-    if (Edges edges{}; json.contains("edges")) {
-        read_choice(json, "edges", edges_named, edges);
-        view.edges = edges;
-    }
+    read_show(json, view);
     // Views of before there was a choice have none.
     if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
     if (!raster_request_named(view.pipeline))
