@@ -156,7 +156,7 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_edges(std::size_t pages) 
 Result<std::vector<float>> FrameRenderer::read_air() {
     assert(air_.entries().handle);
     ORO_TRY(const std::vector<std::uint32_t> bits,
-            read_words(air_.entries(), 0, std::size_t{4} * gpu::aerial_end));
+            read_words(air_.entries(), 0, std::size_t{4} * gpu::lit_end));
     std::vector<float> values(bits.size());
     std::memcpy(values.data(), bits.data(), bits.size() * sizeof(float));
     return values;

@@ -44,7 +44,8 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants&
     if (tiles_in_parts_.size < bytes) {
         ORO_TRY(tiles_in_parts_,
                 create_buffer(*gpu_, bytes,
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                               MemoryKind::device, "tiles in parts"));
     }
     constants.tiles_in_parts = address_words(tiles_in_parts_.address);
@@ -52,6 +53,10 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants&
 }
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
+    const bool in_parts =
+        std::any_of(grids_.begin(), grids_.begin() + static_cast<std::ptrdiff_t>(1 + plan.beside.size()),
+                    [](const GridFrame& grid) { return grid.shade_parts != VK_NULL_HANDLE; });
+    if (in_parts) vkCmdFillBuffer(commands, tiles_in_parts_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     air_.record(commands, *pipelines_);
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
@@ -68,6 +73,10 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
+    if (in_parts)
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
     bool before = false;
     const auto pass = [&](const GridFrame& grid, VkPipeline pipeline) {
         if (pipeline == VK_NULL_HANDLE) return;

@@ -52,7 +52,7 @@ struct Pipelines {
     std::map<ShadingKind, OwnedPipeline> shades;      // compute, 8 x 8; see shading_for
     std::array<OwnedPipeline, 2> edges;               // without and with air, 8 x 8; see edges_for
     OwnedPipeline drape_wants;                        // what tiles of them are wanted, compute, 8 x 8
-    std::array<OwnedPipeline, 5> air;                 // its tables, in this order, 64 entries a workgroup
+    std::array<OwnedPipeline, 6> air;                 // its tables, in this order, 64 entries a workgroup
     OwnedPipeline caster_tops, openness;              // of what casts shadows
     // Off and on a net: of every second pixel, of all; 16 x 16 of them.
     std::array<std::array<OwnedPipeline, 2>, 2> sun_shares;
