@@ -1,4 +1,6 @@
-// The rounds that a frame is drawn in, and what a picture shows of them. A part of shaders/shared.h.
+// Part of shared.h, which includes it: the rounds of a frame. Not for anybody else.
+#ifndef OROGRAPH_SHADERS_SHARED_ROUNDS_H
+#define OROGRAPH_SHADERS_SHARED_ROUNDS_H
 
 // A frame is drawn in rounds; each leaves out what the ground of those before it hides. What a program is
 // told of its round.
@@ -23,3 +25,5 @@ ORO_CONST uint show_triangles = 4u;
 // by row, and the levels follow each other.
 ORO_CONST uint pyramid_finest = 2u;  // 2^2 = 4 pixels
 ORO_CONST uint pyramid_coarsest = 6u;
+
+#endif

@@ -77,6 +77,14 @@ void add_vector_options(OptionGroup& looks, ViewOptions& options) {
                      "say. Needs --overlay.");
 }
 
+void add_show(OptionGroup& looks, ViewOptions& options) {
+    looks.choice(
+        "--show", options.show, show_words(),
+        "Show how the picture was made, in the place of colours: visible, whether the last round drew it "
+        "or one before; levels, how many posts are left out; meshlets or triangles, each in a colour of "
+        "its own. For pictures of one sample.");
+}
+
 void add_look_options(CLI::App& command, ViewOptions& options) {
     OptionGroup looks(command, "Looks");
     looks.option(
@@ -125,11 +133,7 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
                  "Edges of the ground before the sky and before farther ground, in pictures of one sample: "
                  "smooth, each pixel shows what it has of both; or steps, it shows what is in its middle. "
                  "Default: as the style has it.");
-    looks.choice(
-        "--show", options.show, show_words(),
-        "Show how the picture was made, in the place of colours: visible, whether the last round drew it "
-        "or one before; levels, how many posts are left out; meshlets or triangles, each in a colour of "
-        "its own. For pictures of one sample.");
+    add_show(looks, options);
     looks.whole_number("--samples", options.samples, static_cast<int>(view_limits::samples.low),
                        static_cast<int>(view_limits::samples.high), "N",
                        "How many samples make a pixel, " + span(view_limits::samples) +

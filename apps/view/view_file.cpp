@@ -215,6 +215,18 @@ void read_drawing(const nlohmann::json& json, View& view) {
         throw JsonFault{"'mesh' is '" + view.mesh + "', none of auto, clusters, grid"};
 }
 
+// What is shown where ground ends, and in the place of colours.
+void read_show(const nlohmann::json& json, View& view) {
+    if (Show show{}; json.contains("show")) {
+        read_choice(json, "show", show_named, show);
+        view.show = show;
+    }
+    if (Edges edges{}; json.contains("edges")) {
+        read_choice(json, "edges", edges_named, edges);
+        view.edges = edges;
+    }
+}
+
 // What the parser of options would have refused must not come in by a file.
 View read_fields(const nlohmann::json& json) {
     View view;
@@ -253,14 +265,7 @@ View read_fields(const nlohmann::json& json) {
     // Views of before there were labels were drawn without.
     view.labels = false;
     read_choice(json, "labels", labels_named, view.labels);
-    if (Show show{}; json.contains("show")) {
-        read_choice(json, "show", show_named, show);
-        view.show = show;
-    }
-    if (Edges edges{}; json.contains("edges")) {
-        read_choice(json, "edges", edges_named, edges);
-        view.edges = edges;
-    }
+    read_show(json, view);
     read_drawing(json, view);
     // Views of before there was a tau were drawn at full resolution.
     view.tau_px = json.contains("tau_px") ? number(json, "tau_px", limits::tau_px) : 0.0;

@@ -10,10 +10,10 @@
 #include "core/frame/frame_plan.h"
 #include "core/measure/drawn_point.h"
 #include "render/device/resources.h"
-#include "render/frame/compute_raster.h"
 #include "render/frame/grid_frame.h"
-#include "render/frame/occlusion.h"
 #include "render/frame/pipelines.h"
+#include "render/raster/compute_raster.h"
+#include "render/raster/occlusion.h"
 #include "render/shading/air_tables.h"
 
 namespace oro {

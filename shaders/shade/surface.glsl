@@ -244,13 +244,23 @@ vec3 normal_of_seam(FramePage page, uvec2 posts[3], vec3 shares, float heights_m
     return normalize(vec3(on_ground.xy, max(on_ground.z, 1.0e-3)));
 }
 
+// How much H changes from pixel to pixel on a triangle. The shares are quotients of terms linear in the ray: they change, and the height
+// with them.
+float H_change_per_px(vec3 at[3], vec2 shares, float scale, float heights_m[3]) {
+    vec3 edge_b = at[1] - at[0], edge_c = at[2] - at[0];
+    vec3 pixel = vec3(2.0 / (vec2(FRAME.width_px, FRAME.height_px) * FRAME.projection_scale), 0.0);
+    vec2 along_x = shares_change(vec3(pixel.x, 0.0, 0.0), at[0], edge_b, edge_c, shares) * scale;
+    vec2 along_y = shares_change(vec3(0.0, pixel.y, 0.0), at[0], edge_b, edge_c, shares) * scale;
+    vec2 rise_m = vec2(heights_m[1] - heights_m[0], heights_m[2] - heights_m[0]);
+    return length(vec2(dot(along_x, rise_m), dot(along_y, rise_m))) / FRAME.exaggeration;
+}
+
 SurfacePoint surface_at(uint id, vec3 ray) {
     uvec2 posts[3];
     vec3 at[3];
     float heights_m[3], scale;
     FramePage page = corners_of(id, posts, heights_m, at);
     vec2 shares = met_shares(ray, at, scale);
-    vec3 edge_b = at[1] - at[0], edge_c = at[2] - at[0];
     float share_b = shares.x, share_c = shares.y;
     float share_a = 1.0 - share_b - share_c;
 
@@ -298,13 +308,6 @@ SurfacePoint surface_at(uint id, vec3 ray) {
         point.drape_post_m = vec2(block.at[0].row_spacing_m, max(cosine * block.at[0].column_spacing_m, 1.0e-3));
     }
     point.H_per_px = 0.0;
-    if (as_map && FRAME.style.contours.interval_m > 0.0) {
-        // The shares are quotients of terms linear in the ray: how they change from pixel to pixel, and the height with them.
-        vec3 pixel = vec3(2.0 / (vec2(FRAME.width_px, FRAME.height_px) * FRAME.projection_scale), 0.0);
-        vec2 along_x = shares_change(vec3(pixel.x, 0.0, 0.0), at[0], edge_b, edge_c, shares) * scale;
-        vec2 along_y = shares_change(vec3(0.0, pixel.y, 0.0), at[0], edge_b, edge_c, shares) * scale;
-        vec2 rise_m = vec2(heights_m[1] - heights_m[0], heights_m[2] - heights_m[0]);
-        point.H_per_px = length(vec2(dot(along_x, rise_m), dot(along_y, rise_m))) / FRAME.exaggeration;
-    }
+    if (as_map && FRAME.style.contours.interval_m > 0.0) point.H_per_px = H_change_per_px(at, shares, scale, heights_m);
     return point;
 }

@@ -1,4 +1,4 @@
-#include "render/frame/occlusion.h"
+#include "render/raster/occlusion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/frame/compute_raster.h"
+#include "render/raster/compute_raster.h"
 
 #include <algorithm>
 #include <cstddef>
