@@ -74,21 +74,22 @@ Result<void> PageStore::add_chunk() {
                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     const std::size_t left = std::max<std::size_t>(budget_->left() / page_bytes_, held_ == 0 ? 1 : 0);
     if (full_ || left == 0) return {};
-    for (std::size_t count = std::min(std::clamp(held_, pages_in_first_chunk, pages_in_chunk_max), left);;
-         count /= 2) {
-        bool full = false;
+    const std::size_t wanted =
+        nearly_full_ ? fewest_in_chunk : std::clamp(held_, pages_in_first_chunk, pages_in_chunk_max);
+    for (std::size_t count = std::min(wanted, left);; count /= 2) {
+        bool no_room = false;
         auto buffer = create_buffer(*gpu_, count * page_bytes_, usage, MemoryKind::device,
-                                    "pages " + std::to_string(chunks_.size()), &full);
+                                    "pages " + std::to_string(chunks_.size()), &no_room);
         if (buffer.ok()) {
             chunks_.emplace_back(std::move(buffer).value(), budget_);
             add_slots(chunks_.size() - 1, count);
-            if (full_) capacity_ = held_;
             return {};
         }
-        if (!full) return buffer.error();
-        full_ = true;
+        if (!no_room) return buffer.error();
+        nearly_full_ = true;
         if (count > fewest_in_chunk) continue;
         if (held_ == 0) return buffer.error();
+        full_ = true;
         capacity_ = held_;
         return {};
     }
@@ -150,7 +151,7 @@ bool PageStore::release_unused() {
     chunks_ = std::move(kept);
     slots_ = std::move(slots);
     held_ = slots_.size();
-    full_ = false;
+    full_ = nearly_full_ = false;
     return true;
 }
 

@@ -99,7 +99,8 @@ class PageStore {
     std::shared_ptr<PageBudget> budget_;
     std::vector<PageChunk> chunks_;
     std::size_t capacity_{};
-    bool full_{false};               // the device had no room for more
+    bool nearly_full_{false};        // the device had no room for a buffer of the usual size
+    bool full_{false};               // ... nor for a small one
     std::size_t held_{};             // slots of all chunks that are there
     std::vector<Slot> slots_;        // of all chunks that ever were
     std::vector<std::size_t> free_;  // of them those without a page; the last is the next

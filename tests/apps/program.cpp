@@ -74,6 +74,8 @@ std::vector<std::string> Outcome::err_lines() const {
 Outcome run_program(const std::vector<std::string>& words, const Circumstances& circumstances) {
     const fs::path said = scratch_folder();
     static const std::string cache = cache_folder();
+    // They are there, too, where a signal comes before the program does.
+    for (const char* const file : {"out", "err"}) write_bytes(said / file, "");
     const pid_t child = fork();
     if (child == 0) {
         redirect("/dev/null", STDIN_FILENO, O_RDONLY);
