@@ -69,7 +69,7 @@ TEST_F(GridsFile, LyingHeadersAreRefused) {
     EXPECT_TRUE(read(with(16, 100, 8), 137).ok());
     for (const auto& [bytes, why] :
          {std::pair{with(8, 2, 4), "version 2"}, std::pair{with(12, 1, 4), "1 grids"},
-          std::pair{with(12, 257, 4), "257 grids"}, std::pair{with(12, 0xffffffff, 4), "grids"},
+          std::pair{with(12, 4097, 4), "4097 grids"}, std::pair{with(12, 0xffffffff, 4), "grids"},
           std::pair{with(16, 0xffffffffffffffff, 8), "grid number 1"},
           std::pair{with(32, 0xffffffffffffff00, 8), "grid number 2"}, std::pair{with(24, 3, 4), "order"},
           std::pair{with(24, 0, 4), "order"}}) {
