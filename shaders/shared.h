@@ -33,6 +33,7 @@ ORO_CONST uint meshlets_per_page = 256u;
 ORO_CONST uint meshlets_per_task_max = 128u;  // of a task workgroup
 ORO_CONST uint meshlet_vertices = 81u;
 ORO_CONST uint meshlet_triangles = 128u;
+ORO_CONST uint page_diagonal_words = 512u;  // a bit for each quad
 // Heights are kept with one more post on each side, so that slopes are continuous across pages.
 ORO_CONST uint height_stride = 131u;
 ORO_CONST uint page_heights = 17161u;  // height_stride squared
@@ -106,6 +107,9 @@ struct PageBlock {
     // next row and the next column add. In a grid with a CRS of its own (FrameConstants.has_net); there
     // column_spacing_m needs no cosine of a latitude.
     vec3 turn;
+    // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its north-west to its
+    // south-east (core/terrain/cell_diagonal.h). Two words a meshlet, row by row, the first the lowest bit.
+    uint rises[512];
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
     // (core/terrain/height_quantization.h).

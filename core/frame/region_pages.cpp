@@ -26,6 +26,7 @@ class PagesInMemory : public RegionPages {
         const PyramidPage& built = at(page);
         const PageHeights heights = page_heights(facts().grid, heights_, page);
         std::copy(built.nodes.begin(), built.nodes.end(), std::begin(block.meshlets));
+        std::ranges::copy(heights.rises, std::begin(block.rises));
         std::copy(heights.steps.begin(), heights.steps.end(), std::begin(block.heights));
         set_spacing(facts().grid, built.summary, block);
         return {};

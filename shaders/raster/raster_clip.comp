@@ -43,7 +43,7 @@ void main() {
     PageBlocks block = PageBlocks(page.block);
     uint edges = edges_of(own / meshlet_triangles);
     uvec2 posts[3];
-    triangle_posts(triangle, posts[0], posts[1], posts[2]);
+    triangle_posts(page, meshlet, triangle, edges, posts[0], posts[1], posts[2]);
     vec4 corners[corners_max];
     for (int i = 0; i < 3; ++i) {
         uvec2 post = vertex_post(page, meshlet, posts[i], edges);
