@@ -110,6 +110,10 @@ struct PageBlock {
     // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its north-west to its
     // south-east (core/terrain/cell_diagonal.h). Two words a meshlet, row by row, the first the lowest bit.
     uint rises[512];
+    vec2 up;  // the ellipsoid's normal at the page's origin, in the page frame: along x, along z
+    // Of each meshlet: how far its posts are from the centre of its sphere, along east, north and that
+    // normal, in 1023rds of its radius, 10 bits each.
+    uint boxes[256];
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
     // (core/terrain/height_quantization.h).
@@ -117,9 +121,15 @@ struct PageBlock {
 };
 
 // Where a page's 129 x 129 posts are, on a net: steps of height_step_m along x, y and z of ECEF, from the
-// lattice point of the page's origin.
+// lattice point of the page's origin. In a page that reaches far (places_from_plane) they begin at a post's
+// place on a plane: middle + (row - middle_row) row_step + (column - middle_column) column_step.
 struct PagePlaces {
     int steps[49923];
+    int row_step[3];
+    int column_step[3];
+    int middle[3];
+    int middle_row;
+    int middle_column;
 };
 
 // A page of this frame: one that is drawn, or one above such a page. Its number in the frame's list is in the
@@ -137,7 +147,8 @@ struct FramePage {
     uvec3 from_eye_low;
     uvec3 from_eye_high;
     uint cull;  // bits: 1 the frustum, 2 the horizon may hide some meshlets of it; 4 none of its
-                // nodes may stand for finer ones
+                // nodes may stand for finer ones; 8 closes_gaps; 16 places_from_plane;
+                // 32 cull_by_occlusion
     uint level;
     uint first_row;  // number in the region of the page's first post
     uint first_column;
@@ -171,6 +182,9 @@ ORO_CONST uint cull_by_horizon = 2u;
 ORO_CONST uint stands_never = 4u;
 ORO_CONST uint closes_gaps =
     8u;  // a page of a seam (core/seam) whose quads reach out by pixels, at least so many
+ORO_CONST uint places_from_plane = 16u;  // see PagePlaces
+ORO_CONST uint cull_by_occlusion =
+    32u;  // its nodes are left out where other ground hides them (choose/occlusion.glsl)
 ORO_CONST float least_gap_px = 0.05f;
 ORO_CONST uint seam_stride = 3u;         // posts of a seam's page from a quad to the next
 ORO_CONST float seam_unit = 1048576.0f;  // a unit vector's length in the places of its pages
@@ -186,7 +200,35 @@ struct FrameCounts {
     uint triangles_drawn;
     uint mesh_groups;            // mesh path: workgroups of mesh shaders
     uint triangles_not_clipped;  // compute path: no room in the list; the frame has holes
+    uint task_groups;            // mesh path: workgroups of task shaders
+    uint meshlets_tested;        // whether other ground hides them, by the last round
+    uint meshlets_hidden;        // ... those that it hides, and that no round has drawn
+    uint meshlets_drawn_later;   // by another round than the first
 };
+
+// A frame is drawn in rounds; each leaves out what the ground of those before it hides. What a program is
+// told of its round.
+struct FrameRound {
+    uint first_share;  // of the pages that have something to draw, in 256ths of their number, nearest first:
+                       // these
+    uint last_share;   // ... are looked at; from the first round all that was seen in the last frame, too
+    uint is_last;      // 1: all pages are looked at
+    uint nearest;      // 1: the pyramid is of the nearest depths, which is wrong (tests only)
+    uint lists_round;  // 1: live_pages lists the pages that the round draws, not all
+    uint lists;        // number of the RasterLists of a grid's round (compute path)
+    uint backwards;    // 1: last page, meshlet and triangle first (mesh path)
+};
+ORO_CONST uint round_shares = 256u;
+// What a picture of a frame's own parts shows (shade/show.comp).
+ORO_CONST uint show_colours = 0u;  // none of them
+ORO_CONST uint show_visible = 1u;  // whether the last round has drawn a pixel's meshlet, or one before
+ORO_CONST uint show_levels = 2u;
+ORO_CONST uint show_meshlets = 3u;
+ORO_CONST uint show_triangles = 4u;
+// The pyramid of the farthest depths: a level has a value for each square of 4, 8, 16, 32 and 64 pixels, row
+// by row, and the levels follow each other.
+ORO_CONST uint pyramid_finest = 2u;  // 2^2 = 4 pixels
+ORO_CONST uint pyramid_coarsest = 6u;
 
 // The pages that have something to draw, in the frame's order, and how many workgroups go through them.
 struct LivePages {
@@ -206,6 +248,7 @@ struct RasterLists {
     uint tasks;  // squares of pixels of those
     uint task_groups[3];
 };
+ORO_CONST uint raster_lists_bytes = 64u;  // from one to the next
 // A triangle on the pixel grid, 1/256 px, with reversed depths; positive area.
 struct LargeTriangle {
     int ax, ay, bx, by, cx, cy;
@@ -224,49 +267,7 @@ ORO_CONST uint tasks_max = 1048576u;
 
 #include "shaders/shared_style.h"
 
-// What casts shadows into a frame: pages of all levels, those that are drawn and others, behind the eye, too.
-// Of each level the pages within a rectangle (rows and columns of pages) may be there.
-struct CasterLevel {
-    uint first_row;
-    uint first_column;
-    uint rows;
-    uint columns;
-    uint first;  // of its entries in the table: numbers of pages, row by row; no_page where there is none
-};
-struct CasterPage {
-    uvec2 block;  // device address of its PageBlock
-    uint level;
-    uint row;
-    uint column;
-};
-ORO_CONST uint open_corners = 17u;       // along a page's side
-ORO_CONST uint open_groups_a_page = 5u;  // workgroups of 64
-struct Casters {
-    CasterLevel levels[31];
-    uint level_count;
-    float row_rad;  // from one post of level 0 to the next
-    float column_rad;
-    uint page_count;
-    float top_m;        // nothing is higher above the ellipsoid, as drawn
-    float error_per_m;  // casters may be off by so much for each metre from the eye to what they shade, times
-                        // the slope of the light there: its rise on a level metre, 0.02 to 1
-    uvec2 pages;        // CasterPage
-    uvec2 table;        // uint
-    uvec2 nodes;        // CasterNode, 256 a page
-    uvec2 openness;  // float[open_corners^2] for each page of the frame: the share of the sky that its nodes'
-                     // corners see
-    uvec2 sun_shares;  // float for each pixel, row by row: what it sees of the sun
-};
-ORO_CONST float no_node_m = 1.0e30f;
-// A node of such a page.
-struct CasterNode {
-    float top_m;          // nothing that it stands for is higher
-    float error_m;        // of the pyramid
-    float above_top_m;    // the same of the node of the next coarser level that holds it;
-    float above_error_m;  // ... no_node_m where that is not there
-    uint finer;           // 1: the page of the next finer level is there
-    uvec2 block;          // device address of its page's PageBlock
-};
+#include "shaders/shared_casters.h"
 
 // The geoid's undulation N at nodes of its own, bilinear between them; the nearest beyond them.
 struct UndulationTable {
@@ -375,7 +376,7 @@ struct FrameConstants {
     uint triangle_rows;
     uvec2 recorded;    // device address of recorded positions, or 0 (tests only)
     uint record_view;  // 1: positions in view coordinates are recorded, not those in the eye's meridian frame
-    uvec2 visibility;  // compute rasteriser: device address of depth << 32 | id for each pixel, row by row
+    uvec2 visibility;  // compute rasteriser: device address of depth << 32 | ~id for each pixel, row by row
     uvec2 lists;       // RasterLists
     uvec2 meshlet_list;  // frame page * 256 + meshlet, edges << 28
     uvec2 clip_list;     // triangle ids
@@ -389,7 +390,20 @@ struct FrameConstants {
     NetMap net;
     DrapeTable drape;
     // Last, so that addresses before it stay at multiples of 8 bytes: it would cost 2 to 4 % of a frame.
-    uint is_seam;  // 1: what lies between grids (place/seam.glsl)
+    uint is_seam;           // 1: what lies between grids (place/seam.glsl)
+    uint occlusion;         // 1: the frame is drawn in several rounds, see FrameRound
+    uvec2 round_pages;      // LivePages of the pages that a round draws (mesh path)
+    uvec2 round_live;       // uint[2 page_count]: as `live`, of a round
+    uvec2 kept;             // accepted_words a page: nodes that neither the frustum nor the horizon hides
+    uvec2 drawn;            // ... that the rounds so far have drawn
+    uvec2 drawn_now;        // ... that this round draws
+    uvec2 seen;             // ... that nothing hides, as far as the last round knows
+    uvec2 seen_before;      // the same of the last frame; 0: nothing is known of it
+    uvec2 page_before;      // uint[page_count]: a page's number in the last frame; no_page
+    uvec2 pyramid;          // float: the pyramid of the farthest depths
+    uvec2 ids_before;       // mesh path: uint for each pixel, row by row: its id before this round
+    uint show;              // show_...: what explains the frame, in the place of colours
+    float placing_slack_m;  // a post may be drawn so far from where it is in its page's frame
 };
 
 #ifdef __cplusplus

@@ -67,13 +67,21 @@ ORO_CONST uint air_scattered_first = 8192u;
 ORO_CONST uint air_skylight_first = 10240u;
 ORO_CONST uint air_sky_first = 12288u;
 ORO_CONST uint air_exposure_at = 49152u;
-ORO_CONST uint air_entries = 49156u;  // a multiple of 4: what follows are vec4s, three for each
+ORO_CONST uint air_entries = 49156u;  // a multiple of 4: what follows are uvec4s, two for each
 // ... slice of each line of sight from the eye: what it gathers as far as there (shaders/air/aerial.glsl).
 ORO_CONST uint aerial_rises = 64u;  // of lines that meet the ground, and of the others
 ORO_CONST uint aerial_turns = 24u;
 ORO_CONST uint aerial_slices = 32u;
 ORO_CONST uint aerial_first = 36867u;
-ORO_CONST uint aerial_end = 331779u;
+ORO_CONST uint aerial_end = 233475u;
+// ... height and height of the sun: what comes to a place of the sun, wherever the horizon is, and to level
+// ground of the sky; one uvec4 each.
+ORO_CONST uint lit_heights = 64u;
+ORO_CONST uint lit_suns = 128u;
+ORO_CONST uint lit_first = 233475u;
+ORO_CONST uint lit_end = 241667u;
+ORO_CONST float aerial_log_low = -32.0f;  // of the sun's light: nothing is darker
+ORO_CONST float aerial_log_high = 1.0f;
 
 // What covers the ground by nature: FrameStyle's tints by metres above the snow line of the latitude, and
 // rock where it is steep.

@@ -2,6 +2,7 @@
 // Links core and render alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -39,6 +40,8 @@ struct BenchOptions {
     int width_px{1920};
     int height_px{1080};
     std::string pipeline{raster_requests.front().first};
+    std::string occlusion{"auto"};
+    bool compare_occlusion{false};
     double tau_px{1.0};
     int gpu_memory_mb{0};
     bool floor{false};
@@ -47,6 +50,7 @@ struct BenchOptions {
 
 // Medians over the frames that count.
 struct BenchTimes {
+    FrameReport first;  // of a renderer that knows nothing of the frame before
     FrameReport last;
     double choose_s{};
     double raster_s{};
@@ -69,7 +73,7 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
     const auto beginning = Clock::now();
     ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px));
     if (!plan.missing.empty()) return Error{ErrorKind::failed, "--gpu-memory", "is too small for this view"};
-    ORO_TRY(times.last, renderer.draw(plan, style));
+    ORO_TRY(times.first, renderer.draw(plan, style));
     times.settled_s = seconds_since(beginning);
     // Frames without a pause, until clocks are up, and then those that count.
     constexpr double warm_up_s = 1.0;
@@ -115,6 +119,9 @@ Result<FrameRenderer> renderer_for(const Gpu& gpu, RasterPath path, const BenchO
     renderer_options.extent = {static_cast<std::uint32_t>(options.width_px),
                                static_cast<std::uint32_t>(options.height_px)};
     renderer_options.path = path;
+    renderer_options.occlusion = options.occlusion == "on"    ? OcclusionUse::on
+                                 : options.occlusion == "off" ? OcclusionUse::off
+                                                              : OcclusionUse::if_it_pays;
     renderer_options.smooth_edges = options.style.smooth_edges != 0;
     return FrameRenderer::create(gpu, renderer_options);
 }
@@ -129,6 +136,36 @@ Result<double> peak_triangles_per_s(const Gpu& gpu, RasterPath path, BenchOption
     const Camera camera = eye_above(field, options.width_px, options.height_px);
     ORO_TRY(const BenchTimes times, time_frames(scene, renderer, camera, options));
     return times.last.counts.triangles_drawn / times.raster_s;
+}
+
+// Pixels whose triangle is another without occlusion: from the eye, and from eyes a step or a turn away, one
+// after the other.
+Result<std::uint64_t> pixels_without_occlusion(const Gpu& gpu, RasterPath path, Scene& scene,
+                                               FrameRenderer& renderer, Camera camera, BenchOptions options) {
+    options.occlusion = "off";
+    ORO_TRY(FrameRenderer plain, renderer_for(gpu, path, options));
+    const auto width = static_cast<std::uint32_t>(options.width_px),
+               height = static_cast<std::uint32_t>(options.height_px);
+    std::uint64_t differ = 0;
+    struct Step {
+        double north_deg, up_m, turn_deg;
+    };
+    for (const Step& step :
+         {Step{}, Step{}, Step{1e-6, 0.0, 0.1}, Step{1e-5, 0.0, 1.0}, Step{1e-3, 5.0, 20.0},
+          Step{0.0, 0.0, 90.0}, Step{0.01, 0.0, 1.0}, Step{-0.04, 20.0, 120.0}}) {
+        camera.eye.lat_deg += step.north_deg;
+        camera.eye.h_m += step.up_m;
+        camera.attitude.heading_deg = std::fmod(camera.attitude.heading_deg + step.turn_deg, 360.0);
+        ORO_TRY(FramePlan plan,
+                scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+                                   options.tau_px));
+        ORO_CHECK(renderer.draw(plan, options.style));
+        ORO_CHECK(plain.draw(plan, options.style));
+        ORO_TRY(const std::vector<std::uint32_t> with, renderer.read_ids(width, height));
+        ORO_TRY(const std::vector<std::uint32_t> without, plain.read_ids(width, height));
+        for (std::size_t i = 0; i < with.size(); ++i) differ += with[i] != without[i] ? 1U : 0U;
+    }
+    return differ;
 }
 
 ordered_json times_json(const BenchTimes& times) {
@@ -147,10 +184,15 @@ ordered_json times_json(const BenchTimes& times) {
         counts.meshlets_drawn == 0
             ? 0.0
             : counts.triangles_drawn / (static_cast<double>(gpu::meshlet_triangles) * counts.meshlets_drawn);
-    json["task_workgroups"] = times.last.task_groups;
+    json["task_workgroups"] = counts.task_groups;
     json["mesh_workgroups"] = counts.mesh_groups;
     json["pages_in_frame"] = times.last.pages;
     json["pages_live"] = counts.pages_live;
+    json["meshlets_tested"] = counts.meshlets_tested;
+    json["meshlets_hidden"] = counts.meshlets_hidden;
+    json["meshlets_drawn_later"] = counts.meshlets_drawn_later;
+    json["first_raster_ms"] = 1e3 * times.first.raster_s;
+    json["first_meshlets"] = times.first.counts.meshlets_drawn;
     json["pages_on_gpu"] = times.pages_on_gpu;
     json["bytes_on_gpu"] = times.bytes_on_gpu;
     json["triangles_per_s"] = counts.triangles_drawn / times.raster_s;
@@ -239,6 +281,11 @@ Result<void> run_bench(const BenchOptions& options) {
             one["floor_ms"] = 1e3 * floor_s;
             one["times_floor"] = times.gpu_s / floor_s;
         }
+        if (options.compare_occlusion) {
+            ORO_TRY(const std::uint64_t differ,
+                    pixels_without_occlusion(*gpu, path, scene, renderer, eye.camera, options));
+            one["pixels_that_differ"] = differ;
+        }
         if (!options.json) print_times(eye.name, one);
         json["eyes"][eye.name] = std::move(one);
     }
@@ -275,6 +322,12 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 10000));
     app.add_option("--pipeline", options.pipeline, "mesh, compute or auto")
         ->check(CLI::IsMember(oro::words_of(oro::raster_requests)));
+    app.add_option(
+           "--occlusion", options.occlusion,
+           "Leave out what other ground hides: on, off, or auto (where it pays). The picture is the same")
+        ->check(CLI::IsMember({"on", "off", "auto"}));
+    app.add_flag("--compare-occlusion", options.compare_occlusion,
+                 "Count the pixels whose triangle is another without occlusion, from eight eyes in motion");
     app.add_option("--gpu-memory", options.gpu_memory_mb, "Megabytes of terrain on the GPU at most")
         ->check(CLI::Range(0, 1000000));
     app.add_flag("--floor", options.floor,

@@ -102,8 +102,8 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
         ->description(
             "How much the air bends light (a surveyor's coefficient of refraction), the same at all heights, "
             "-1 to 0.9: 0 is not at all, 0.13 is usual by day. Not with --air.");
-    hide(command,
-         {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--tolerance"});
+    hide(command, {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--show",
+                   "--tolerance"});
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors");
@@ -176,7 +176,8 @@ void add_plan(CLI::App& app, PlanOptions& options) {
     hide(command, {"--style",        "--drape",          "--drape-opacity", "--names",        "--names-field",
                    "--overlay",      "--overlay-colour", "--overlay-width", "--overlay-fill", "--sun",
                    "--sun-time",     "--visibility",     "--sea",           "--rim",          "--shadows",
-                   "--sky-openness", "--labels",         "--edges",         "--samples",      "--pipeline"});
+                   "--sky-openness", "--labels",         "--edges",         "--samples",      "--pipeline",
+                   "--show"});
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
@@ -203,7 +204,7 @@ void add_trade(CLI::App& app, TradeOptions& options) {
     command.get_option("--size")->description("Size of the pictures in pixels (default 640x360).");
     hide(command, {"--names", "--names-field", "--overlay", "--overlay-colour", "--overlay-width",
                    "--overlay-fill", "--tau", "--earth", "--refraction", "--air", "--precision", "--geoid",
-                   "--heights", "--accuracy", "--tolerance", "--labels", "--edges", "--samples"});
+                   "--heights", "--accuracy", "--tolerance", "--labels", "--edges", "--samples", "--show"});
     add_memory_options(command, options.memory);
     add_quiet(command, options.quiet, "the table and errors");
     set_help(command,

@@ -117,7 +117,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const auto ground, RegionGround::of(region, cuts, view.exaggeration));
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
-    ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
+    ORO_CHECK(lay_images(view, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(const std::optional<PictureDifference> pixels,
             check_pixels(options, view, region, *ground, *gpu, scene, path, style, bar));

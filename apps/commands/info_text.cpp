@@ -91,8 +91,8 @@ std::string spacing_text(const SourceReport& source) {
     const double parallel_m =
         prime_vertical_radius_m(middle_deg) * std::cos(radians_from_deg(middle_deg).rad);
     return distance_text(radians_from_deg(source.lat_spacing_deg).rad * meridian_radius_m(middle_deg)) +
-           " north-south and " +
-           distance_text(radians_from_deg(source.lon_spacing_deg).rad * parallel_m) + " east-west";
+           " north-south and " + distance_text(radians_from_deg(source.lon_spacing_deg).rad * parallel_m) +
+           " east-west";
 }
 
 // "m", whatever a file calls the metre.
@@ -119,8 +119,14 @@ std::string all_of(const std::vector<std::string>& facts) {
     return text;
 }
 
+// H at a source's posts in the region.
+std::string heights_of(const SourceReport& source) {
+    return source.is_all_void() ? "none: all its posts are void"
+                                : heights_text(source.lowest_m, source.highest_m);
+}
+
 std::string heights_lines(const SourceReport& source) {
-    const std::string of_region = heights_text(source.lowest_m, source.highest_m);
+    const std::string of_region = heights_of(source);
     if (!source.stored) return line("H", of_region);
     if (is_as_stored(source)) return line("H", of_region + ", as the file stores them");
     return line("stored", stored_text(*source.stored) + ": the file's own values") +
@@ -168,10 +174,8 @@ std::string line_of_file(const SourceReport& source, Posts posts, const std::vec
     text += spacing_text(source);
     const bool differs = posts == Posts::read && source.stored && !is_as_stored(source);
     if (differs) text += "; stores " + stored_text(*source.stored);
-    text +=
-        "; H " +
-        (posts == Posts::read ? heights_text(source.lowest_m, source.highest_m) : std::string("not read")) +
-        (differs ? " at the region's posts" : "");
+    text += "; H " + (posts == Posts::read ? heights_of(source) : std::string("not read")) +
+            (differs ? " at the region's posts" : "");
     if (source.resampling) text += "; resampled: up to " + resampling_words(*source.resampling);
     if (source.voids > 0) text += "; void posts: " + voids_text(source);
     if (source.seams.disagreeing_posts > 0)

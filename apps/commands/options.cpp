@@ -124,6 +124,11 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
                  "Edges of the ground before the sky and before farther ground, in pictures of one sample: "
                  "smooth, each pixel shows what it has of both; or steps, it shows what is in its middle. "
                  "Default: as the style has it.");
+    looks.choice(
+        "--show", options.show, show_words(),
+        "Show how the picture was made, in the place of colours: visible, whether the last round drew it "
+        "or one before; levels, how many posts are left out; meshlets or triangles, each in a colour of "
+        "its own. For pictures of one sample.");
     looks.whole_number("--samples", options.samples, static_cast<int>(view_limits::samples.low),
                        static_cast<int>(view_limits::samples.high), "N",
                        "How many samples make a pixel, " + span(view_limits::samples) +
@@ -215,9 +220,10 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
         "--order", options.order, {"finest", "listed"},
         "Which file is the ground where several have some: the one with the closest points (finest, the "
         "default), or the one named first (listed; of a folder by the order of names).");
-    data.number("--feather", options.feather_m, "METRES",
-                "Let heights go over smoothly to those of a coarser file below, within so many metres inside the rim "
-                "of a finer one. Without this they meet in a step as high as they differ.");
+    data.number(
+        "--feather", options.feather_m, "METRES",
+        "Let heights go over smoothly to those of a coarser file below, within so many metres inside the rim "
+        "of a finer one. Without this they meet in a step as high as they differ.");
     data.flag(
         "--fill-voids", options.fill_voids,
         "Give void posts (points that a file leaves empty) a height from their neighbours. Without this "

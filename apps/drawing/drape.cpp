@@ -16,23 +16,52 @@ MemoryOptions memory_of_pages(const View& view, const MemoryOptions& memory) {
     return pages;
 }
 
-Result<void> lay_images(const View& view, const Region& region, const MemoryOptions& memory, const Gpu& gpu,
-                        Scene& scene, bool quiet) {
+namespace {
+
+// A view's images over one of a scene's grids; null where none of them lies over it.
+struct OverGrid {
+    std::size_t grid;
+    std::unique_ptr<GroundImage> images;
+};
+
+// Over which grids there are some. A file that lies beside all of them is named, unless `quiet`.
+Result<std::vector<OverGrid>> over_grids(const View& view, const Scene& scene, bool quiet) {
+    std::vector<OverGrid> over;
+    std::vector<std::string> beside_all;
+    for (std::size_t grid = 0; grid < scene.grids(); ++grid) {
+        std::vector<std::string> beside;
+        ORO_TRY(std::unique_ptr<GroundImage> images,
+                images_over(scene.pages_of(grid).facts().grid, view.images, beside));
+        if (grid == 0) beside_all = beside;
+        std::erase_if(beside_all, [&](const std::string& file) {
+            return std::ranges::find(beside, file) == beside.end();
+        });
+        if (beside.size() < view.images.size()) over.push_back({grid, std::move(images)});
+    }
+    for (const std::string& file : beside_all)
+        say(quiet, "note: " + file + ": lies beside the elevation data");
+    return over;
+}
+
+}  // namespace
+
+Result<void> lay_images(const View& view, const MemoryOptions& memory, const Gpu& gpu, Scene& scene,
+                        bool quiet) {
     if (view.images.empty()) return {};
     for (const ImageSource& image : view.images) {
         for (const std::string& note : image.notes) say(quiet, "note: " + note);
     }
-    std::vector<std::string> beside;
-    ORO_TRY(std::unique_ptr<GroundImage> over, images_over(region.field.grid, view.images, beside));
-    for (const std::string& file : beside) say(quiet, "note: " + file + ": lies beside the elevation data");
+    ORO_TRY(std::vector<OverGrid> over, over_grids(view, scene, quiet));
     constexpr std::uint64_t most = std::uint64_t{1} << 30U;
     const std::uint64_t bytes = memory.gpu_memory_mb
                                     ? static_cast<std::uint64_t>(*memory.gpu_memory_mb) * 500000U
                                     : std::min(gpu.report().memory_bytes / 4, most);
     DrapeLook look;
     look.opacity = static_cast<float>(view.drape_opacity);
-    ORO_TRY(DrapeStore store, DrapeStore::create(gpu, std::move(over), look, bytes));
-    scene.set_drape(std::make_unique<DrapeStore>(std::move(store)));
+    for (OverGrid& one : over) {
+        ORO_TRY(DrapeStore store, DrapeStore::create(gpu, std::move(one.images), look, bytes / over.size()));
+        scene.set_drape(std::make_unique<DrapeStore>(std::move(store)), one.grid);
+    }
     return {};
 }
 

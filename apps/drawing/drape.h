@@ -10,10 +10,11 @@ namespace oro {
 // Memory for a view's pages: beside images they have half of what was allowed.
 MemoryOptions memory_of_pages(const View& view, const MemoryOptions& memory);
 
-// Lays a view's images over a scene of its region. Their tiles take the other half of the GPU's memory that
-// was allowed; where nothing was said, a quarter of what the device has, at most 1 GiB. `quiet`: what a user
-// must know of them is not said. Errors: as images_over()'s; the device.
-Result<void> lay_images(const View& view, const Region& region, const MemoryOptions& memory, const Gpu& gpu,
-                        Scene& scene, bool quiet);
+// Lays a view's images over all grids of a scene of its region, and over what lies between them. Their tiles
+// take the other half of the GPU's memory that was allowed; where nothing was said, a quarter of what the
+// device has, at most 1 GiB. `quiet`: what a user must know of them is not said. Errors: as images_over()'s;
+// the device.
+Result<void> lay_images(const View& view, const MemoryOptions& memory, const Gpu& gpu, Scene& scene,
+                        bool quiet);
 
 }  // namespace oro

@@ -66,13 +66,20 @@ Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggera
     return create_scene(gpu, std::move(pages), memory, heights, means);
 }
 
+namespace {
+
+std::uint64_t bytes_of(const std::optional<int>& mb) {
+    return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
+}
+
+}  // namespace
+
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
-                           HeightStorage heights, bool means, unsigned shares) {
-    const auto bytes = [](const std::optional<int>& mb) {
-        return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
-    };
-    return Scene::create(gpu, std::move(pages),
-                         {bytes(memory.gpu_memory_mb), bytes(memory.memory_mb), shares}, heights, means);
+                           HeightStorage heights, bool means) {
+    SceneMemory own;
+    own.gpu = bytes_of(memory.gpu_memory_mb);
+    own.main = bytes_of(memory.memory_mb);
+    return Scene::create(gpu, std::move(pages), own, heights, means);
 }
 
 Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, double exaggeration,
@@ -103,9 +110,8 @@ Result<std::uint64_t> draw_between(const Gpu& gpu, const Region& region, const R
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             seam_pages(seam, region.field.undulation, region_shape(region.field, exaggeration)));
     const std::uint64_t triangles = pages->facts().triangles;
-    // Small beside the rest: not of the share of any.
-    ORO_TRY(Scene between,
-            create_scene(gpu, std::move(pages), MemoryOptions{}, HeightStorage::f32, false, 4));
+    // Small beside the rest, which it takes nothing from.
+    ORO_TRY(Scene between, create_scene(gpu, std::move(pages), MemoryOptions{}));
     scene.draw_beside(std::move(between));
     return triangles;
 }
@@ -116,10 +122,13 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
                                     GridPages pages, const SceneRequest& request) {
     std::optional<Scene> scene;
     std::uint64_t triangles = 0;
+    SceneMemory memory;
+    memory.main = bytes_of(request.memory.memory_mb);
+    memory.shares = static_cast<unsigned>(pages.size());
+    memory.shared = page_budget(gpu, bytes_of(request.memory.gpu_memory_mb));
     for (std::unique_ptr<RegionPages>& one : pages) {
         triangles += one->facts().triangles;
-        ORO_TRY(Scene made, create_scene(gpu, std::move(one), request.memory, request.heights, request.means,
-                                         static_cast<unsigned>(pages.size())));
+        ORO_TRY(Scene made, Scene::create(gpu, std::move(one), memory, request.heights, request.means));
         if (scene)
             scene->draw_beside(std::move(made));
         else

@@ -20,8 +20,7 @@ Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double e
 // Makes them ready for a GPU. Errors: out of device memory. heights: how they are kept there. means: as
 // Scene::create().
 Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
-                           HeightStorage heights = HeightStorage::f32, bool means = false,
-                           unsigned shares = 1);
+                           HeightStorage heights = HeightStorage::f32, bool means = false);
 // The same of a region with a part cut out (geo/together).
 Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, const CutOut& cut,
                                                   double exaggeration, const RenderProgress& progress = {});

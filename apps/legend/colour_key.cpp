@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "apps/legend/legend.h"
+#include "core/frame/frame_colours.h"
+#include "core/terrain/level_grid.h"
 
 namespace oro {
 namespace {
@@ -25,6 +27,34 @@ double snow_line_m(const gpu::GroundCover& cover, double lat_deg) {
         return (1.0 - share) * static_cast<double>(south.H_m) + share * static_cast<double>(north.H_m);
     }
     return 0.0;
+}
+
+StripColour coded(const gpu::vec3& colour) {
+    return {code_of(static_cast<double>(colour.x)), code_of(static_cast<double>(colour.y)),
+            code_of(static_cast<double>(colour.z))};
+}
+
+// What a picture shows of its own making.
+ColourKey key_of_show(Show show, const Region& region) {
+    ColourKey key;
+    key.shape = KeyShape::names;
+    if (show == Show::visible) {
+        key.title = "Drawn by";
+        key.names = {{coded(colour_of_round(true)), "a round before the last"},
+                     {coded(colour_of_round(false)), "the last: what those left open"}};
+    } else if (show == Show::levels) {
+        key.title = "Levels: one post of so many, along rows and columns";
+        int levels = level_count(region.field.grid);
+        for (const Region& other : region.beside) levels = std::max(levels, level_count(other.field.grid));
+        for (int level = 0; level < std::min(levels, 8); ++level)
+            key.names.push_back(
+                {coded(colour_of_level(static_cast<gpu::uint>(level))), std::to_string(1 << level)});
+    } else {
+        const bool meshlets = show == Show::meshlets;
+        key.title = meshlets ? "Each meshlet in a colour of its own" : "Each triangle in a colour of its own";
+        for (gpu::uint i = 0; i < 6; ++i) key.names.push_back({coded(colour_of_number(i)), ""});
+    }
+    return key;
 }
 
 void add_ticks(ColourKey& key, double step) {
@@ -50,6 +80,7 @@ StripColour ColourKey::colour(double value) const {
 }
 
 ColourKey colour_key(const View& view, const Region& region, const Style& style) {
+    if (view.show) return key_of_show(*view.show, region);
     const gpu::FrameStyle& frame = style.frame;
     ColourKey key;
     key.stops.assign(frame.tints, frame.tints + frame.tint_count);

@@ -10,7 +10,7 @@
 
 namespace oro {
 
-enum class KeyShape { none, bar, wheel };
+enum class KeyShape { none, bar, wheel, names };
 struct ColourKey {
     KeyShape shape{KeyShape::none};
     std::string title;
@@ -23,6 +23,11 @@ struct ColourKey {
 
     std::vector<gpu::TintStop> stops;
     bool codes{};
+    struct Named {
+        StripColour colour;
+        std::string name;
+    };
+    std::vector<Named> names;  // of KeyShape::names
 };
 // By the heights of the region, or all slopes; what grows by nature by the snow line at the eye's or the
 // map's latitude. None where a style has one colour alone.

@@ -120,6 +120,7 @@ class LegendPage {
 
     Result<void> draw_key(Strip& strip, glm::dvec2 at) const {
         if (key_.shape == KeyShape::wheel) return draw_wheel(strip, at);
+        if (key_.shape == KeyShape::names) return draw_names(strip, at);
         const double wide = std::min(22.0 * em_, width_px_ - margin_ - at.x - em_), tall = 1.1 * em_;
         const double top = at.y + 1.55 * em_;
         ORO_CHECK(strip.write(face_, key_.title, {at.x, at.y + 0.85 * em_}, 0.9 * em_, quiet));
@@ -136,6 +137,21 @@ class LegendPage {
                                      key_.unit;
             ORO_CHECK(
                 strip.write(face_, text, {x, top + tall + 1.35 * em_}, 0.9 * em_, ink, Strip::From::middle));
+        }
+        return {};
+    }
+
+    // Squares of the colours, each with its name.
+    Result<void> draw_names(Strip& strip, glm::dvec2 at) const {
+        const double side = 1.1 * em_, top = at.y + 1.55 * em_;
+        ORO_CHECK(strip.write(face_, key_.title, {at.x, at.y + 0.85 * em_}, 0.9 * em_, quiet));
+        double x = at.x;
+        for (const ColourKey::Named& named : key_.names) {
+            strip.fill({x - 1.0, top - 1.0}, {side + 2.0, side + 2.0}, quiet);
+            strip.fill({x, top}, {side, side}, named.colour);
+            ORO_CHECK(strip.write(face_, named.name, {x + 1.4 * em_, top + 0.85 * em_}, 0.9 * em_, ink));
+            ORO_TRY(const double wide, face_.width_px(named.name, 0.9 * em_));
+            x += 2.2 * em_ + wide;
         }
         return {};
     }

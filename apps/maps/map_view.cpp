@@ -44,6 +44,7 @@ Result<void> check_map_options(const ShotOptions& options) {
                       {"--precision", view.precision.has_value()},
                       {"--tolerance", view.tolerance.has_value()},
                       {"--edges", view.edges.has_value()},
+                      {"--show", view.show.has_value()},
                       {"--names", !view.names.empty()},
                       {"--overlay", !view.overlay.empty()},
                       {"--verify", options.verify},

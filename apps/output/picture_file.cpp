@@ -101,7 +101,7 @@ Result<void> check_drawn(const Gpu& gpu, Scene& scene, const PictureReport& repo
                          " pages of terrain; this view needs more (a larger --tau needs fewer)"};
     if (!report.images_settled)
         return Error{ErrorKind::failed, "--gpu-memory",
-                     "the GPU may hold " + std::to_string(scene.drape()->capacity()) +
+                     "the GPU may hold " + std::to_string(scene.image_tiles_max()) +
                          " tiles of images; this view needs more (a smaller --size needs fewer)"};
     return {};
 }

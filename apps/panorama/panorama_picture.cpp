@@ -172,7 +172,7 @@ Result<CylinderPicture> draw_scene(const View& view, const Region& region, const
                          " pages of terrain; this panorama needs more (a larger --tau needs fewer)"};
     if (!picture.report.images_settled)
         return Error{ErrorKind::failed, "--gpu-memory",
-                     "the GPU may hold " + std::to_string(scene.drape()->capacity()) +
+                     "the GPU may hold " + std::to_string(scene.image_tiles_max()) +
                          " tiles of images; this panorama needs more (a smaller --width needs fewer)"};
     ORO_CHECK(region.health());
     return picture;

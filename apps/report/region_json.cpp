@@ -29,7 +29,8 @@ ordered_json source_json(const SourceReport& s) {
     json["spacing"] =
         json_object("lat_deg", s.lat_spacing_deg, "lon_deg", s.lon_spacing_deg, "metres", s.spacing_m);
     json["bbox"] = box_json(s.box);
-    json["H_m"] = json_object("lowest", s.lowest_m, "highest", s.highest_m);
+    json["H_m"] = nullptr;  // where all its posts are void
+    if (!s.is_all_void()) json["H_m"] = json_object("lowest", s.lowest_m, "highest", s.highest_m);
     json["stored"] = nullptr;
     if (s.stored) json["stored"] = stored_fields<ordered_json>(*s.stored);
     put_source_findings(json, s);

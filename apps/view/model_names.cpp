@@ -29,6 +29,10 @@ constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16",
 constexpr Names<Sea, 3> seas{{{"level", Sea::level}, {"low", Sea::low}, {"voids", Sea::voids}}};
 constexpr Names<Rim, 2> rims{{{"skirt", Rim::skirt}, {"none", Rim::none}}};
 constexpr Names<std::optional<bool>, 3> labels_of_view{{{"style", {}}, {"on", true}, {"off", false}}};
+constexpr Names<Show, 4> shows{{{"visible", Show::visible},
+                                {"levels", Show::levels},
+                                {"meshlets", Show::meshlets},
+                                {"triangles", Show::triangles}}};
 constexpr Names<Edges, 2> edges_of_ground{{{"smooth", Edges::smooth}, {"steps", Edges::steps}}};
 
 template <class Choice, std::size_t count>
@@ -67,6 +71,9 @@ Result<Sea> sea_named(const std::string& name) {
 Result<Rim> rim_named(const std::string& name) {
     return named("--rim", rims, name);
 }
+Result<Show> show_named(const std::string& name) {
+    return named("--show", shows, name);
+}
 Result<Edges> edges_named(const std::string& name) {
     return named("--edges", edges_of_ground, name);
 }
@@ -92,6 +99,9 @@ std::vector<std::string> sea_words() {
 std::vector<std::string> rim_words() {
     return words_of(rims);
 }
+std::vector<std::string> show_words() {
+    return words_of(shows);
+}
 std::vector<std::string> edges_words() {
     return words_of(edges_of_ground);
 }
@@ -100,6 +110,9 @@ const char* name_of(Sea sea) {
 }
 const char* name_of(Rim rim) {
     return name_in(rims, rim);
+}
+const char* name_of(Show show) {
+    return name_in(shows, show);
 }
 const char* name_of(Edges edges) {
     return name_in(edges_of_ground, edges);

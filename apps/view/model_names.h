@@ -16,6 +16,7 @@ Result<bool> geoid_named(const std::string& name);             // "egm96": true,
 Result<HeightStorage> heights_named(const std::string& name);  // "f32", "i16"
 Result<Sea> sea_named(const std::string& name);                // "level", "low", "voids"
 Result<Rim> rim_named(const std::string& name);                // "skirt", "none"
+Result<Show> show_named(const std::string& name);              // "visible", "levels", ...
 Result<Edges> edges_named(const std::string& name);            // "smooth", "steps"
 Result<std::optional<bool>> labels_named(
     const std::string& name);  // "on", "off", "style": as the style has it
@@ -29,9 +30,11 @@ std::vector<std::string> air_words();
 std::vector<std::string> sea_words();
 std::vector<std::string> rim_words();
 std::vector<std::string> edges_words();
+std::vector<std::string> show_words();
 const char* name_of(Sea sea);
 const char* name_of(Rim rim);
 const char* name_of(Edges edges);
+const char* name_of(Show show);
 const char* name_of(HeightStorage heights);
 
 // What asks for that air: "--air standard", "--refraction 0.13".

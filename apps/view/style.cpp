@@ -127,7 +127,10 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     ORO_CHECK(label_by(view, style));
     if (view.shadows) style.frame.shadows = *view.shadows ? 1 : 0;
     if (view.sky_openness) style.frame.sky_openness = *view.sky_openness ? 1 : 0;
-    if (view.edges) style.frame.smooth_edges = *view.edges == Edges::smooth ? 1 : 0;
+    if (view.show)
+        style.frame.smooth_edges = 0;
+    else if (view.edges)
+        style.frame.smooth_edges = *view.edges == Edges::smooth ? 1 : 0;
     ORO_CHECK(surround(style.frame, view, field));
     ORO_CHECK(fit_to_view(style, view, field));
     return style;
@@ -140,6 +143,20 @@ Result<void> fit_to_view(Style& style, const View& view, const HeightField& fiel
     style.frame.contours.interval_m =
         static_cast<float>(eye == Eye::moves ? steady_interval_m(shown_m, wanted_m) : wanted_m);
     return field.health();
+}
+
+gpu::uint shown_by(Show show) {
+    switch (show) {
+        case Show::visible:
+            return gpu::show_visible;
+        case Show::levels:
+            return gpu::show_levels;
+        case Show::meshlets:
+            return gpu::show_meshlets;
+        case Show::triangles:
+            break;
+    }
+    return gpu::show_triangles;
 }
 
 }  // namespace oro

@@ -8,6 +8,9 @@
 
 namespace oro {
 
+// gpu::show_... of the same.
+gpu::uint shown_by(Show show);
+
 // True for a path (ending in .json or .txt, or with a folder), false for a name in the data folder.
 bool is_style_path(const std::string& style);
 

@@ -39,6 +39,9 @@ enum class Rim { skirt, none };
 // Where ground ends before the sky or before farther ground, in pictures of one sample: a pixel shows what it
 // has of both, or what is in its middle.
 enum class Edges { smooth, steps };
+// What a picture shows of its own making, in the place of colours: whether the last of a frame's rounds drew
+// it, how coarse, which meshlet, which triangle.
+enum class Show { visible, levels, meshlets, triangles };
 
 // Which part of all around a panorama shows: azimuths from the left border clockwise, elevations from its
 // lowest row to its highest. The view's camera then tells the eye, the middle and the whole picture's size.
@@ -70,6 +73,7 @@ struct View {
     std::optional<bool> sky_openness;  // likewise
     std::optional<bool> labels;        // likewise: heights on contour lines
     std::optional<Edges> edges;        // likewise
+    std::optional<Show> show;          // nothing: the ground
     Sea sea{Sea::level};
     Rim rim{Rim::skirt};
     std::vector<std::string> drape;  // images over the ground, the last on top

@@ -241,6 +241,10 @@ View read_fields(const nlohmann::json& json) {
     // Views of before there were labels were drawn without.
     view.labels = false;
     read_choice(json, "labels", labels_named, view.labels);
+    if (Show show{}; json.contains("show")) {
+        read_choice(json, "show", show_named, show);
+        view.show = show;
+    }
     if (Edges edges{}; json.contains("edges")) {
         read_choice(json, "edges", edges_named, edges);
         view.edges = edges;
@@ -318,6 +322,7 @@ std::string view_to_json(const View& view, bool pretty) {
     if (view.shadows) json["shadows"] = *view.shadows;
     if (view.sky_openness) json["sky_openness"] = *view.sky_openness;
     json["labels"] = !view.labels ? "style" : *view.labels ? "on" : "off";
+    if (view.show) json["show"] = name_of(*view.show);
     if (view.edges) json["edges"] = name_of(*view.edges);
     json["pipeline"] = view.pipeline;
     json["tau_px"] = view.tau_px;

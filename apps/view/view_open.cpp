@@ -39,11 +39,6 @@ void begin_with_region_at(const Geodetic& eye, Region& region) {
     region = std::move(first);
 }
 
-// Images are of one grid yet.
-bool draws_grids_apart(const View& view) {
-    return view.drape.empty();
-}
-
 // Where the data that a view names are gone: what to do about it.
 Error with_way_out(Error fault, const View& view, const RegionOptions& options) {
     if (!options.paths.empty()) return fault;
@@ -106,21 +101,21 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         ORO_TRY(view, read_view(view_file));
         ORO_CHECK(check_map(view, view_options, view_file));
         ORO_CHECK(check_kind(view, view_file, kind));
-        view.told =
-            ToldView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
-                     !view_options.style && !view_options.visibility_km && !view_options.sun &&
-                         !view_options.sun_time && !view_options.sea && !view_options.rim &&
-                         view_options.drape.empty() && !view_options.drape_opacity && !view_options.shadows &&
-                         view_options.names.empty() && !view_options.names_field &&
-                         view_options.overlay.empty() && !view_options.overlay_colour &&
-                         !view_options.overlay_width_px && !view_options.overlay_fill &&
-                         !view_options.sky_openness && !view_options.labels && !view_options.edges,
-                     view.prints};
+        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
+                             !view_options.style && !view_options.visibility_km && !view_options.sun &&
+                                 !view_options.sun_time && !view_options.sea && !view_options.rim &&
+                                 view_options.drape.empty() && !view_options.drape_opacity &&
+                                 !view_options.shadows && view_options.names.empty() &&
+                                 !view_options.names_field && view_options.overlay.empty() &&
+                                 !view_options.overlay_colour && !view_options.overlay_width_px &&
+                                 !view_options.overlay_fill && !view_options.sky_openness &&
+                                 !view_options.labels && !view_options.edges && !view_options.show,
+                             view.prints};
         ORO_CHECK(change_view(view, view_options));
         // A sun that its file told stays where the file has it: the same view, the same bytes.
         if (view_options.sun_time) aim_sun(view.sun, view.camera.eye);
         ORO_CHECK(change_region(view, region_options));
-        view.region.grids_apart = view.several_grids && draws_grids_apart(view);
+        view.region.grids_apart = view.several_grids;
         if (view.region.paths.empty())
             return Error{ErrorKind::usage, "--view " + view_file,
                          "does not tell where its elevation data lie: name them, too"};
@@ -141,7 +136,6 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
-    view.region.grids_apart = draws_grids_apart(view);
     ORO_TRY(region, open_region(view.region, progress));
     view.own_posts = keeps_own_posts(region);
     view.several_grids = !region.beside.empty();

@@ -119,6 +119,9 @@ Result<void> apply_colours(View& view, const ViewOptions& options) {
     if (options.labels) {
         ORO_TRY(view.labels, switch_named("--labels", *options.labels));
     }
+    if (options.show) {
+        ORO_TRY(view.show, show_named(*options.show));
+    }
     if (options.edges) {
         ORO_TRY(view.edges, edges_named(*options.edges));
     }
@@ -139,6 +142,8 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
         view.samples = static_cast<int>(samples);
     }
     ORO_CHECK(apply_colours(view, options));
+    if (view.show && view.samples > 1)
+        return refused("--show", "", "is for pictures of one sample, not together with --samples");
     if (options.pipeline) view.pipeline = *options.pipeline;
     ORO_CHECK(apply_models(view, options));
     if (options.tau_px) {

@@ -138,7 +138,7 @@ Result<void> take_finer_levels(Viewer& viewer) {
     ORO_TRY(Scene scene,
             create_scene(viewer.gpu, std::move(pages), memory_of_pages(viewer.view, viewer.options.memory),
                          viewer.view.heights, asks_for_means(viewer.style.frame)));
-    ORO_CHECK(lay_images(viewer.view, viewer.region, viewer.options.memory, viewer.gpu, scene, true));
+    ORO_CHECK(lay_images(viewer.view, viewer.options.memory, viewer.gpu, scene, true));
     const Camera& camera = viewer.view.camera;
     ORO_CHECK(scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
                                  std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
@@ -290,7 +290,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field,
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     ORO_TRY(const FrameReport drawn,
-            viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drape()));
+            viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
     ORO_CHECK(write_over(viewer, drawn));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown || !drawn.images_settled;
@@ -360,7 +360,7 @@ Result<void> run_view(const WindowOptions& options) {
                                                {view.exaggeration, memory_of_pages(view, options.memory),
                                                 view.heights, asks_for_means(style.frame)}));
     Scene& scene = whole.scene;
-    ORO_CHECK(lay_images(view, region, options.memory, *gpu, scene, options.quiet));
+    ORO_CHECK(lay_images(view, options.memory, *gpu, scene, options.quiet));
     bar.clear();
     say_changes(view, options.quiet);
     say_notes(region, options.quiet);
@@ -374,6 +374,7 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_TRY(renderer_options.path, choose_path(view.pipeline, *gpu));
     renderer_options.waits_for_images = false;
     renderer_options.smooth_edges = style.frame.smooth_edges != 0;
+    if (view.show) renderer_options.show = shown_by(*view.show);
     if (renderer_options.extent.width == 0) renderer_options.extent = {64, 64};
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, renderer_options));
     Viewer viewer{options,

@@ -19,7 +19,7 @@ struct GridInFile {
     std::uint32_t rank{};  // 0 is the ground where several have some (Region::rank)
 };
 
-inline constexpr std::size_t most_grids_in_file = 256;
+inline constexpr std::size_t most_grids_in_file = 4096;
 
 // Little-endian: "OROGRIDS", version (uint32, 1), number of grids (uint32); for each its size in bytes
 // (uint64), its rank and a zero (uint32 each); and the XXH64 of all before. The grids follow, one right after

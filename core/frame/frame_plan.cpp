@@ -298,7 +298,10 @@ gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
                  (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
     if (!model_.culls_nodes() || pages_.is_seam()) frame.cull = 0;
     if (pages_.closes_gaps(summary.index)) frame.cull |= gpu::closes_gaps;
+    if (pages_.facts().grid.net && !pages_.is_seam() && reaches_far(summary))
+        frame.cull |= gpu::places_from_plane;
     if (!model_.may_stand(page.record)) frame.cull |= gpu::stands_never;
+    if (model_.culls_nodes() && !pages_.is_seam()) frame.cull |= gpu::cull_by_occlusion;
     frame.block = {static_cast<gpu::uint>(page.address), static_cast<gpu::uint>(page.address >> 32U)};
     frame.level = static_cast<gpu::uint>(summary.index.level);
     if (pages_.facts().grid.net) set_from_eye(summary, frame);
@@ -335,6 +338,7 @@ Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residenc
     plan.column_terms = tables.take_columns();
     plan.constants = frame_constants(pages, camera, tile, tau_px, model, coding);
     plan.constants.page_count = static_cast<gpu::uint>(plan.pages.size());
+    plan.constants.placing_slack_m = static_cast<float>(model_view.rounding_m()) * 1.001F;
     return plan;
 }
 

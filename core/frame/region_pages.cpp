@@ -27,6 +27,7 @@ class PagesInMemory : public RegionPages {
         const PageHeights heights = page_heights(facts().grid, heights_, page);
         std::copy(built.nodes.begin(), built.nodes.end(), std::begin(block.meshlets));
         std::ranges::copy(heights.rises, std::begin(block.rises));
+        std::copy(built.boxes.begin(), built.boxes.end(), std::begin(block.boxes));
         std::copy(heights.steps.begin(), heights.steps.end(), std::begin(block.heights));
         set_spacing(facts().grid, built.summary, block);
         return {};
@@ -72,7 +73,7 @@ Result<void> RegionPages::load_places(const PageIndex& page, const gpu::PageBloc
     if (fill_places(facts_.grid, whole.summary, heights, places)) return {};
     return Error{
         ErrorKind::failed, "region too large",
-        "its own posts lie more than 1,048 km from the middle of one page; open a part of it (--bbox)"};
+        "its own posts lie more than 1,048 km from the plane of one page; open a part of it (--bbox)"};
 }
 
 std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,

@@ -224,6 +224,7 @@ void LevelBuilder::build(std::size_t number, const PyramidHooks& hooks, PyramidP
         }
     }
     std::copy(std::begin(block.meshlets), std::end(block.meshlets), page.nodes.begin());
+    std::copy(std::begin(block.boxes), std::end(block.boxes), page.boxes.begin());
     sum_up(page);
     for (int quarter = 0; quarter < 4; ++quarter) sum_up_quarter(page, quarter);
     hold_pages_below(page);

@@ -33,9 +33,11 @@ struct PageRecord {
     std::array<PageQuarter, 4> quarters;  // north-west, north-east, south-west, south-east
 };
 
-// A page of a level. nodes: its meshlets, with their errors, row by row, as in the page's block.
+// A page of a level. nodes: its meshlets, with their errors, row by row, as in the page's block; so are
+// boxes.
 struct PyramidPage : PageRecord {
     std::array<gpu::MeshletBounds, gpu::meshlets_per_page> nodes;
+    std::array<gpu::uint, gpu::meshlets_per_page> boxes;
 };
 
 struct PyramidLevel {

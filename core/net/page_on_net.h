@@ -45,11 +45,17 @@ struct LatticePoint {
 };
 LatticePoint lattice_point(const glm::dvec3& ecef_m);
 
-// Fills the places of a page's posts on the lattice, from the page's origin. Costs 12 bytes a post. A post
-// has the same place from every page and level: 0.5 mm at most from where the net has it. False where the
-// page reaches too far for 32 bits (1,048 km from its middle).
+// Whether the places of a page's posts are told from a plane, because 32 bits hold no more than 1,048 km.
+bool reaches_far(const PageSummary& page);
+
+// Fills the places of a page's posts on the lattice, from the page's origin or, where it reaches far, from a
+// plane. Costs 12 bytes a post. A post has the same place from every page and level: 0.5 mm at most from
+// where the net has it. False where posts lie more than 1,048 km from the plane.
 bool fill_places(const PostGrid& grid, const PageSummary& page, const PageHeights& heights,
                  gpu::PagePlaces& places);
+
+// Whether one page can hold all posts of a net: those of a region some 5,000 km around its middle.
+bool fits_one_page(const GridNet& net);
 
 // N for what is coloured by H: of every so many-th post of a field on a net, bilinear between. Its axes count
 // posts and not degrees.

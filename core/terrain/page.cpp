@@ -70,6 +70,7 @@ class PageBuilder {
     void bound_page();
     void bound_meshlet(int number);
     int mark_triangles(int number);
+    gpu::uint box_around(std::span<const glm::dvec3> points, const gpu::MeshletBounds& bounds) const;
     HorizonPoint horizon_point_at(const glm::dvec3& position_m) const;
 
     static std::size_t at(int row, int column) { return static_cast<std::size_t>(row * posts + column); }
@@ -238,9 +239,28 @@ Sphere sphere_around(std::span<const glm::dvec3> points) {
     return {centre, std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity())};
 }
 
+// PageBlock::boxes, rounded outwards. By more than a float's rounding of each term: the radius is, too.
+gpu::uint PageBuilder::box_around(std::span<const glm::dvec3> points,
+                                  const gpu::MeshletBounds& bounds) const {
+    const SineCosine lat = sine_cosine_deg(summary_.origin.lat_deg);
+    const glm::dvec3 east(0.0, 1.0, 0.0), north(-lat.sine, 0.0, lat.cosine), up(lat.cosine, 0.0, lat.sine);
+    glm::dvec3 farthest_m(0.0);
+    for (const glm::dvec3& point : points) {
+        const glm::dvec3 offset_m = point - glm::dvec3(bounds.centre);
+        farthest_m =
+            glm::max(farthest_m, glm::abs(glm::dvec3(glm::dot(offset_m, east), glm::dot(offset_m, north),
+                                                     glm::dot(offset_m, up))));
+    }
+    constexpr double steps = 1023.0;
+    const glm::uvec3 box(glm::min(glm::ceil(farthest_m / static_cast<double>(bounds.radius) * steps + 0.01),
+                                  glm::dvec3(steps)));
+    return box.x | box.y << 10U | box.z << 20U;
+}
+
 void PageBuilder::bound_meshlet(int number) {
     gpu::MeshletBounds& bounds = block_.meshlets[number];
     bounds = {gpu::vec3(0.0F), -1.0F, gpu::vec3(0.0F), 0.0F, 0.0F, -1.0F};
+    block_.boxes[number] = 0;
     // A post may belong to a neighbour's triangle alone: keeping it costs a little and loses nothing.
     const int triangles = mark_triangles(number);
     if (triangles == 0) return;
@@ -264,6 +284,7 @@ void PageBuilder::bound_meshlet(int number) {
     bounds.centre = sphere.centre;
     bounds.radius = sphere.radius;
     bounds.lod_radius = sphere.radius;
+    block_.boxes[number] = box_around(std::span(points).first(count), bounds);
     bounds.horizon_angle_rad =
         std::nextafter(static_cast<float>(cone.angle_rad), std::numeric_limits<float>::infinity());
     directions_[static_cast<std::size_t>(number)] = cone.direction;
@@ -306,6 +327,8 @@ std::int64_t post_beyond(const LevelAxis& axis, int post) {
 void set_spacing(const PostGrid& grid, const PageSummary& page, gpu::PageBlock& block) {
     const Geodetic& origin = page.origin;
     block.turn = gpu::vec3(0.0F);
+    const SineCosine lat = sine_cosine_deg(origin.lat_deg);
+    block.up = gpu::vec2(lat.cosine, lat.sine);
     if (grid.net) {
         set_net_spacing(*grid.net, page, block);
         return;

@@ -77,7 +77,7 @@ PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const Pag
 PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
                        gpu::PageBlock& block);
 
-// Fills a block's spacing, and how its rows and columns lie, for a page with that origin.
+// Fills a block's spacing, and how its rows, its columns and its normal lie, for a page with that origin.
 void set_spacing(const PostGrid& grid, const PageSummary& page, gpu::PageBlock& block);
 
 // The frame of a page from its origin: origin_ecef and ecef_from_page.

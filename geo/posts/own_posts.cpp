@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/parallel.h"
+#include "core/net/page_on_net.h"
 #include "geo/measures/stored_values.h"
 #include "geo/posts/laying.h"
 #include "geo/region/region_grid.h"
@@ -173,27 +174,6 @@ PostWindow posts_in_box(const GridNet& net, const BoundingBox& box) {
     return {first_row, first_column, last_row - first_row + 1, last_column - first_column + 1};
 }
 
-namespace {
-
-// Whether the places of all posts have room in the page that holds them all (core/net/page_on_net.h).
-bool fits_one_page(const GridNet& net) {
-    constexpr double most_m = 1.03e6;  // 2^31 steps, less what heights add
-    constexpr int steps = 64;
-    const glm::dvec3 middle_m =
-        ecef_along(net.normal_at(0.5 * (net.rows() - 1), 0.5 * (net.columns() - 1)), 0.0).m;
-    for (int i = 0; i <= steps; ++i) {
-        for (int j = 0; j <= steps; ++j) {
-            const glm::dvec3 normal =
-                net.normal_at((net.rows() - 1.0) * i / steps, (net.columns() - 1.0) * j / steps);
-            const glm::dvec3 off_m = glm::abs(ecef_along(normal, 0.0).m - middle_m);
-            if (std::max({off_m.x, off_m.y, off_m.z}) > most_m) return false;
-        }
-    }
-    return true;
-}
-
-}  // namespace
-
 Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<BoundingBox>& box) {
     const Source& first = sources.front();
     std::vector<LatticePlace> starts;
@@ -235,7 +215,8 @@ Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<
     if (!fits_one_page(*net))
         return not_kept(
             "the posts of " + first.report.path +
-            " reach more than 1,030 km from their middle; a part of them (--bbox) stays where it is");
+            " reach too far over the Earth's bend, some 5,000 km from their middle; a part of them (--bbox) "
+            "stays where it is");
     for (const LatticePlace& start : starts)
         own.parts.push_back(
             {static_cast<int>(start.row - window.row), static_cast<int>(start.column - window.column)});

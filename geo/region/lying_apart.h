@@ -13,7 +13,7 @@ namespace oro {
 // apart_factor times the posts of a grid for each, and there are at most groups_max. Each group and each
 // source keeps the order that it had. `box`: what was asked for; the sources meet it.
 inline constexpr double apart_factor = 4.0;
-inline constexpr std::size_t groups_max = 32;
+inline constexpr std::size_t groups_max = 4096;
 std::vector<std::vector<Source>> lying_apart(std::vector<Source> sources,
                                              const std::optional<BoundingBox>& box);
 

@@ -146,6 +146,10 @@ struct SourceReport {
     // Nothing where posts are copied, and where it is not known: regions baked before this was measured.
     std::optional<Resampling> resampling;
     std::uint64_t voids{};
+    // Read, and void everywhere: then there is neither a lowest nor a highest.
+    [[nodiscard]] bool is_all_void() const {
+        return voids > 0 && voids >= static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns);
+    }
     std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
     std::optional<Placement> placement;  // nothing for a source that was not laid
     SeamReport seams;  // with the sources that win over it: its posts that one of them has, too

@@ -20,10 +20,6 @@ void wait_for_lists(VkCommandBuffer commands) {
 
 Result<ComputeRaster> ComputeRaster::create(const Gpu& gpu, VkExtent2D extent) {
     ComputeRaster raster(gpu);
-    ORO_TRY(raster.lists_,
-            create_buffer(gpu, sizeof(gpu::RasterLists),
-                          listed | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-                          MemoryKind::device, "raster lists"));
     ORO_TRY(raster.clips_, create_buffer(gpu, gpu::clips_max * sizeof(std::uint32_t), listed,
                                          MemoryKind::device, "clip list"));
     ORO_TRY(raster.large_, create_buffer(gpu, gpu::large_max * sizeof(gpu::LargeTriangle), listed,
@@ -42,7 +38,14 @@ Result<void> ComputeRaster::resize(VkExtent2D extent) {
     return {};
 }
 
-Result<void> ComputeRaster::reserve_pages(std::size_t count) {
+Result<void> ComputeRaster::reserve(std::size_t count, std::size_t lists) {
+    static_assert(sizeof(gpu::RasterLists) <= gpu::raster_lists_bytes && gpu::raster_lists_bytes % 16 == 0);
+    if (lists_.size < lists * gpu::raster_lists_bytes) {
+        ORO_TRY(lists_,
+                create_buffer(*gpu_, lists * gpu::raster_lists_bytes,
+                              listed | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                              MemoryKind::device, "raster lists"));
+    }
     if (count <= page_capacity_) return {};
     const std::size_t capacity = std::max(count, 2 * page_capacity_);
     ORO_TRY(meshlets_, create_buffer(*gpu_, capacity * gpu::meshlets_per_page * sizeof(std::uint32_t), listed,
@@ -60,44 +63,31 @@ void ComputeRaster::address(gpu::FrameConstants& constants) const {
     constants.task_list = address_words(tasks_.address);
 }
 
-void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan, bool first) const {
+void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan) const {
     const VkDeviceSize used = VkDeviceSize{8} * plan.constants.width_px * plan.constants.height_px;
-    if (first) {
-        vkCmdFillBuffer(commands, visibility_.handle.get(), 0, used, 0);
-    } else {
-        memory_barrier(
-            commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-            VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    }
+    vkCmdFillBuffer(commands, visibility_.handle.get(), 0, used, 0);
     // One group along y and z even where there are none along x: an indirect dispatch of nothing.
     gpu::RasterLists empty{};
     empty.meshlet_groups[1] = empty.meshlet_groups[2] = 1;
     empty.clip_groups[1] = empty.clip_groups[2] = 1;
     empty.task_groups[1] = empty.task_groups[2] = 1;
-    vkCmdUpdateBuffer(commands, lists_.handle.get(), 0, sizeof(empty), &empty);
+    for (VkDeviceSize at = 0; at < lists_.size; at += gpu::raster_lists_bytes)
+        vkCmdUpdateBuffer(commands, lists_.handle.get(), at, sizeof(empty), &empty);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan,
-                           VkBuffer choice, bool first) const {
-    record_clear(commands, plan, first);
-    const auto bind = [&](const OwnedPipeline& pipeline) {
+void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint lists) const {
+    const VkDeviceSize at = VkDeviceSize{lists} * gpu::raster_lists_bytes;
+    const auto step = [&](const OwnedPipeline& pipeline, VkDeviceSize groups) {
+        wait_for_lists(commands);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+        vkCmdDispatchIndirect(commands, lists_.handle.get(), at + groups);
     };
-    bind(pipelines.cull);
-    vkCmdDispatchIndirect(commands, choice, offsetof(gpu::LivePages, cull_groups));
-    wait_for_lists(commands);
-    bind(pipelines.raster);
-    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, meshlet_groups));
-    wait_for_lists(commands);
-    bind(pipelines.raster_clip);
-    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, clip_groups));
-    wait_for_lists(commands);
-    bind(pipelines.raster_large);
-    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::RasterLists, task_groups));
+    step(pipelines.raster, offsetof(gpu::RasterLists, meshlet_groups));
+    step(pipelines.raster_clip, offsetof(gpu::RasterLists, clip_groups));
+    step(pipelines.raster_large, offsetof(gpu::RasterLists, task_groups));
     wait_for_lists(commands);
 }
 

@@ -7,30 +7,29 @@
 
 namespace oro {
 
-// The buffers of the compute path. Its steps: cull lists meshlets, raster draws them (one workgroup each) and
-// hands on what is large or must be clipped, raster_clip cuts the latter, raster_large draws squares of the
-// former.
+// The buffers of the compute path. Its steps: cull, and in later rounds uncover, lists meshlets, raster draws
+// them (one workgroup each) and hands on what is large or must be clipped, raster_clip cuts the latter,
+// raster_large draws squares of the former.
 class ComputeRaster {
   public:
     static Result<ComputeRaster> create(const Gpu& gpu, VkExtent2D extent);
     Result<void> resize(VkExtent2D extent);
-    // Room for the meshlets of so many pages.
-    Result<void> reserve_pages(std::size_t count);
+    // Room for the meshlets of so many pages, and for so many lists.
+    Result<void> reserve(std::size_t pages, std::size_t lists);
 
     // Puts its addresses into the frame's constants.
     void address(gpu::FrameConstants& constants) const;
-    // Records all steps for a grid of the frame, with its constants already bound; `choice` holds its
-    // LivePages. The first grid clears the visibility buffer, the others draw into what is there. Leaves the
-    // buffer ready for compute reads.
-    void record(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan, VkBuffer choice,
-                bool first) const;
+    // Clears the visibility buffer, and empties the lists of all grids and rounds.
+    void record_clear(VkCommandBuffer commands, const FramePlan& plan) const;
+    // Draws what was listed in one of them; FrameRound::lists is its number, and pushed. Leaves the buffer
+    // ready for compute reads.
+    void record(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint lists) const;
 
-    // Depth << 32 | id for each pixel of the last frame, row by row, `width` to a row.
+    // Depth << 32 | ~id for each pixel of the last frame, row by row, `width` to a row.
     [[nodiscard]] const Buffer& visibility() const { return visibility_; }
 
   private:
     explicit ComputeRaster(const Gpu& gpu) : gpu_(&gpu) {}
-    void record_clear(VkCommandBuffer commands, const FramePlan& plan, bool first) const;
 
     const Gpu* gpu_;
     Buffer visibility_, lists_, meshlets_, clips_, large_, tasks_;

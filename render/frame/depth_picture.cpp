@@ -20,7 +20,10 @@ void add(FrameReport& sum, const FrameReport& part) {
     sum.counts.meshlets_drawn += part.counts.meshlets_drawn;
     sum.counts.triangles_drawn += part.counts.triangles_drawn;
     sum.counts.mesh_groups += part.counts.mesh_groups;
-    sum.task_groups += part.task_groups;
+    sum.counts.task_groups += part.counts.task_groups;
+    sum.counts.meshlets_tested += part.counts.meshlets_tested;
+    sum.counts.meshlets_hidden += part.counts.meshlets_hidden;
+    sum.counts.meshlets_drawn_later += part.counts.meshlets_drawn_later;
     sum.pages += part.pages;
     sum.choose_s += part.choose_s;
     sum.raster_s += part.raster_s;

@@ -93,7 +93,7 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_ids(std::uint32_t width, 
     assert(width == last_width_px_);
     ORO_TRY(std::vector<std::uint32_t> words,
             read_words(compute_->visibility(), 0, std::size_t{2} * width * height));
-    for (std::size_t i = 0; i < words.size() / 2; ++i) words[i] = words[2 * i];
+    for (std::size_t i = 0; i < words.size() / 2; ++i) words[i] = words[2 * i] == 0 ? 0 : ~words[2 * i];
     words.resize(words.size() / 2);
     return words;
 }
@@ -156,7 +156,7 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_edges(std::size_t pages) 
 Result<std::vector<float>> FrameRenderer::read_air() {
     assert(air_.entries().handle);
     ORO_TRY(const std::vector<std::uint32_t> bits,
-            read_words(air_.entries(), 0, std::size_t{4} * gpu::aerial_end));
+            read_words(air_.entries(), 0, std::size_t{4} * gpu::lit_end));
     std::vector<float> values(bits.size());
     std::memcpy(values.data(), bits.data(), bits.size() * sizeof(float));
     return values;

@@ -49,8 +49,9 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     assert(options.extent.height > 0 && options.extent.height <= gpu.report().max_picture_side_px);
     FrameRenderer renderer(gpu);
     renderer.options_ = options;
-    ORO_TRY(renderer.pipelines_,
-            shared_pipelines(gpu, options.path, {options.record_positions, options.keep_triangles}));
+    ORO_TRY(renderer.pipelines_, shared_pipelines(gpu, options.path,
+                                                  {options.record_positions, options.keep_triangles,
+                                                   options.show != gpu::show_colours}));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -66,6 +67,8 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
         renderer.compute_.emplace(std::move(compute));
     }
     renderer.grids_.emplace_back();
+    renderer.occlusion_.emplace(options.record_positions ? OcclusionUse::off : options.occlusion,
+                                options.nearest_pyramid);
     ORO_CHECK(renderer.create_images());
     ORO_CHECK(renderer.create_sets());
     return renderer;
@@ -88,21 +91,22 @@ Result<void> FrameRenderer::create_images() {
     ORO_TRY(ids_, create_image(*gpu_, id_format, raster_extent,
                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | read_back,
                                VK_IMAGE_ASPECT_COLOR_BIT, "triangle ids"));
-    ORO_TRY(depth_, create_image(*gpu_, depth_format, raster_extent,
-                                 VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read_back,
-                                 VK_IMAGE_ASPECT_DEPTH_BIT, "depth"));
+    ORO_TRY(depth_,
+            create_image(*gpu_, depth_format, raster_extent,
+                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | read_back,
+                         VK_IMAGE_ASPECT_DEPTH_BIT, "depth"));
     ORO_TRY(sum_, create_image(*gpu_, sum_format, sum_extent, VK_IMAGE_USAGE_STORAGE_BIT,
                                VK_IMAGE_ASPECT_COLOR_BIT, "sum of samples"));
     ORO_TRY(picture_, create_image(*gpu_, picture_format_vk, extent,
                                    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | read_back,
                                    VK_IMAGE_ASPECT_COLOR_BIT, "picture"));
-    return {};
+    return occlusion_->resize(*gpu_, options_.path, extent);
 }
 
 Result<void> FrameRenderer::create_sets() {
     for (GridFrame& grid : grids_)
-        ORO_CHECK(
-            grid.create_set(*gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get()}));
+        ORO_CHECK(grid.create_set(
+            *gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get(), depth_.view.get()}));
     return {};
 }
 
@@ -110,11 +114,11 @@ Result<void> FrameRenderer::create_sets() {
 Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     std::size_t most_pages = std::max<std::size_t>(plan.pages.size(), 64);
     for (const FramePlan& other : plan.beside) most_pages = std::max(most_pages, other.pages.size());
-    if (compute_) ORO_CHECK(compute_->reserve_pages(most_pages));
+    if (compute_) ORO_CHECK(compute_->reserve(most_pages, Occlusion::most_rounds * (1 + plan.beside.size())));
     while (grids_.size() < 1 + plan.beside.size()) {
         GridFrame& grid = grids_.emplace_back();
-        ORO_CHECK(
-            grid.create_set(*gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get()}));
+        ORO_CHECK(grid.create_set(
+            *gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get(), depth_.view.get()}));
     }
     const VkDeviceSize pixels = VkDeviceSize{4} * options_.extent.width * options_.extent.height;
     if (needs_depths() && depths_.size < pixels) {
@@ -143,11 +147,12 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     return {};
 }
 
-// All that a grid's programs read of a frame. `first`: of the frame's grids; only it has images over the
-// ground.
-Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first, const FrameAsked& asked) {
-    ORO_CHECK(grid.reserve(*gpu_, plan));
+// All that the programs of the frame's grid of that number read of it.
+Result<void> FrameRenderer::upload(std::size_t number, FramePlan& plan, const FrameAsked& asked) {
+    GridFrame& grid = grids_[number];
     gpu::FrameConstants& constants = plan.constants;
+    occlusion_->address(constants);
+    ORO_CHECK(grid.reserve(*gpu_, plan));
     constants.sample_index = asked.sample_index;
     constants.sample_count = asked.sample_count;
     constants.counts = address_words(counts_.address);
@@ -159,13 +164,14 @@ Result<void> FrameRenderer::upload(GridFrame& grid, FramePlan& plan, bool first,
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = asked.style;
-    if (first)
-        ORO_CHECK(drape_.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? asked.drape : nullptr,
-                                 constants));
+    constants.show = options_.show;
+    DrapeStore* const drape = number < asked.drapes.size() ? asked.drapes[number] : nullptr;
+    ORO_CHECK(
+        grid.drape.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? drape : nullptr, constants));
     if (options_.shades) {
         ORO_CHECK(air_.prepare(*gpu_, *pipelines_, constants));
         ORO_CHECK(grid.casters.prepare(*gpu_, options_.path, *pipelines_, plan, constants));
-        ORO_CHECK(choose_shading(grid, first, constants));
+        ORO_CHECK(choose_shading(grid, constants));
     }
     grid.address(plan);
     if (compute_) compute_->address(constants);
@@ -182,66 +188,6 @@ void FrameRenderer::record_upload(VkCommandBuffer commands, std::size_t grids) c
                        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-// Levels: which nodes of which pages, for whichever way of drawing follows.
-void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& grid,
-                                  const FramePlan& plan) const {
-    grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-    const auto count = static_cast<std::uint32_t>(plan.pages.size());
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->accept.get());
-    if (count > 0)
-        vkCmdDispatch(commands, std::min(count, gpu::groups_per_row),
-                      (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
-    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->live_pages.get());
-    vkCmdDispatch(commands, 1, 1, 1);
-    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                   VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                       VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
-}
-
-void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& plan) const {
-    image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, as_colour);
-    image_barrier(commands, depth_.handle.get(), VK_IMAGE_ASPECT_DEPTH_BIT, unused, as_depth);
-    VkRenderingAttachmentInfo colour{};
-    colour.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-    colour.imageView = ids_.view.get();
-    colour.imageLayout = as_colour.layout;
-    colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    VkRenderingAttachmentInfo depth = colour;
-    depth.imageView = depth_.view.get();
-    depth.imageLayout = as_depth.layout;
-    depth.clearValue.depthStencil = {0.0F, 0};
-    VkRenderingInfo rendering{};
-    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    rendering.renderArea.extent = {plan.constants.width_px, plan.constants.height_px};
-    rendering.layerCount = 1;
-    rendering.colorAttachmentCount = 1;
-    rendering.pColorAttachments = &colour;
-    rendering.pDepthAttachment = &depth;
-    vkCmdBeginRendering(commands, &rendering);
-    const VkViewport viewport{
-        0.0F, 0.0F, static_cast<float>(plan.constants.width_px), static_cast<float>(plan.constants.height_px),
-        0.0F, 1.0F};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->terrain.get());
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
-        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_GRAPHICS);
-        gpu_->draw_mesh_tasks_indirect()(commands, grids_[i].choice().handle.get(),
-                                         offsetof(gpu::LivePages, task_groups), 1, 0);
-    }
-    vkCmdEndRendering(commands);
-    // The task shader has written the edges that the shading pass reads.
-    memory_barrier(commands,
-                   VK_PIPELINE_STAGE_2_TASK_SHADER_BIT_EXT | VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT,
-                   VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-}
-
 void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
     const auto stamp = [&](std::uint32_t number) {
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), number);
@@ -252,16 +198,9 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
     for (std::size_t i = 0; i <= plan.beside.size(); ++i)
         record_choice(commands, grids_[i], i == 0 ? plan : plan.beside[i - 1]);
     stamp(1);
-    if (compute_) {
-        for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
-            grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-            compute_->record(commands, *pipelines_, plan, grids_[i].choice().handle.get(), i == 0);
-        }
-    } else {
-        record_raster(commands, plan);
-    }
+    record_rounds(commands, plan);
     stamp(2);
-    if (drape_.is_on()) {
+    if (has_images(plan)) {
         record_wants(commands, plan);
     } else if (options_.shades) {
         record_shade(commands, plan);
@@ -280,36 +219,38 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
 
 Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& style,
                                         std::uint32_t sample_index, std::uint32_t sample_count,
-                                        DrapeStore* drape) {
+                                        std::vector<DrapeStore*> drapes) {
     assert(plan.constants.width_px <= options_.extent.width &&
            plan.constants.height_px <= options_.extent.height);
-    assert(sample_count == 1 || (options_.several_samples && !options_.smooth_edges));
+    assert(sample_count == 1 ||
+           (options_.several_samples && !options_.smooth_edges && options_.show == gpu::show_colours));
     ORO_CHECK(number_pages(plan));
     ORO_CHECK(reserve(plan));
-    const FrameAsked asked{style, sample_index, sample_count, drape};
-    ORO_CHECK(upload(grids_[0], plan, true, asked));
-    for (std::size_t i = 0; i < plan.beside.size(); ++i)
-        ORO_CHECK(upload(grids_[i + 1], plan.beside[i], false, asked));
+    occlusion_->begin(plan, remembers(plan));
+    if (occlusion_->is_on() && !occlusion_->uses_last_frame())
+        for (GridFrame& grid : grids_) grid.forget();
+    const FrameAsked asked{style, sample_index, sample_count, drapes};
+    ORO_CHECK(upload(0, plan, asked));
+    for (std::size_t i = 0; i < plan.beside.size(); ++i) ORO_CHECK(upload(i + 1, plan.beside[i], asked));
     last_width_px_ = plan.constants.width_px;
     last_grids_.assign(1, 1);
     for (const FramePlan& other : plan.beside) last_grids_.push_back(other.pages.empty() ? 0 : 1);
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
+    remember(plan);
     report.pages = plan.pages.size();
     for (const FramePlan& other : plan.beside) report.pages += other.pages.size();
-    if (!compute_)
-        report.task_groups = std::uint64_t{report.counts.pages_live} *
-                             (gpu::meshlets_per_page / pipelines_->meshlets_per_task);
     if (report.counts.triangles_not_clipped > 0)
         return Error{ErrorKind::failed, "picture",
                      std::to_string(report.counts.triangles_not_clipped) +
                          " triangles more than the compute path can clip in a frame; --pipeline mesh can"};
-    if (drape_.is_on()) {
+    const bool images = has_images(plan);
+    if (images) {
         ORO_TRY(report.images_settled, shade_with_images(plan));
     }
     std::array<std::uint64_t, timestamp_count> ticks{};
-    const std::uint32_t written = drape_.is_on() ? timestamp_count : 4;
+    const std::uint32_t written = images ? timestamp_count : 4;
     ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, written, sizeof(ticks), ticks.data(),
                                  sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     const auto between_s = [&](std::size_t from) {
@@ -317,7 +258,8 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     };
     report.choose_s = between_s(0);
     report.raster_s = between_s(1);
-    report.shade_s = between_s(drape_.is_on() ? 4 : 2);
+    occlusion_->end(report.raster_s);
+    report.shade_s = between_s(images ? 4 : 2);
     return report;
 }
 

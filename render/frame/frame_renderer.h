@@ -12,21 +12,20 @@
 #include "render/device/resources.h"
 #include "render/frame/compute_raster.h"
 #include "render/frame/grid_frame.h"
+#include "render/frame/occlusion.h"
 #include "render/frame/pipelines.h"
 #include "render/shading/air_tables.h"
-#include "render/shading/drape_wants.h"
 
 namespace oro {
 
 // What a frame did and how long the GPU took for it.
 struct FrameReport {
     gpu::FrameCounts counts{};
-    std::uint64_t task_groups{};  // mesh path
-    std::uint64_t pages{};        // of the frame, parents of drawn ones included
-    double choose_s{};            // GPU timestamps: levels chosen
-    double raster_s{};            // from pages to triangle ids, by either path
-    double shade_s{};             // the shading pass
-    bool images_settled{true};    // images over the ground are as fine as the frame asks for
+    std::uint64_t pages{};      // of the frame, parents of drawn ones included
+    double choose_s{};          // GPU timestamps: levels chosen
+    double raster_s{};          // from pages to triangle ids, by either path
+    double shade_s{};           // the shading pass
+    bool images_settled{true};  // images over the ground are as fine as the frame asks for
     [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
 };
 
@@ -39,7 +38,10 @@ struct FrameRendererOptions {
     bool keep_depths{false};       // for read_depths()
     bool keep_triangles{false};    // for read_triangles()
     bool shades{true};             // false: there is nothing to be read but triangles; for times, too
+    gpu::uint show{};              // gpu::show_...: what explains a frame of one sample, not its colours
     bool waits_for_images{true};   // false: a frame is drawn with what of them is there
+    OcclusionUse occlusion{OcclusionUse::if_it_pays};  // without record_positions
+    bool nearest_pyramid{false};                       // wrong occlusion, for the test that notices it
     RasterPath path{RasterPath::mesh};
 };
 
@@ -58,9 +60,9 @@ class FrameRenderer {
 
     // Draws one sample of a plan (its tile is within the extent, its pages are on the GPU) and waits for it.
     // With sample_count > 1 the picture is complete after the last sample_index. Same plan, pages and style:
-    // same bytes, on one driver. drape: images over the ground, or null.
+    // same bytes, on one driver. drapes: images over the ground of each grid, or null (Scene::drapes()).
     Result<FrameReport> draw(FramePlan plan, const gpu::FrameStyle& style, std::uint32_t sample_index = 0,
-                             std::uint32_t sample_count = 1, DrapeStore* drape = nullptr);
+                             std::uint32_t sample_count = 1, std::vector<DrapeStore*> drapes = {});
 
     // The picture's top left width x height pixels as RGBA rows, sRGB.
     Result<std::vector<std::uint8_t>> read_picture(std::uint32_t width, std::uint32_t height);
@@ -102,9 +104,9 @@ class FrameRenderer {
     struct FrameAsked {
         const gpu::FrameStyle& style;
         std::uint32_t sample_index, sample_count;
-        DrapeStore* drape;
+        std::span<DrapeStore* const> drapes;
     };
-    Result<void> upload(GridFrame& grid, FramePlan& plan, bool first, const FrameAsked& asked);
+    Result<void> upload(std::size_t number, FramePlan& plan, const FrameAsked& asked);
     Result<void> add_triangles(std::uint32_t grid, std::uint32_t first_row, std::uint32_t rows,
                                std::vector<ShownTriangle>& shown);
     Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
@@ -112,13 +114,22 @@ class FrameRenderer {
     void record(VkCommandBuffer commands, const FramePlan& plan);
     void record_upload(VkCommandBuffer commands, std::size_t grids) const;
     void record_choice(VkCommandBuffer commands, const GridFrame& grid, const FramePlan& plan) const;
-    void record_raster(VkCommandBuffer commands, const FramePlan& plan) const;
-    Result<void> choose_shading(GridFrame& grid, bool first, gpu::FrameConstants& constants);
+    void record_rounds(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_round(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;
+    void record_pyramid(VkCommandBuffer commands, const FramePlan& plan) const;
+    void push(VkCommandBuffer commands, const gpu::FrameRound& round) const;
+    void record_raster(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;
+    void record_meshes(VkCommandBuffer commands, std::size_t grid) const;
+    [[nodiscard]] bool remembers(const FramePlan& plan) const;
+    void remember(const FramePlan& plan);
+    Result<void> choose_shading(GridFrame& grid, gpu::FrameConstants& constants);
+    [[nodiscard]] bool has_images(const FramePlan& plan) const;
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
+    void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
-    Result<void> ask_again(const FramePlan& plan, std::uint32_t seed);
-    Result<bool> bring_images(const FramePlan& plan);
+    Result<void> ask_again(const GridFrame& grid, const FramePlan& plan, std::uint32_t seed);
+    Result<bool> bring_images(const GridFrame& grid, const FramePlan& plan);
     Result<bool> shade_with_images(const FramePlan& plan);
     Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect,
                                               ImageUse last_use, std::uint32_t width, std::uint32_t height);
@@ -129,8 +140,8 @@ class FrameRenderer {
     VkPipeline edges_{VK_NULL_HANDLE};  // of the frame
     std::vector<GridFrame> grids_;      // the plan's, then those beside it
     std::optional<ComputeRaster> compute_;
+    std::optional<Occlusion> occlusion_;
     AirTables air_;
-    DrapeWants drape_;
     Commands commands_;
     Image ids_, depth_, sum_, picture_;
     OwnedQueryPool timestamps_;

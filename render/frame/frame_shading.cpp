@@ -1,5 +1,6 @@
 // The part of FrameRenderer that turns triangle ids into colours. Which tiles of images over the ground these
 // need is known when the triangles are drawn, so a frame with images is submitted in two parts.
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -20,12 +21,12 @@ std::uint32_t tiles_of(std::uint32_t pixels) {
 
 // The programs of a frame, and what they hand to each other. In air, near ground has a program without the
 // code for footprints of several parts: those are few, and the code takes registers from all pixels.
-Result<void> FrameRenderer::choose_shading(GridFrame& grid, bool first, gpu::FrameConstants& constants) {
+Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants& constants) {
     const gpu::FrameStyle& style = constants.style;
     ShadingKind kind = shading_of(style);
     kind.casts = grid.casters.casts();
     kind.opens = grid.casters.opens();
-    kind.draped = first && drape_.is_on();
+    kind.draped = grid.drape.is_on();
     kind.by_means = constants.has_means != 0 && asks_for_means(style);
     kind.edges_follow = options_.smooth_edges;
     kind.on_net = constants.has_net != 0;
@@ -43,7 +44,8 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, bool first, gpu::Fra
     if (tiles_in_parts_.size < bytes) {
         ORO_TRY(tiles_in_parts_,
                 create_buffer(*gpu_, bytes,
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                               MemoryKind::device, "tiles in parts"));
     }
     constants.tiles_in_parts = address_words(tiles_in_parts_.address);
@@ -51,12 +53,16 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, bool first, gpu::Fra
 }
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
+    const bool in_parts =
+        std::any_of(grids_.begin(), grids_.begin() + static_cast<std::ptrdiff_t>(1 + plan.beside.size()),
+                    [](const GridFrame& grid) { return grid.shade_parts != VK_NULL_HANDLE; });
+    if (in_parts) vkCmdFillBuffer(commands, tiles_in_parts_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     air_.record(commands, *pipelines_);
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
-                  drape_.is_on() ? shader_read
-                  : compute_     ? unused
-                                 : as_colour,
+                  has_images(plan) ? shader_read
+                  : compute_       ? unused
+                                   : as_colour,
                   shader_read);
     for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
         if (!grids_[i].casters.any()) continue;
@@ -67,6 +73,10 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
+    if (in_parts)
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
     bool before = false;
     const auto pass = [&](const GridFrame& grid, VkPipeline pipeline) {
         if (pipeline == VK_NULL_HANDLE) return;
@@ -84,6 +94,19 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
         pass(grids_[i], grids_[i].shade_parts);
     }
     for (std::size_t i = 0; options_.smooth_edges && i <= plan.beside.size(); ++i) pass(grids_[i], edges_);
+    if (options_.show != gpu::show_colours) record_show(commands, plan);
+}
+
+// What draws each pixel, over its colours.
+void FrameRenderer::record_show(VkCommandBuffer commands, const FramePlan& plan) const {
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->show.get());
+        vkCmdDispatch(commands, tiles_of(plan.constants.width_px), tiles_of(plan.constants.height_px), 1);
+    }
 }
 
 // For those who read them instead of the shading pass.
@@ -94,41 +117,55 @@ void FrameRenderer::record_ids_alone(VkCommandBuffer commands) const {
 
 void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {
     record_ids_alone(commands);
-    grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-    drape_.record(commands, *pipelines_, plan.constants);
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        if (!grids_[i].drape.is_on()) continue;
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        grids_[i].drape.record(commands, *pipelines_, plan.constants);
+    }
 }
 
 // The same question again. Another seed: two tiles of one hash have others now.
-Result<void> FrameRenderer::ask_again(const FramePlan& plan, std::uint32_t seed) {
+Result<void> FrameRenderer::ask_again(const GridFrame& grid, const FramePlan& plan, std::uint32_t seed) {
     return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         constexpr VkDeviceSize at =
             offsetof(gpu::FrameConstants, drape) + offsetof(gpu::DrapeTable, wanted_seed);
-        vkCmdUpdateBuffer(commands, grids_[0].data().handle.get(), at, sizeof(seed), &seed);
+        vkCmdUpdateBuffer(commands, grid.data().handle.get(), at, sizeof(seed), &seed);
         memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
                        VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_UNIFORM_READ_BIT);
-        grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        drape_.record(commands, *pipelines_, plan.constants);
+        grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        grid.drape.record(commands, *pipelines_, plan.constants);
     });
 }
 
-// Brings the tiles that the frame is coloured from: all of them, unless there is no room or nobody waits.
-Result<bool> FrameRenderer::bring_images(const FramePlan& plan) {
+// Whether images lie over one of its grids.
+bool FrameRenderer::has_images(const FramePlan& plan) const {
+    return std::any_of(grids_.begin(), grids_.begin() + 1 + static_cast<std::ptrdiff_t>(plan.beside.size()),
+                       [](const GridFrame& grid) { return grid.drape.is_on(); });
+}
+
+// Brings the tiles that a grid is coloured from: all of them, unless there is no room or nobody waits.
+Result<bool> FrameRenderer::bring_images(const GridFrame& grid, const FramePlan& plan) {
     constexpr std::uint32_t most_tries = 64;
-    DrapeStore& store = drape_.store();
+    DrapeStore& store = grid.drape.store();
     store.begin_frame();
     for (std::uint32_t turn = 1;; ++turn) {
-        const bool missing = drape_.is_missing_any();
-        ORO_TRY(const DrapeStore::Served served, store.serve(drape_.wanted(), options_.waits_for_images));
+        const bool missing = grid.drape.is_missing_any();
+        ORO_TRY(const DrapeStore::Served served, store.serve(grid.drape.wanted(), options_.waits_for_images));
         if (!missing) return true;
         if (served.is_full || !options_.waits_for_images || turn == most_tries) return false;
-        ORO_CHECK(ask_again(plan, turn));
+        ORO_CHECK(ask_again(grid, plan, turn));
     }
 }
 
 // True where the images are as fine as the frame asks for.
 Result<bool> FrameRenderer::shade_with_images(const FramePlan& plan) {
-    ORO_TRY(const bool settled, bring_images(plan));
+    bool settled = true;
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        if (!grids_[i].drape.is_on()) continue;
+        ORO_TRY(const bool here, bring_images(grids_[i], plan));
+        settled = settled && here;
+    }
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 4);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <tuple>
 
 #include "render/frame/frame_layout.h"
 
@@ -15,6 +17,7 @@ static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
 struct DataLayout {
     VkDeviceSize rows;
     VkDeviceSize columns;
+    VkDeviceSize before;
     VkDeviceSize size;
 };
 DataLayout layout_of(const FramePlan& plan) {
@@ -22,15 +25,17 @@ DataLayout layout_of(const FramePlan& plan) {
     DataLayout layout{};
     layout.rows = aligned(pages_offset + plan.pages.size() * sizeof(gpu::FramePage));
     layout.columns = aligned(layout.rows + plan.row_terms.size() * sizeof(gpu::RowTerms));
-    layout.size = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
+    layout.before = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
+    layout.size = aligned(layout.before + plan.pages.size() * sizeof(gpu::uint));
     return layout;
 }
 
 }  // namespace
 
 Result<void> GridFrame::create_set(const Gpu& gpu, const Pipelines& pipelines,
-                                   const std::array<VkImageView, 3>& images) {
+                                   const std::array<VkImageView, 4>& images) {
     const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3},
+                           VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1},
                            VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}};
     VkDescriptorPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
@@ -49,18 +54,20 @@ Result<void> GridFrame::create_set(const Gpu& gpu, const Pipelines& pipelines,
     set.pSetLayouts = &layout;
     ORO_VK(vkAllocateDescriptorSets(gpu.device(), &set, &set_));
     gpu.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "frame");
-    std::array<VkDescriptorImageInfo, 3> infos{};
-    std::array<VkWriteDescriptorSet, 3> writes{};
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        infos[i] = {VK_NULL_HANDLE, images[i], VK_IMAGE_LAYOUT_GENERAL};
+    std::array<VkDescriptorImageInfo, 4> infos{};
+    std::array<VkWriteDescriptorSet, 4> writes{};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const bool is_depth = i == 3;
+        infos[i] = {VK_NULL_HANDLE, images[i], is_depth ? depth_read.layout : VK_IMAGE_LAYOUT_GENERAL};
         writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         writes[i].dstSet = set_;
-        writes[i].dstBinding = i;
+        writes[i].dstBinding = is_depth ? depth_binding : i;
         writes[i].descriptorCount = 1;
-        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        writes[i].descriptorType =
+            is_depth ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         writes[i].pImageInfo = &infos[i];
     }
-    vkUpdateDescriptorSets(gpu.device(), 3, writes.data(), 0, nullptr);
+    vkUpdateDescriptorSets(gpu.device(), 4, writes.data(), 0, nullptr);
     if (data_.handle) bind_constants(gpu);
     return {};
 }
@@ -102,7 +109,37 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const FramePlan& plan) {
                                        MemoryKind::device, "choice of levels"));
         page_capacity_ = capacity;
     }
+    return plan.constants.occlusion != 0 ? reserve_seen(gpu, plan.pages.size()) : Result<void>();
+}
+
+// Of this frame in rounds; those of the last one stay as they are.
+Result<void> GridFrame::reserve_seen(const Gpu& gpu, std::size_t pages) {
+    turn_ = 1 - turn_;
+    const VkDeviceSize bytes = VkDeviceSize{4} * gpu::accepted_words * std::max<std::size_t>(pages, 64);
+    if (seen_[turn_].size >= bytes) return {};
+    ORO_TRY(seen_[turn_],
+            create_buffer(gpu, std::max(bytes, 2 * seen_[turn_].size),
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                              VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::device, "nodes seen"));
     return {};
+}
+
+void GridFrame::remember(const FramePlan& plan) {
+    before_ = plan.page_indices;
+}
+
+// FrameConstants::page_before.
+std::vector<gpu::uint> GridFrame::numbers_before(const FramePlan& plan) const {
+    std::vector<gpu::uint> numbers(plan.pages.size(), gpu::no_page);
+    const auto key = [](const PageIndex& page) { return std::tuple(page.level, page.row, page.column); };
+    std::map<std::tuple<int, int, int>, gpu::uint> places;
+    for (std::size_t i = 0; i < before_.size(); ++i) places[key(before_[i])] = static_cast<gpu::uint>(i);
+    for (std::size_t i = 0; i < std::min(numbers.size(), plan.page_indices.size()); ++i) {
+        const auto found = places.find(key(plan.page_indices[i]));
+        if (found != places.end()) numbers[i] = found->second;
+    }
+    return numbers;
 }
 
 void GridFrame::address(FramePlan& plan) const {
@@ -119,6 +156,18 @@ void GridFrame::address(FramePlan& plan) const {
     constants.accepted = address_words(at);
     at += VkDeviceSize{4} * gpu::accepted_words * page_capacity_;
     constants.edges = address_words(at);
+    at += VkDeviceSize{4} * gpu::edges_words * page_capacity_;
+    constants.round_pages = address_words(choice_.address + 4 * round_pages_at);
+    constants.round_live = address_words(at);
+    at += 4 * live_words * page_capacity_;
+    for (gpu::uvec2* bits : {&constants.kept, &constants.drawn, &constants.drawn_now}) {
+        *bits = address_words(at);
+        at += VkDeviceSize{4} * gpu::accepted_words * page_capacity_;
+    }
+    constants.seen = address_words(seen_[turn_].address);
+    if (constants.occlusion != 0 && remembers())
+        constants.seen_before = address_words(seen_[1 - turn_].address);
+    constants.page_before = address_words(data_.address + layout.before);
 }
 
 void GridFrame::fill(const FramePlan& plan) {
@@ -128,15 +177,18 @@ void GridFrame::fill(const FramePlan& plan) {
         if (!values.empty())
             std::memcpy(staging_.mapped + at, values.data(), values.size() * sizeof(values[0]));
     };
+    clears_seen_ = plan.constants.occlusion != 0;
     std::memcpy(staging_.mapped, &plan.constants, sizeof(plan.constants));
     copy(pages_offset, plan.pages);
     copy(layout.rows, plan.row_terms);
     copy(layout.columns, plan.column_terms);
+    if (plan.constants.occlusion != 0) copy(layout.before, numbers_before(plan));
 }
 
 void GridFrame::record_upload(VkCommandBuffer commands) const {
     const VkBufferCopy copy{0, 0, size_};
     vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
+    if (clears_seen_) vkCmdFillBuffer(commands, seen_[turn_].handle.get(), 0, VK_WHOLE_SIZE, 0);
 }
 
 void GridFrame::bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const {

@@ -4,19 +4,21 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
 #include "render/frame/pipelines.h"
 #include "render/shading/caster_buffers.h"
+#include "render/shading/drape_wants.h"
 
 namespace oro {
 
 class GridFrame {
   public:
-    // A set for the frame's images (ids, sum, picture) and the grid's constants.
+    // A set for the frame's images (ids, sum, picture; depth) and the grid's constants.
     Result<void> create_set(const Gpu& gpu, const Pipelines& pipelines,
-                            const std::array<VkImageView, 3>& images);
+                            const std::array<VkImageView, 4>& images);
     // Room for the pages of a plan, on both sides, and for what is chosen of them.
     Result<void> reserve(const Gpu& gpu, const FramePlan& plan);
     // Where all that lies, into the plan's constants.
@@ -26,22 +28,34 @@ class GridFrame {
     void record_upload(VkCommandBuffer commands) const;
     void bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const;
 
+    // The frame was drawn in rounds: the next such one knows which of its nodes were seen. Or nobody knows.
+    void remember(const FramePlan& plan);
+    void forget() { before_.clear(); }
+    [[nodiscard]] bool remembers() const { return !before_.empty(); }
+
     [[nodiscard]] const Buffer& data() const { return data_; }      // begins with the constants
     [[nodiscard]] const Buffer& choice() const { return choice_; }  // see frame_layout.h
     [[nodiscard]] std::size_t page_capacity() const { return page_capacity_; }
 
     CasterBuffers casters;
+    DrapeWants drape;
     VkPipeline shade{VK_NULL_HANDLE}, shade_parts{VK_NULL_HANDLE};  // of the frame
 
   private:
     void bind_constants(const Gpu& gpu) const;
+    Result<void> reserve_seen(const Gpu& gpu, std::size_t pages);
+    [[nodiscard]] std::vector<gpu::uint> numbers_before(const FramePlan& plan) const;
 
     OwnedDescriptorPool pool_;
     VkDescriptorSet set_{VK_NULL_HANDLE};
-    Buffer staging_;  // constants, then pages, then rows and columns
+    Buffer staging_;  // constants, then pages, then rows and columns, then FrameConstants::page_before
     Buffer data_;     // the same on the device
     Buffer choice_;
+    std::array<Buffer, 2> seen_;  // of this frame in rounds and of the last such one, by turns
+    std::size_t turn_{};
+    std::vector<PageIndex> before_;  // the last such frame's pages; none: nothing is known of it
     std::size_t page_capacity_{};
+    bool clears_seen_{};
     VkDeviceSize size_{};  // that a frame sends
 };
 

@@ -36,7 +36,7 @@ Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle
         }
         ORO_TRY(const FrameReport drawn,
                 renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),
-                              static_cast<std::uint32_t>(options.samples), scene.drape()));
+                              static_cast<std::uint32_t>(options.samples), scene.drapes()));
         report.images_settled = report.images_settled && drawn.images_settled;
         if (i == 0) add_counts(report, drawn);
         report.choose_s += drawn.choose_s;
@@ -118,6 +118,7 @@ Result<PictureRenderer> PictureRenderer::create(const Gpu& gpu, const Camera& ca
     renderer_options.several_samples = options.samples > 1;
     renderer_options.smooth_edges = options.samples == 1 && style.smooth_edges != 0;
     renderer_options.path = options.path;
+    renderer_options.show = options.show;
     renderer_options.keep_depths = options.keep_depths;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
     return PictureRenderer(options, std::move(renderer));

@@ -20,6 +20,7 @@ struct PictureOptions {
     double tau_px{1.0};  // 0: full resolution
     WorldModel model{};
     bool keep_depths{false};  // for PictureRenderer::depths()
+    gpu::uint show{};         // gpu::show_..., of pictures of one sample
 };
 
 // What it took to draw a picture: times are sums over its tiles and samples, counts those of the first sample

@@ -13,6 +13,7 @@
 
 namespace oro {
 
+inline constexpr std::uint32_t depth_binding = 4;
 inline constexpr VkFormat id_format = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat sum_format = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -35,27 +36,35 @@ struct ShadingKind {
 };
 
 struct Pipelines {
-    OwnedSetLayout set;  // 0 ids, 1 sum, 2 picture: storage images of the shading pass; 3 FrameConstants
-    OwnedPipelineLayout layout;        // that set alone
-    OwnedPipeline accept, live_pages;  // levels chosen, in this order
-    OwnedPipeline terrain;             // mesh path: task, mesh, fragment
+    // 0 ids, 1 sum, 2 picture: storage images of the shading pass; 3 FrameConstants; depth_binding: the mesh
+    // path's depth, sampled
+    OwnedSetLayout set;
+    OwnedPipelineLayout layout;         // that set, and a FrameRound pushed
+    VkShaderStageFlags round_stages{};  // ... to these
+    OwnedPipeline accept, live_pages;   // levels chosen, in this order
+    OwnedPipeline cull, uncover;        // of what is drawn: in the first round, in the others
+    OwnedPipeline pyramid;              // of the farthest depths, 64 x 64 pixels a workgroup
+    OwnedPipeline terrain;              // mesh path: task, mesh, fragment
+    OwnedPipeline terrain_ties;         // ... and what is as near as what is there, with lower ids
     std::uint32_t meshlets_per_task{1};
-    std::uint32_t meshlets_per_group{1};                    // of a mesh workgroup
-    OwnedPipeline cull, raster, raster_clip, raster_large;  // compute path, in this order
-    std::map<ShadingKind, OwnedPipeline> shades;            // compute, 8 x 8; see shading_for
-    std::array<OwnedPipeline, 2> edges;                     // without and with air, 8 x 8; see edges_for
-    OwnedPipeline drape_wants;                              // what tiles of them are wanted, compute, 8 x 8
-    std::array<OwnedPipeline, 5> air;     // its tables, in this order, 64 entries a workgroup
-    OwnedPipeline caster_tops, openness;  // of what casts shadows
+    std::uint32_t meshlets_per_group{1};              // of a mesh workgroup
+    OwnedPipeline raster, raster_clip, raster_large;  // compute path, in this order
+    std::map<ShadingKind, OwnedPipeline> shades;      // compute, 8 x 8; see shading_for
+    std::array<OwnedPipeline, 2> edges;               // without and with air, 8 x 8; see edges_for
+    OwnedPipeline drape_wants;                        // what tiles of them are wanted, compute, 8 x 8
+    std::array<OwnedPipeline, 6> air;                 // its tables, in this order, 64 entries a workgroup
+    OwnedPipeline caster_tops, openness;              // of what casts shadows
     // Off and on a net: of every second pixel, of all; 16 x 16 of them.
     std::array<std::array<OwnedPipeline, 2>, 2> sun_shares;
     OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
+    OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8
 };
 
 // What a renderer is asked for besides triangle ids.
 struct PipelineWants {
     bool record_positions{false};  // the mesh shader writes each placed post to FrameConstants.recorded
     bool triangles{false};         // `triangles` is there
+    bool show{false};              // `show` is there
 };
 
 // Made once and kept until the device ends, with all that has been added since: drivers take longer to make

@@ -8,9 +8,11 @@
 namespace oro {
 namespace {
 
-constexpr std::size_t pages_per_chunk = 128;  // 10 MB: far below every device's limit on one buffer
-constexpr std::size_t fewest_in_chunk = 8;    // what is not there for so many is left to others
-constexpr std::size_t pages_in_staging = 64;
+// Buffers become larger as there are more of them: a small region takes little, a large one few buffers.
+constexpr std::size_t pages_in_first_chunk = 32;
+constexpr std::size_t pages_in_chunk_max = 128;  // 10 to 64 MB: far below every device's limit on one buffer
+constexpr std::size_t fewest_in_chunk = 8;       // what is not there for so many is left to others
+constexpr std::size_t pages_in_staging = 16;
 
 }  // namespace
 
@@ -25,79 +27,130 @@ std::size_t page_bytes(const HeightQuantization& coding, const PageParts& parts)
 
 Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity, const HeightQuantization& coding,
                                     const PageParts& parts) {
+    return create(
+        gpu, std::make_shared<PageBudget>(std::max<std::size_t>(1, capacity) * page_bytes(coding, parts)),
+        coding, parts);
+}
+
+Result<PageStore> PageStore::create(const Gpu& gpu, std::shared_ptr<PageBudget> budget,
+                                    const HeightQuantization& coding, const PageParts& parts) {
     PageStore store(gpu);
     store.coding_ = coding;
     store.page_bytes_ = page_bytes(coding, parts);
     if (parts.means) store.means_offset_ = store.page_bytes_ - sizeof(gpu::PageMeans);
     if (parts.places) store.places_offset_ = page_bytes(coding, {false, true}) - sizeof(gpu::PagePlaces);
-    store.capacity_ = std::max<std::size_t>(1, capacity);
-    ORO_TRY(store.commands_, Commands::create(gpu, "page upload"));
-    ORO_TRY(store.staging_,
-            create_buffer(gpu, pages_in_staging * store.page_bytes_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                          MemoryKind::upload, "page staging"));
+    store.budget_ = std::move(budget);
+    store.capacity_ = std::max<std::size_t>(1, store.budget_->bytes() / store.page_bytes_);
     return store;
 }
 
 std::uint64_t PageStore::bytes() const {
     std::uint64_t bytes = 0;
-    for (const Buffer& chunk : chunks_) bytes += chunk.size;
+    for (const PageChunk& chunk : chunks_) bytes += chunk.buffer().size;
     return bytes;
 }
 
 std::uint64_t PageStore::address(const PageIndex& page) {
     const auto found = slots_of_.find({page.level, page.row, page.column});
     if (found == slots_of_.end()) return 0;
-    const std::size_t slot = found->second;
-    slots_[slot].used = frame_;
-    return chunks_[slot / pages_per_chunk].address + slot % pages_per_chunk * page_bytes_;
+    Slot& slot = slots_[found->second];
+    slot.used = frame_;
+    return chunks_[slot.chunk].buffer().address + slot.place * page_bytes_;
 }
 
-// Room for pages from slot `first` on. The budget is what the device may be asked for; where it has less, the
-// store makes do with fewer pages. Errors: there is no room for any.
-Result<void> PageStore::add_chunk(std::size_t first) {
+// Slots of a new chunk, the first of them next.
+void PageStore::add_slots(std::size_t chunk, std::size_t count) {
+    for (std::size_t place = 0; place < count; ++place) slots_.push_back({{}, 0, chunk, place});
+    for (std::size_t place = 0; place < count; ++place) free_.push_back(slots_.size() - 1 - place);
+    held_ += count;
+}
+
+// Room for more pages, where the budget and the device have it. The budget is what the device may be asked
+// for; where it has less, the store makes do with fewer pages. The first page is always given room for.
+// Errors: the device; there is no room for any.
+Result<void> PageStore::add_chunk() {
     constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    for (std::size_t count = std::min(pages_per_chunk, capacity_ - first);; count /= 2) {
+    const std::size_t left = std::max<std::size_t>(budget_->left() / page_bytes_, held_ == 0 ? 1 : 0);
+    if (full_ || left == 0) return {};
+    for (std::size_t count = std::min(std::clamp(held_, pages_in_first_chunk, pages_in_chunk_max), left);;
+         count /= 2) {
         bool full = false;
-        auto chunk = create_buffer(*gpu_, count * page_bytes_, usage, MemoryKind::device,
-                                   "pages " + std::to_string(chunks_.size()), &full);
-        if (chunk.ok()) {
-            capacity_ = std::min(capacity_, full_ ? first + count : capacity_);
-            chunks_.push_back(std::move(chunk).value());
+        auto buffer = create_buffer(*gpu_, count * page_bytes_, usage, MemoryKind::device,
+                                    "pages " + std::to_string(chunks_.size()), &full);
+        if (buffer.ok()) {
+            chunks_.emplace_back(std::move(buffer).value(), budget_);
+            add_slots(chunks_.size() - 1, count);
+            if (full_) capacity_ = held_;
             return {};
         }
-        if (!full) return chunk.error();
+        if (!full) return buffer.error();
         full_ = true;
         if (count > fewest_in_chunk) continue;
-        if (first == 0) return chunk.error();
-        capacity_ = first;
+        if (held_ == 0) return buffer.error();
+        capacity_ = held_;
         return {};
     }
 }
 
 // A slot that is free, or was not used for longest and not by this frame; false when there is none.
 Result<bool> PageStore::find_slot(std::size_t& slot) {
-    if (slots_.size() < capacity_) {
-        slot = slots_.size();
-        if (slot / pages_per_chunk == chunks_.size()) {
-            ORO_CHECK(add_chunk(slot));
-            if (slot >= capacity_) return reuse_slot(slot);
-        }
-        slots_.push_back({{}, frame_});
-        return true;
-    }
-    return reuse_slot(slot);
+    if (free_.empty()) ORO_CHECK(add_chunk());
+    if (free_.empty()) return reuse_slot(slot);
+    slot = free_.back();
+    free_.pop_back();
+    return true;
 }
 
 // The slot that was not used for longest; false when this frame uses all.
 bool PageStore::reuse_slot(std::size_t& slot) {
-    const auto oldest = std::min_element(slots_.begin(), slots_.end(),
-                                         [](const Slot& a, const Slot& b) { return a.used < b.used; });
-    if (oldest->used >= frame_) return false;
-    slot = static_cast<std::size_t>(oldest - slots_.begin());
-    const auto holds = slots_of_.find(oldest->page);
+    std::size_t oldest = slots_.size();
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+        if (slots_[i].used != 0 && (oldest == slots_.size() || slots_[i].used < slots_[oldest].used))
+            oldest = i;
+    if (oldest == slots_.size() || slots_[oldest].used >= frame_) return false;
+    slot = oldest;
+    const auto holds = slots_of_.find(slots_[oldest].page);
     if (holds != slots_of_.end() && holds->second == slot) slots_of_.erase(holds);
+    return true;
+}
+
+bool PageStore::release_unused() {
+    std::vector<char> is_used(chunks_.size(), 0);
+    for (const Slot& slot : slots_)
+        if (slot.used >= frame_) is_used[slot.chunk] = 1;
+    bool released = false;
+    for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+        if (is_used[chunk] != 0) continue;
+        chunks_[chunk].let_go();
+        released = true;
+    }
+    if (!released) return false;
+    // What is left is numbered anew.
+    std::vector<std::size_t> numbers(chunks_.size());
+    std::vector<PageChunk> kept;
+    for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+        if (is_used[chunk] == 0) continue;
+        numbers[chunk] = kept.size();
+        kept.push_back(std::move(chunks_[chunk]));
+    }
+    std::vector<Slot> slots;
+    slots_of_.clear();
+    free_.clear();
+    for (Slot slot : slots_) {
+        if (is_used[slot.chunk] == 0) continue;
+        slot.chunk = numbers[slot.chunk];
+        if (slot.used == 0)
+            free_.push_back(slots.size());
+        else
+            slots_of_[slot.page] = slots.size();
+        slots.push_back(slot);
+    }
+    chunks_ = std::move(kept);
+    slots_ = std::move(slots);
+    held_ = slots_.size();
+    full_ = false;
     return true;
 }
 
@@ -116,12 +169,28 @@ void PageStore::stage(const LoadedPage& page, std::byte* to) const {
     std::memcpy(to + offsetof(gpu::PageBlock, heights), codes.data(), sizeof(codes));
 }
 
+// What sending takes: made when there is something to send, so that a region that nobody looks at takes
+// nothing.
+Result<void> PageStore::prepare_sending() {
+    if (staging_.handle) return {};
+    ORO_TRY(commands_, Commands::create(*gpu_, "page upload"));
+    ORO_TRY(staging_, create_buffer(*gpu_, std::min(pages_in_staging, capacity_) * page_bytes_,
+                                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload, "page staging"));
+    return {};
+}
+
 Result<std::size_t> PageStore::send(std::span<const LoadedPage> pages) {
+    if (pages.empty()) return std::size_t{0};
+    ORO_CHECK(prepare_sending());
     std::vector<std::size_t> batch;
     Result<std::size_t> sent = send_by_batches(pages, batch);
     if (sent.ok()) return sent;
     // What did not arrive is not here.
-    for (const std::size_t slot : batch) slots_of_.erase(slots_[slot].page);
+    for (const std::size_t slot : batch) {
+        slots_of_.erase(slots_[slot].page);
+        slots_[slot].used = 0;
+        free_.push_back(slot);
+    }
     return sent;
 }
 
@@ -131,14 +200,16 @@ Result<std::size_t> PageStore::send_by_batches(std::span<const LoadedPage> pages
     std::size_t sent = 0;
     for (const LoadedPage& page : pages) {
         const Key key{page.index.level, page.index.row, page.index.column};
-        if (slots_of_.contains(key)) {
+        if (const auto here = slots_of_.find(key); here != slots_of_.end()) {
+            slots_[here->second].used = frame_;
             ++sent;
             continue;
         }
         std::size_t slot = 0;
         ORO_TRY(const bool found, find_slot(slot));
         if (!found) break;
-        slots_[slot] = {key, frame_};
+        slots_[slot].page = key;
+        slots_[slot].used = frame_;
         slots_of_[key] = slot;
         stage(page, staging_.mapped + batch.size() * page_bytes_);
         batch.push_back(slot);
@@ -156,9 +227,10 @@ Result<void> PageStore::copy(std::span<const std::size_t> slots) {
     if (slots.empty()) return {};
     return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         for (std::size_t i = 0; i < slots.size(); ++i) {
-            const VkBufferCopy copy{i * page_bytes_, slots[i] % pages_per_chunk * page_bytes_, page_bytes_};
-            vkCmdCopyBuffer(commands, staging_.handle.get(), chunks_[slots[i] / pages_per_chunk].handle.get(),
-                            1, &copy);
+            const Slot& slot = slots_[slots[i]];
+            const VkBufferCopy copy{i * page_bytes_, slot.place * page_bytes_, page_bytes_};
+            vkCmdCopyBuffer(commands, staging_.handle.get(), chunks_[slot.chunk].buffer().handle.get(), 1,
+                            &copy);
         }
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);

@@ -11,6 +11,7 @@
 #include "core/terrain/height_quantization.h"
 #include "core/terrain/page.h"
 #include "render/device/resources.h"
+#include "render/scene/page_budget.h"
 
 namespace oro {
 
@@ -38,6 +39,14 @@ class PageStore {
     // they are needed.
     static Result<PageStore> create(const Gpu& gpu, std::size_t capacity,
                                     const HeightQuantization& coding = {}, const PageParts& parts = {});
+    // As many as fit into a budget beside what others take of it, and at least 1.
+    static Result<PageStore> create(const Gpu& gpu, std::shared_ptr<PageBudget> budget,
+                                    const HeightQuantization& coding = {}, const PageParts& parts = {});
+    PageStore(PageStore&&) noexcept = default;
+    PageStore& operator=(PageStore&&) noexcept = default;
+    PageStore(const PageStore&) = delete;
+    PageStore& operator=(const PageStore&) = delete;
+    ~PageStore() = default;
 
     // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame.
     std::uint64_t address(const PageIndex& page);
@@ -52,7 +61,12 @@ class PageStore {
     // sent. Waits for the GPU. Errors: the device; no room for any page at all.
     Result<std::size_t> send(std::span<const LoadedPage> pages);
 
+    // Lets go of buffers whose pages the current frame does not use, for others that share the budget: true
+    // where there were any. No frame is being drawn.
+    bool release_unused();
+
     [[nodiscard]] std::size_t size() const { return slots_of_.size(); }
+    // The most pages that it may hold, with the whole budget to itself.
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
     [[nodiscard]] std::uint64_t bytes() const;  // of the buffers
     [[nodiscard]] const HeightQuantization& coding() const { return coding_; }
@@ -61,12 +75,16 @@ class PageStore {
     using Key = std::tuple<int, int, int>;  // level, row, column
     struct Slot {
         Key page;
-        std::uint64_t used{};  // frame
+        std::uint64_t used{};  // frame; 0: no page is there
+        std::size_t chunk{};
+        std::size_t place{};  // in the chunk
     };
     explicit PageStore(const Gpu& gpu) : gpu_(&gpu) {}
+    Result<void> prepare_sending();
     Result<bool> find_slot(std::size_t& slot);
     bool reuse_slot(std::size_t& slot);
-    Result<void> add_chunk(std::size_t first);
+    Result<void> add_chunk();
+    void add_slots(std::size_t chunk, std::size_t count);
     Result<std::size_t> send_by_batches(std::span<const LoadedPage> pages, std::vector<std::size_t>& batch);
     Result<void> copy(std::span<const std::size_t> slots);
     void stage(const LoadedPage& page, std::byte* to) const;
@@ -78,10 +96,13 @@ class PageStore {
     std::size_t places_offset_{};
     Commands commands_;
     Buffer staging_;
-    std::vector<Buffer> chunks_;
+    std::shared_ptr<PageBudget> budget_;
+    std::vector<PageChunk> chunks_;
     std::size_t capacity_{};
-    bool full_{false};         // the device had no room for more
-    std::vector<Slot> slots_;  // those ever used
+    bool full_{false};               // the device had no room for more
+    std::size_t held_{};             // slots of all chunks that are there
+    std::vector<Slot> slots_;        // of all chunks that ever were
+    std::vector<std::size_t> free_;  // of them those without a page; the last is the next
     std::map<Key, std::size_t> slots_of_;
     std::uint64_t frame_{1};
 };

@@ -8,9 +8,10 @@
 namespace oro {
 
 PageStream::PageStream(const RegionPages& pages, int threads, std::size_t capacity, const PageParts& parts)
-    : pages_(pages), capacity_(std::max<std::size_t>(1, capacity)), parts_(parts) {
-    start_threads(threads_, std::max(1, threads), [this](const std::stop_token& stop) { work(stop); });
-}
+    : pages_(pages),
+      most_threads_(std::max(1, threads)),
+      capacity_(std::max<std::size_t>(1, capacity)),
+      parts_(parts) {}
 
 PageStream::~PageStream() {
     for (std::jthread& thread : threads_) thread.request_stop();
@@ -18,6 +19,9 @@ PageStream::~PageStream() {
 }
 
 void PageStream::want(std::span<const PageIndex> pages) {
+    if (!pages.empty() && most_threads_ > 0)
+        start_threads(threads_, std::exchange(most_threads_, 0),
+                      [this](const std::stop_token& stop) { work(stop); });
     const std::scoped_lock lock(mutex_);
     std::set<Key> needed;
     for (const PageIndex& page : pages) needed.insert(key(page));

@@ -21,8 +21,8 @@ namespace oro {
 class PageStream {
   public:
     // `capacity`: pages that may be under way or ready at a time, at least 1; 80 KB each. `pages` outlives
-    // the stream. Where fewer threads are to be had, or none, it does with those: without any, take() loads
-    // pages itself.
+    // the stream. Threads begin with the first page that is wanted. Where fewer are to be had, or none, it
+    // does with those: without any, take() loads pages itself.
     // parts: pages come with these, too; means are 222 KB more, places 200 KB.
     PageStream(const RegionPages& pages, int threads, std::size_t capacity, const PageParts& parts = {});
     ~PageStream();
@@ -46,6 +46,7 @@ class PageStream {
     void load_next(std::unique_lock<std::mutex>& lock);
 
     const RegionPages& pages_;
+    int most_threads_;  // to be begun; 0: they are
     std::size_t capacity_;
     PageParts parts_;
     mutable std::mutex mutex_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <iterator>
 
 #include "core/base/parallel.h"
 
@@ -28,14 +29,18 @@ gpu::uvec2 behind(const gpu::FramePage& page, std::uint64_t offset) {
 
 }  // namespace
 
+std::shared_ptr<PageBudget> page_budget(const Gpu& gpu, std::uint64_t bytes) {
+    constexpr std::uint64_t most = std::uint64_t{2} << 30U;
+    return std::make_shared<PageBudget>(bytes > 0 ? bytes : std::min(gpu.report().memory_bytes / 2, most));
+}
+
 Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
                             HeightStorage heights, bool means) {
     const PageParts parts{means && pages->knows_means(), pages->facts().grid.net != nullptr};
-    constexpr std::uint64_t most = std::uint64_t{2} << 30U;
-    const std::uint64_t bytes =
-        (memory.gpu > 0 ? memory.gpu : std::min(gpu.report().memory_bytes / 2, most)) / memory.shares;
     ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
-    ORO_TRY(PageStore store, PageStore::create(gpu, bytes / page_bytes(coding, parts), coding, parts));
+    ORO_TRY(
+        PageStore store,
+        PageStore::create(gpu, memory.shared ? memory.shared : page_budget(gpu, memory.gpu), coding, parts));
     Scene scene(std::move(pages), std::move(store));
     static std::atomic<std::uint64_t> scenes{0};
     scene.number_ = ++scenes;
@@ -53,6 +58,18 @@ void Scene::cast(const CastRequest& request) {
     // What lies between grids casts nothing: they do.
     if (!pages_->is_seam()) cast_ = request;
     for (Scene& other : beside_) other.cast(request);
+}
+
+std::vector<DrapeStore*> Scene::drapes() const {
+    std::vector<DrapeStore*> all{drape_.get()};
+    for (const Scene& other : beside_) all.push_back(other.drape_.get());
+    return all;
+}
+
+std::size_t Scene::image_tiles_max() const {
+    std::size_t tiles = 0;
+    for (const DrapeStore* const drape : drapes()) tiles += drape == nullptr ? 0 : drape->capacity();
+    return tiles;
 }
 
 Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau_px,
@@ -108,20 +125,45 @@ Result<bool> Scene::advance(std::span<const PageIndex> missing) {
     }
     if (full_) return better;
     stream_->want(missing);
-    bool all = true;
-    ORO_TRY(const std::size_t sent, send_ready(false, all));
-    full_ = !all;
+    bool fits = true;
+    ORO_TRY(const std::size_t sent, send_ready(false, fits));
+    full_ = !fits;
     if (full_) stream_->want({});
+    // For the next frame: what none of this one's grids uses.
+    if (!beside_.empty() && std::ranges::any_of(all(), [](const Scene* scene) { return scene->full_; }))
+        make_room();
     return better || sent > 0;
+}
+
+std::vector<Scene*> Scene::all() {
+    std::vector<Scene*> scenes{this};
+    for (Scene& other : beside_) scenes.push_back(&other);
+    return scenes;
+}
+
+bool Scene::make_room() {
+    bool any = false;
+    for (Scene* const scene : all()) any = scene->store_.release_unused() || any;
+    return any;
 }
 
 Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                       const WorldModel& model) {
-    ORO_TRY(FramePlan plan, own_settled_plan(camera, tile, tau_px, model));
-    for (Scene& other : beside_) {
-        ORO_TRY(FramePlan more, other.own_settled_plan(camera, tile, tau_px, model));
-        plan.beside.push_back(std::move(more));
+    std::vector<FramePlan> plans;
+    for (Scene* const scene : all()) {
+        ORO_TRY(FramePlan plan, scene->own_settled_plan(camera, tile, tau_px, model));
+        if (!plan.missing.empty() && !beside_.empty()) {
+            // Others may hold what earlier frames used. What this frame uses of theirs they say by a plan.
+            for (Scene* const other : all())
+                if (other != scene) ORO_CHECK(other->own_plan(camera, tile, tau_px, model));
+            if (make_room()) {
+                ORO_TRY(plan, scene->own_settled_plan(camera, tile, tau_px, model));
+            }
+        }
+        plans.push_back(std::move(plan));
     }
+    FramePlan plan = std::move(plans.front());
+    plan.beside.assign(std::make_move_iterator(plans.begin() + 1), std::make_move_iterator(plans.end()));
     return plan;
 }
 

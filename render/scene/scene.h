@@ -24,8 +24,12 @@ using RenderProgress = std::function<void(double share)>;
 struct SceneMemory {
     std::uint64_t gpu{};   // pages on the GPU; 0: half of what the device has, at most 2 GiB
     std::uint64_t main{};  // pages on their way there; 0: 64 MB
-    unsigned shares{1};    // scenes that share these
+    unsigned shares{1};    // scenes that share `main`
+    // Memory on the GPU that others take from, too, in place of `gpu`; null: none do.
+    std::shared_ptr<PageBudget> shared{};
 };
+// What `gpu` stands for on a device, to be shared.
+std::shared_ptr<PageBudget> page_budget(const Gpu& gpu, std::uint64_t bytes);
 
 // Keeps on the GPU what a camera needs of a region, as fine as tau asks for, within a budget of memory.
 //     ORO_TRY(Scene scene, Scene::create(*gpu, pages_in_memory(region.field, 1.0, thread_count())));
@@ -39,7 +43,7 @@ class Scene {
                                 bool means = false);
 
     // Another grid that its frames draw, too: a region of its own, with its own pages, memory and streaming.
-    // What the rest of this class tells is of the first grid alone, and images lie over that alone.
+    // What the rest of this class tells is of the first grid alone, where it does not say which.
     void draw_beside(Scene other) { beside_.push_back(std::move(other)); }
 
     // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h);
@@ -57,9 +61,20 @@ class Scene {
     Result<FramePlan> settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                    const WorldModel& model = {});
 
-    // Images over the ground; null: none.
-    void set_drape(std::unique_ptr<DrapeStore> drape) { drape_ = std::move(drape); }
+    // Its grids, numbered as they came, and the pages of each.
+    [[nodiscard]] std::size_t grids() const { return 1 + beside_.size(); }
+    [[nodiscard]] const RegionPages& pages_of(std::size_t grid) const {
+        return grid == 0 ? *pages_ : beside_[grid - 1].pages();
+    }
+    // Images over the ground of a grid; null: none.
+    void set_drape(std::unique_ptr<DrapeStore> drape, std::size_t grid = 0) {
+        (grid == 0 ? drape_ : beside_[grid - 1].drape_) = std::move(drape);
+    }
     [[nodiscard]] DrapeStore* drape() const { return drape_.get(); }
+    // Of all grids: what a frame is drawn with.
+    [[nodiscard]] std::vector<DrapeStore*> drapes() const;
+    // Tiles of images that the GPU may hold for all of them.
+    [[nodiscard]] std::size_t image_tiles_max() const;
 
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
     [[nodiscard]] PageStore& store() { return store_; }
@@ -76,6 +91,10 @@ class Scene {
                                const WorldModel& model);
     Result<FramePlan> own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                        const WorldModel& model);
+    // This and those beside it.
+    std::vector<Scene*> all();
+    // Lets go of what the grids' frames do not use: true where there is more room now.
+    bool make_room();
 
     std::unique_ptr<RegionPages> pages_;
     std::unique_ptr<PageStream> stream_;

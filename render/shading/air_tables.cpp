@@ -16,17 +16,18 @@ bool same(const T& a, const T& b) {
 }
 
 constexpr std::uint32_t entries_a_group = 64;
-constexpr std::array<std::uint32_t, 5> entry_counts{
+constexpr std::array<std::uint32_t, 6> entry_counts{
     gpu::air_column_heights * gpu::air_column_angles, gpu::air_light_heights* gpu::air_light_suns,
-    gpu::air_light_heights* gpu::air_light_suns, gpu::air_sky_rises* gpu::air_sky_turns,
-    2 * gpu::aerial_rises* gpu::aerial_turns};
+    gpu::air_light_heights* gpu::air_light_suns,      gpu::lit_heights* gpu::lit_suns,
+    gpu::air_sky_rises* gpu::air_sky_turns,           2 * gpu::aerial_rises* gpu::aerial_turns};
 static_assert(gpu::air_scattered_first == gpu::air_columns_first + entry_counts[0] &&
               gpu::air_skylight_first == gpu::air_scattered_first + entry_counts[1] &&
               gpu::air_sky_first == gpu::air_skylight_first + entry_counts[2] &&
-              gpu::air_exposure_at == gpu::air_sky_first + 3 * entry_counts[3] &&
+              gpu::air_exposure_at == gpu::air_sky_first + 3 * entry_counts[4] &&
               gpu::air_entries == gpu::air_exposure_at + 4);
 static_assert(gpu::aerial_first * sizeof(gpu::vec4) == gpu::air_entries * sizeof(gpu::vec3) &&
-              gpu::aerial_end == gpu::aerial_first + 3 * gpu::aerial_slices * entry_counts[4]);
+              gpu::aerial_end == gpu::aerial_first + 2 * gpu::aerial_slices * entry_counts[5] &&
+              gpu::lit_first == gpu::aerial_end && gpu::lit_end == gpu::lit_first + entry_counts[3]);
 
 }  // namespace
 
@@ -36,7 +37,7 @@ Result<void> AirTables::prepare(const Gpu& gpu, Pipelines& pipelines, gpu::Frame
     if (constants.style.air.on == 0) return {};
     if (!entries_.handle) {
         ORO_TRY(entries_,
-                create_buffer(gpu, gpu::aerial_end * sizeof(gpu::vec4),
+                create_buffer(gpu, gpu::lit_end * sizeof(gpu::vec4),
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                   VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                               MemoryKind::device, "air"));
@@ -52,7 +53,7 @@ void AirTables::record(VkCommandBuffer commands, const Pipelines& pipelines) {
     const bool model =
         !made_ || !same(made_->model, wanted_->model) || made_->earth_radius_m != wanted_->earth_radius_m;
     const bool sky = model || !same(*made_, *wanted_);
-    for (std::uint32_t table = model ? 0 : 3; sky && table < entry_counts.size(); ++table) {
+    for (std::uint32_t table = model ? 0 : 4; sky && table < entry_counts.size(); ++table) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.air[table].get());
         vkCmdDispatch(commands, (entry_counts[table] + entries_a_group - 1) / entries_a_group, 1, 1);
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,

@@ -1,6 +1,7 @@
 #include "render/shading/caster_buffers.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "render/shading/shading.h"
@@ -8,13 +9,20 @@
 namespace oro {
 namespace {
 
-constexpr VkBufferUsageFlags on_device = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+constexpr VkBufferUsageFlags on_device =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 constexpr std::uint32_t groups_a_page = 4;  // of tops.comp
 
 VkDeviceSize aligned(VkDeviceSize size) {
     return (size + 15) / 16 * 16;
+}
+
+// Behind the shares of all pixels (shares.comp): a count, three numbers of workgroups; then pixels.
+constexpr std::array<std::uint32_t, 4> empty_list{0, 0, 1, 1};
+constexpr VkDeviceSize groups_at = sizeof(std::uint32_t);
+VkDeviceSize list_at(VkExtent2D extent) {
+    return aligned(VkDeviceSize{extent.width} * extent.height * sizeof(float));
 }
 
 struct CasterLayout {
@@ -24,6 +32,42 @@ CasterLayout layout_of(const CasterPlan& plan) {
     const VkDeviceSize pages = aligned(sizeof(gpu::Casters));
     const VkDeviceSize table = aligned(pages + plan.pages.size() * sizeof(gpu::CasterPage));
     return {pages, table, aligned(table + plan.table.size() * sizeof(gpu::uint))};
+}
+
+void wait(VkCommandBuffer commands, VkPipelineStageFlags2 stage, VkAccessFlags2 access,
+          VkPipelineStageFlags2 next = 0, VkAccessFlags2 use = 0) {
+    memory_barrier(commands, stage, access, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | next,
+                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | use);
+}
+void wait_for_shaders(VkCommandBuffer commands) {
+    wait(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+// Lines for every second pixel of every second row; then the others are looked at, and those that need lines
+// have them, too: at once, or once all are known.
+void record_sun_shares(VkCommandBuffer commands, const std::array<OwnedPipeline, 2>& pipelines,
+                       VkBuffer shares, VkExtent2D extent, bool lists_together) {
+    const auto dispatch = [&](const OwnedPipeline& pipeline, std::uint32_t side_px) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+        vkCmdDispatch(commands, (extent.width + side_px - 1) / side_px,
+                      (extent.height + side_px - 1) / side_px, 1);
+    };
+    const VkDeviceSize list = list_at(extent);
+    if (lists_together) {
+        vkCmdUpdateBuffer(commands, shares, list, sizeof(empty_list), empty_list.data());
+        wait(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+             VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    }
+    dispatch(pipelines[0], 16);
+    wait_for_shaders(commands);
+    dispatch(pipelines[1], 8);
+    if (lists_together) {
+        wait(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+             VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[0].get());
+        vkCmdDispatchIndirect(commands, shares, list + groups_at);
+    }
+    wait_for_shaders(commands);
 }
 
 }  // namespace
@@ -54,7 +98,9 @@ Result<void> CasterBuffers::reserve(const Gpu& gpu, const FramePlan& frame,
     width_px_ = constants.width_px;
     height_px_ = constants.height_px;
     if (casts_)
-        ORO_CHECK(grow(sun_shares_, VkDeviceSize{width_px_} * height_px_ * sizeof(float), "sun shares"));
+        ORO_CHECK(grow(sun_shares_,
+                       (lists_together_ ? 2 : 1) * list_at({width_px_, height_px_}) + sizeof(empty_list),
+                       "sun shares"));
     return {};
 }
 
@@ -95,6 +141,7 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& 
     casts_ = there && style.shadows != 0 && plan.for_shadows;
     opens_ = there && style.sky_openness != 0 && plan.for_openness;
     on_net_ = constants.has_net != 0;
+    lists_together_ = lists_pixels_together(gpu);
     constants.casters = {};
     if (!any()) return {};
     ORO_CHECK(add_cast_pipelines(gpu, path, on_net_, pipelines));
@@ -116,10 +163,6 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& 
 
 void CasterBuffers::record(VkCommandBuffer commands, const Pipelines& pipelines) {
     if (!any()) return;
-    const auto written = [&] {
-        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
-    };
     const auto dispatch = [&](const OwnedPipeline& pipeline, std::uint32_t groups) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
         vkCmdDispatch(commands, std::min(groups, gpu::groups_per_row),
@@ -132,17 +175,12 @@ void CasterBuffers::record(VkCommandBuffer commands, const Pipelines& pipelines)
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
         if (casts_) dispatch(pipelines.caster_tops, groups_a_page * pages_);
         if (opens_) dispatch(pipelines.openness, gpu::open_groups_a_page * frame_pages_);
-        written();
+        wait_for_shaders(commands);
         made_.swap(wanted_);
     }
     if (!casts_) return;
-    const std::array<OwnedPipeline, 2>& sun_shares = pipelines.sun_shares[on_net_ ? 1 : 0];
-    for (std::uint32_t turn = 0; turn < sun_shares.size(); ++turn) {
-        const std::uint32_t side_px = 16U >> turn;  // of a workgroup's square
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, sun_shares[turn].get());
-        vkCmdDispatch(commands, (width_px_ + side_px - 1) / side_px, (height_px_ + side_px - 1) / side_px, 1);
-        written();
-    }
+    record_sun_shares(commands, pipelines.sun_shares[on_net_ ? 1 : 0], sun_shares_.handle.get(),
+                      {width_px_, height_px_}, lists_together_);
 }
 
 }  // namespace oro

@@ -38,7 +38,8 @@ class CasterBuffers {
     std::vector<std::byte> wanted_, made_;  // what nodes_ and openness_ follow from: of this frame, and made
     VkDeviceSize size_{};
     bool casts_{}, opens_{}, is_new_{};
-    bool on_net_{};  // the frame's posts lie on a net
+    bool lists_together_{};  // shading.h, lists_pixels_together
+    bool on_net_{};          // the frame's posts lie on a net
     std::uint32_t width_px_{}, height_px_{};
     std::uint32_t pages_{};        // that cast
     std::uint32_t frame_pages_{};  // that are drawn

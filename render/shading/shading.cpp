@@ -87,6 +87,10 @@ Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
+bool lists_pixels_together(const Gpu& gpu) {
+    return gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
 Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, Pipelines& pipelines) {
     if (!pipelines.caster_tops) {
         ORO_TRY(pipelines.caster_tops,
@@ -99,9 +103,11 @@ Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, Pi
     const std::span<const std::uint32_t> words =
         on_net ? std::span<const std::uint32_t>(shares_net_comp_spirv) : shares_comp_spirv;
     std::array<OwnedPipeline, 2>& sun_shares = pipelines.sun_shares[on_net ? 1 : 0];
+    // shares.comp, `does`: its two turns, or both as one program and the list between them.
+    const std::uint32_t first = lists_pixels_together(gpu) ? 2 : 0;
     for (std::uint32_t turn = 0; turn < sun_shares.size(); ++turn) {
         if (sun_shares[turn]) continue;
-        const std::array<std::uint32_t, 2> values{flag(path == RasterPath::compute), 2U >> turn};
+        const std::array<std::uint32_t, 2> values{flag(path == RasterPath::compute), first + turn};
         const std::array<VkSpecializationMapEntry, 2> entries{
             {{0, 0, sizeof(values[0])}, {1, sizeof(values[0]), sizeof(values[1])}}};
         const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};

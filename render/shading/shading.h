@@ -16,6 +16,11 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
 // The program that then smooths the edges of a picture, where edges_follow.
 Result<VkPipeline> edges_for(const Gpu& gpu, RasterPath path, const ShadingKind& kind, Pipelines& pipelines);
 
+// Whether pixels that need lines to the sun are listed for the whole picture before they have them: on
+// processors, whose drivers take long for barriers, and not on GPUs, whose workgroups would wait for each
+// other.
+bool lists_pixels_together(const Gpu& gpu);
+
 // What fills the tables that it reads, as far as that is not there: of air,
 Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines);
 // ... of what casts shadows and of how open the sky is,

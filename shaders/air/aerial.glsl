@@ -1,5 +1,5 @@
 // The air between the eye and what it sees, from a table for all lines of sight from the eye. Needs air.glsl and sky.glsl.
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer AerialTable { vec4 at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer AerialTable { uvec4 at[]; };
 
 // Lines that meet this shell end there; it lies below all ground in the air.
 const float air_floor_m = -500.0;
@@ -80,46 +80,82 @@ AirRay aerial_ray(uint row, uint column) {
 float way_of_slice(float x) { return x < 0.5 ? 2.0 * x * x : 1.0 - 2.0 * (1.0 - x) * (1.0 - x); }
 float slice_of_way(float share) { return share < 0.5 ? sqrt(0.5 * share) : 1.0 - sqrt(0.5 * (1.0 - share)); }
 
-// An entry is molecules, dust, often (logarithms: at dusk light falls fast) and through, one after the other.
-uint aerial_at(uint row, uint column, uint slice) {
-    return aerial_first + 3u * ((row * aerial_turns + column) * aerial_slices + slice);
-}
-void add_aerial(inout vec4 sum[3], AerialTable table, uint at, float share) {
-    for (uint k = 0u; k < 3u; ++k) sum[k] += share * table.at[at + k];
-}
-AirLight unpacked_aerial(vec4 sum[3]) {
-    return AirLight(exp(sum[0].xyz), exp(vec3(sum[0].w, sum[1].xy)), exp(vec3(sum[1].zw, sum[2].x)), sum[2].yzw);
-}
+// An entry is light that comes to the eye but for what dust scatters, then that without the angle's share, then what is let through: six
+// logarithms (at dusk light falls fast) in steps of 0.05 %, and three shares, in 16 bits each.
+uint aerial_at(uint row, uint column, uint slice) { return aerial_first + 2u * ((row * aerial_turns + column) * aerial_slices + slice); }
+const float aerial_log_step = (aerial_log_high - aerial_log_low) / 65535.0;
+uint aerial_code(float value) { return uint(clamp((log(value) - aerial_log_low) / aerial_log_step + 0.5, 0.0, 65535.0)); }
 
-// What a line gathers on its way to a distance, and lets through.
-AirLight aerial_light(AirRay ray, float distance_m) {
-    AirLight light = AirLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0));
+// Two codes of a word, as 1 and the code's 65536th parts: without a conversion of integers, of which GPUs do few at a time.
+float low_code(uint word) { return uintBitsToFloat((word << 7u & 0x7fff80u) | 0x3f800000u); }
+float high_code(uint word) { return uintBitsToFloat((word >> 9u & 0x7fff80u) | 0x3f800000u); }
+// The logarithm of such a number, or of a mean of several.
+vec3 aerial_log(vec3 codes) { return codes * (65536.0 * aerial_log_step) + (aerial_log_low - 65536.0 * aerial_log_step); }
+
+struct AerialEntry {
+    vec3 light;
+    vec3 dust;
+    vec3 through;
+};
+void add_aerial(inout AerialEntry sum, AerialTable table, uint at, float share) {
+    uvec4 first = table.at[at];
+    uint last = table.at[at + 1u].x;
+    sum.light += share * vec3(low_code(first.x), high_code(first.x), low_code(first.y));
+    sum.dust += share * vec3(high_code(first.y), low_code(first.z), high_code(first.z));
+    sum.through += share * vec3(low_code(first.w), high_code(first.w), low_code(last));
+}
+// What comes to the eye of the air before a place, and what that lets through.
+struct SeenAir {
+    vec3 light;
+    vec3 through;
+};
+SeenAir aerial_light(AirRay ray, float distance_m) {
     AerialLine line = aerial_line(ray);
     float share = clamp((distance_m - line.from_m) / line.length_m, 0.0, 1.0);
-    if (share <= 0.0) return light;
+    if (share <= 0.0) return SeenAir(vec3(0.0), vec3(1.0));
     const float last = float(aerial_slices - 1u);
-    uint slice = min(uint(slice_of_way(share) * last), aerial_slices - 2u);
-    float low = way_of_slice(float(slice) / last), high = way_of_slice(float(slice + 1u) / last);
+    uint slice = min(whole_number(floor(slice_of_way(share) * last)), aerial_slices - 2u);
+    float number = as_float(slice), low = way_of_slice(number / last), high = way_of_slice((number + 1.0) / last);
     float on = clamp((share - low) / (high - low), 0.0, 1.0);
     uint first_row = line.row < float(aerial_rises) ? 0u : aerial_rises;
-    uint row = min(uint(line.row) - first_row, aerial_rises - 2u) + first_row, column = min(uint(line.column), aerial_turns - 2u);
-    vec2 part = vec2(line.row, line.column) - vec2(row, column);
-    vec4 near[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0)), far[3] = near;
+    uint row = min(whole_number(floor(line.row)) - first_row, aerial_rises - 2u) + first_row;
+    uint column = min(whole_number(floor(line.column)), aerial_turns - 2u);
+    vec2 part = vec2(line.row, line.column) - as_floats(uvec2(row, column));
+    AerialEntry near = AerialEntry(vec3(0.0), vec3(0.0), vec3(0.0)), far = near;
     AerialTable table = AerialTable(FRAME.air);
     for (uint k = 0u; k < 4u; ++k) {
         uint at = aerial_at(row + k / 2u, column + k % 2u, slice);
         float weight = (k / 2u == 1u ? part.x : 1.0 - part.x) * (k % 2u == 1u ? part.y : 1.0 - part.y);
         add_aerial(near, table, at, weight);
-        add_aerial(far, table, at + 3u, weight);
+        add_aerial(far, table, at + 2u, weight);
     }
-    light = unpacked_aerial(near);
-    AirLight beyond = unpacked_aerial(far);
     // Within a slice as in even air: light comes to the eye as the air lets it through.
-    vec3 let = clamp(beyond.through / max(light.through, vec3(1.0e-30)), vec3(1.0e-6), vec3(1.0));
+    vec3 through = (near.through - 1.0) * (65536.0 / 65535.0);
+    vec3 let = clamp((far.through - 1.0) / max(near.through - 1.0, vec3(1.0e-30)), vec3(1.0e-6), vec3(1.0));
     vec3 here = exp(log(let) * on), come = mix((1.0 - here) / max(1.0 - let, vec3(1.0e-6)), vec3(on), greaterThan(let, vec3(0.999)));
-    light.molecules = mix(light.molecules, beyond.molecules, come);
-    light.dust = mix(light.dust, beyond.dust, come);
-    light.often = mix(light.often, beyond.often, come);
-    light.through *= here;
-    return light;
+    float by_dust = dust_towards(ray.to_sun);
+    vec3 light = exp(aerial_log(near.light)) + by_dust * exp(aerial_log(near.dust));
+    vec3 beyond = exp(aerial_log(far.light)) + by_dust * exp(aerial_log(far.dust));
+    return SeenAir(mix(light, beyond, come), through * here);
+}
+
+// The light of the sun and of the sky at a place, which together cost as much as one of them: FrameStyle.air alone decides this table.
+struct PlaceLight {
+    vec3 from_sun;
+    vec3 from_sky;
+};
+vec2 lit_place(float h_m, float sun_rise) { return light_place_of(h_m, sun_rise, vec2(lit_heights - 1u, lit_suns - 1u)); }
+PlaceLight light_at(float h_m, float sun_rise) {
+    vec2 at = clamp(lit_place(h_m, sun_rise), vec2(0.0), vec2(lit_heights - 1u, lit_suns - 1u));
+    uvec2 low = min(whole_numbers(floor(at)), uvec2(lit_heights, lit_suns) - 2u);
+    vec2 part = at - as_floats(low);
+    AerialTable table = AerialTable(FRAME.air);
+    vec3 sun = vec3(0.0), sky = vec3(0.0);
+    for (uint k = 0u; k < 4u; ++k) {
+        uvec4 codes = table.at[lit_first + (low.x + k / 2u) * lit_suns + low.y + k % 2u];
+        float weight = (k / 2u == 1u ? part.x : 1.0 - part.x) * (k % 2u == 1u ? part.y : 1.0 - part.y);
+        sun += weight * vec3(low_code(codes.x), high_code(codes.x), low_code(codes.y));
+        sky += weight * vec3(high_code(codes.y), low_code(codes.z), high_code(codes.z));
+    }
+    return PlaceLight(exp(aerial_log(sun)) * sun_shown(h_m, sun_rise), exp(aerial_log(sky)));
 }

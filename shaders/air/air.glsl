@@ -57,7 +57,7 @@ float dip_rad(float radius_m, float h_m) { return atan(sqrt(max(h_m, 0.0) * (2.0
 // An entry of a table between its neighbours; place: (row, column), in entries.
 vec3 entry(uint first, uvec2 size, vec2 place) {
     vec2 at = clamp(place, vec2(0.0), vec2(size - 1u));
-    uvec2 low = min(uvec2(at), size - 2u);
+    uvec2 low = min(whole_numbers(floor(at)), size - 2u);
     vec2 share = at - vec2(low);
     AirTable table = AirTable(FRAME.air);
     uint i = first + low.x * size.y + low.y;
@@ -70,7 +70,8 @@ vec2 column_place(float h_m, float rise) {
     float radius_m = air_radius_m();
     float h = clamp(h_m, 0.0, air_top_m);
     float longest = sqrt(air_top_m * (2.0 * radius_m + air_top_m)), level = sqrt(h * (2.0 * radius_m + h));
-    float way = max(way_out_m(AirRay(radius_m, h, max(rise, -sin(dip_rad(radius_m, h))), 0.0, 0.0), air_top_m), 0.0);
+    float seen = rise >= 0.0 ? rise : max(rise, -sin(dip_rad(radius_m, h)));
+    float way = max(way_out_m(AirRay(radius_m, h, seen, 0.0, 0.0), air_top_m), 0.0);
     float least = air_top_m - h, most = level + longest;
     return vec2(level / longest * float(air_column_heights - 1u), (way - least) / (most - least) * float(air_column_angles - 1u));
 }
@@ -82,6 +83,7 @@ vec3 to_space(float h_m, float rise) {
 
 // The share of the sun's disc that is above the horizon.
 float sun_shown(float h_m, float sun_rise) {
+    if (sun_rise >= sun_radius_rad) return 1.0;  // no horizon is above the level
     float above_rad = asin(clamp(sun_rise, -1.0, 1.0)) + dip_rad(air_radius_m(), h_m);
     return smoothstep(-sun_radius_rad, sun_radius_rad, above_rad);
 }
@@ -91,11 +93,11 @@ vec3 sunlight(float h_m, float sun_rise) {
 
 // Heights by their square root; suns closest together where they set, and none that is 20 degrees below the level.
 const float lowest_sun_rise = -0.342, sun_bend = 0.06;
-vec2 light_place(float h_m, float sun_rise) {
+vec2 light_place_of(float h_m, float sun_rise, vec2 last_entry) {
     float first = asinh(lowest_sun_rise / sun_bend), last = asinh(1.0 / sun_bend);
-    return vec2(sqrt(clamp(h_m / air_top_m, 0.0, 1.0)) * float(air_light_heights - 1u),
-                (asinh(sun_rise / sun_bend) - first) / (last - first) * float(air_light_suns - 1u));
+    return vec2(sqrt(clamp(h_m / air_top_m, 0.0, 1.0)), (asinh(sun_rise / sun_bend) - first) / (last - first)) * last_entry;
 }
+vec2 light_place(float h_m, float sun_rise) { return light_place_of(h_m, sun_rise, vec2(air_light_heights - 1u, air_light_suns - 1u)); }
 // Both tables hold logarithms: at dusk light falls by half with each half degree.
 vec3 scattered_often(float h_m, float sun_rise) {
     return exp(entry(air_scattered_first, uvec2(air_light_heights, air_light_suns), light_place(h_m, sun_rise)));

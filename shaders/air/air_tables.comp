@@ -7,7 +7,7 @@
 #include "shaders/air/aerial.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint table = 0u;  // 0 columns, 1 scattered, 2 skylight, 3 sky, 4 aerial
+layout(constant_id = 0) const uint table = 0u;  // 0 columns, 1 scattered, 2 skylight, 3 lit, 4 sky, 5 aerial
 
 const vec3 least_light = vec3(1.0e-20);  // of the sun's
 
@@ -33,12 +33,12 @@ void fill_columns(uint i) {
     put(air_columns_first + i, columns);
 }
 
-// The inverse of light_place().
-void light_of(uint i, out float h_m, out float sun_rise) {
-    float root = float(i / air_light_suns) / float(air_light_heights - 1u);
+// The inverse of light_place_of().
+void light_of(uint i, uint heights, uint suns, out float h_m, out float sun_rise) {
+    float root = float(i / suns) / float(heights - 1u);
     h_m = air_top_m * root * root;
     float first = asinh(lowest_sun_rise / sun_bend), last = asinh(1.0 / sun_bend);
-    sun_rise = clamp(sun_bend * sinh(mix(first, last, float(i % air_light_suns) / float(air_light_suns - 1u))), lowest_sun_rise, 1.0);
+    sun_rise = clamp(sun_bend * sinh(mix(first, last, float(i % suns) / float(suns - 1u))), lowest_sun_rise, 1.0);
 }
 
 // Number k of as many directions, over the sphere or (below 0) its upper half: closest together at the horizon, where at dusk all light
@@ -60,7 +60,7 @@ AirRay direction(uint k, uint below, uint above, uint turns, float h_m, float su
 // Source: Hillaire 2020, equations 5 to 10.
 void fill_scattered(uint i) {
     float h_m, sun_rise;
-    light_of(i, h_m, sun_rise);
+    light_of(i, air_light_heights, air_light_suns, h_m, sun_rise);
     const uint half_of_rises = 14u, turns = 4u;
     vec3 twice = vec3(0.0), share = vec3(0.0);
     float all = 0.0;
@@ -96,7 +96,7 @@ void fill_scattered(uint i) {
 
 void fill_skylight(uint i) {
     float h_m, sun_rise;
-    light_of(i, h_m, sun_rise);
+    light_of(i, air_light_heights, air_light_suns, h_m, sun_rise);
     const uint rises = 12u, turns = 6u;
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < rises * turns; ++k) {
@@ -120,11 +120,17 @@ void fill_sky(uint i) {
     put(air_sky_first + 3u * i + 2u, log(max(light.often, least_light)));
 }
 
-void put_aerial(uint at, AirLight light) {
-    vec3 molecules = log(max(light.molecules, least_light)), dust = log(max(light.dust, least_light)), often = log(max(light.often, least_light));
-    AerialTable(FRAME.air).at[at] = vec4(molecules, dust.x);
-    AerialTable(FRAME.air).at[at + 1u] = vec4(dust.yz, often.xy);
-    AerialTable(FRAME.air).at[at + 2u] = vec4(often.z, light.through);
+void put_aerial(uint at, AirLight seen, float to_sun) {
+    vec3 light = seen.molecules * molecules_towards(to_sun) + seen.often, dust = seen.dust, through = seen.through;
+    uint codes[9];
+    for (int i = 0; i < 3; ++i) {
+        codes[i] = aerial_code(light[i]);
+        codes[i + 3] = aerial_code(dust[i]);
+        codes[i + 6] = uint(clamp(through[i], 0.0, 1.0) * 65535.0 + 0.5);
+    }
+    AerialTable table = AerialTable(FRAME.air);
+    table.at[at] = uvec4(codes[0] | codes[1] << 16, codes[2] | codes[3] << 16, codes[4] | codes[5] << 16, codes[6] | codes[7] << 16);
+    table.at[at + 1u] = uvec4(codes[8], 0u, 0u, 0u);
 }
 
 // A line with all its slices.
@@ -134,14 +140,22 @@ void fill_aerial(uint i) {
     float from_m, length_m;
     aerial_reach(ray, row < aerial_rises, from_m, length_m);
     AirLight light = AirLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0));
-    put_aerial(aerial_at(row, column, 0u), light);
+    put_aerial(aerial_at(row, column, 0u), light, ray.to_sun);
     for (uint slice = 1u; slice < aerial_slices; ++slice) {
         float near_m = from_m + length_m * way_of_slice(float(slice - 1u) / float(aerial_slices - 1u));
         float far_m = from_m + length_m * way_of_slice(float(slice) / float(aerial_slices - 1u)), middle_m = 0.5 * (near_m + far_m);
         gather(ray, near_m, middle_m, light);
         gather(ray, middle_m, far_m, light);
-        put_aerial(aerial_at(row, column, slice), light);
+        put_aerial(aerial_at(row, column, slice), light, ray.to_sun);
     }
+}
+
+void fill_lit(uint i) {
+    float h_m, sun_rise;
+    light_of(i, lit_heights, lit_suns, h_m, sun_rise);
+    vec3 sun = to_space(h_m, sun_rise), sky = skylight(h_m, sun_rise);
+    AerialTable(FRAME.air).at[lit_first + i] = uvec4(aerial_code(sun.x) | aerial_code(sun.y) << 16, aerial_code(sun.z) | aerial_code(sky.x) << 16,
+                                                     aerial_code(sky.y) | aerial_code(sky.z) << 16, 0u);
 }
 
 void main() {
@@ -149,6 +163,7 @@ void main() {
     if (table == 0u && i < air_column_heights * air_column_angles) fill_columns(i);
     if (table == 1u && i < air_light_heights * air_light_suns) fill_scattered(i);
     if (table == 2u && i < air_light_heights * air_light_suns) fill_skylight(i);
-    if (table == 3u && i < air_sky_rises * air_sky_turns) fill_sky(i);
-    if (table == 4u && i < 2u * aerial_rises * aerial_turns) fill_aerial(i);
+    if (table == 3u && i < lit_heights * lit_suns) fill_lit(i);
+    if (table == 4u && i < air_sky_rises * air_sky_turns) fill_sky(i);
+    if (table == 5u && i < 2u * aerial_rises * aerial_turns) fill_aerial(i);
 }

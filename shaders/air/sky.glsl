@@ -54,7 +54,7 @@ vec3 sky_radiance(vec3 direction, float above_rad) {
     float share = sky_row(dot(direction, up), above_rad);
     if (share > 1.0) return vec3(0.0);
     vec2 place = vec2(share * float(air_sky_rises - 1u), turn / pi * float(air_sky_turns - 1u));
-    uvec2 low = min(uvec2(place), uvec2(air_sky_rises, air_sky_turns) - 2u);
+    uvec2 low = min(whole_numbers(floor(place)), uvec2(air_sky_rises, air_sky_turns) - 2u);
     vec2 part = clamp(place - vec2(low), 0.0, 1.0);
     AirTable sky = AirTable(FRAME.air);
     AirLight light = AirLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0));

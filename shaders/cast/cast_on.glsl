@@ -6,7 +6,7 @@ bool faces_sun(SurfacePoint surface) {
     return dot(normal, in_air ? sun_at(surface.view) : FRAME.style.sun_enu) > 0.0;
 }
 
-void cast_on(uint id, SurfacePoint surface, ivec2 pixel) {
+void cast_on(SurfacePoint surface, ivec2 pixel) {
     if (casts && faces_sun(surface)) shown_share = CasterShares(CASTERS.sun_shares).at[pixel.y * int(FRAME.width_px) + pixel.x];
-    if (opens) open_share = sky_openness(id, surface);
+    if (opens) open_share = sky_openness(surface);
 }

@@ -166,7 +166,7 @@ struct CastSearch {
 void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, bool west, inout CastSearch search) {
     if (t_m <= 0.0) return;
     vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
-    vec2 share = clamp((at - vec2(cell.from - search.post)) / vec2(cell.to - cell.from), 0.0, 1.0);
+    vec2 share = clamp((at - as_floats(cell.from - search.post)) / as_floats(cell.to - cell.from), 0.0, 1.0);
     float ground_m = above_base(cell, share, west, search.base);
     if (ground_m == no_ground_m) return;
     search.last_m = t_m;
@@ -178,7 +178,7 @@ void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, boo
 // Begins a node of another level than the one before it.
 void meet_level(CastPiece piece, CasterCell cell, float t_m, float to_m, bool west, inout CastSearch search) {
     vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
-    vec2 share = clamp((at - vec2(cell.from - search.post)) / vec2(cell.to - cell.from), 0.0, 1.0);
+    vec2 share = clamp((at - as_floats(cell.from - search.post)) / as_floats(cell.to - cell.from), 0.0, 1.0);
     float ground_m = above_base(cell, share, west, search.base);
     if (ground_m == no_ground_m) return;
     search.step_m = ground_m - search.last_ground_m;
@@ -200,9 +200,9 @@ void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, fl
     // What is left of a node may be less than a step: the next cell is another page's.
     for (int i = 0; i < 40 && t_m + step_m < to_m && search.least > -sun_radius_rad; ++i) {
         vec2 at = piece.at + (t_m + step_m - piece.from_m) * piece.per_m;
-        ivec2 post = search.post + ivec2(floor(at));
+        ivec2 post = search.post + whole_signed(floor(at));
         CasterCell cell = caster_cell(PageBlocks(node.block), level, post);
-        vec2 low = vec2(cell.from - search.post), high = vec2(cell.to - search.post);
+        vec2 low = as_floats(cell.from - search.post), high = as_floats(cell.to - search.post);
         float out_m = clamp(way_out_of(piece, low, high), t_m + step_m, to_m), out_z_m = along(line, out_m).z + search.lift_m;
         // Most cells are too low to matter; the last of a node is where the next one goes on.
         int highest = max(max(cell.heights.x, cell.heights.y), max(cell.heights.z, cell.heights.w));
@@ -239,7 +239,7 @@ bool look_along(SunLine line, CastPiece piece, float error_m, inout uint level, 
     ivec2 page_at = ivec2(0);
     for (int i = 0; i < 4000 && t_m < piece.to_m; ++i) {
         vec2 at = piece.at + (t_m + step_m - piece.from_m) * piece.per_m;
-        ivec2 post = search.post + ivec2(floor(at));
+        ivec2 post = search.post + whole_signed(floor(at));
         if (post.x < 0 || post.x >= int(FRAME.last_row)) return false;
         if (post.y < 0 || post.y >= int(FRAME.last_column)) return false;
         ivec2 there = post >> int(level + 7u);
@@ -252,7 +252,7 @@ bool look_along(SunLine line, CastPiece piece, float error_m, inout uint level, 
             continue;
         }
         ivec2 node_from = (post >> (int(level) + 3)) << (int(level) + 3);
-        float out_m = way_out_of(piece, vec2(node_from - search.post), vec2(node_from + (8 << level) - search.post));
+        float out_m = way_out_of(piece, as_floats(node_from - search.post), as_floats(node_from + (8 << level) - search.post));
         out_m = min(max(out_m, t_m + step_m), piece.to_m);
         CasterNode node = CasterNodes(CASTERS.nodes).at[caster_node(page, level, post)];
         float low_m = min(along(line, t_m).z - t_m * slope, along(line, out_m).z - out_m * slope) - (out_m - t_m) * (out_m - t_m) / 5.0e7;
@@ -290,7 +290,7 @@ float rise_over(SunLine line, CastPiece piece, CasterCell cell, bool west) {
     if (h.x == void_height || h.w == void_height || (west ? h.z : h.y) == void_height) return 0.0;
     // Along the triangle's own sides: southwards, eastwards.
     vec2 steps = vec2(west ? h.z - h.x : h.w - h.y, west != cell.rises ? h.w - h.z : h.y - h.x);
-    vec2 rise = height_step_m * steps / vec2(cell.to - cell.from);  // a post
+    vec2 rise = height_step_m * steps / as_floats(cell.to - cell.from);  // a post
     return dot(rise, piece.per_m) - line.a1.z * line.per_m;
 }
 
@@ -298,7 +298,7 @@ float rise_over(SunLine line, CastPiece piece, CasterCell cell, bool west) {
 // large that the ground is shaded smoothly: there the shaded slope tells how much light it gets, and an edge of triangles must not.
 // Nothing where slopes are not shaded at all.
 float smooth_lift_m(SunLine line, CastPiece piece, CasterCell cell, uint level, CastPoint point, bool west) {
-    vec2 size = vec2(cell.to - cell.from), low = vec2(cell.from - point.post);
+    vec2 size = as_floats(cell.to - cell.from), low = vec2(cell.from - point.post);
     float cell_m = size.x * CASTERS.row_rad * 6371000.0, cell_px = cell_m * FRAME.pixels_per_tangent / point.distance_m;
     if (FRAME.style.relief < 0.5 || cell_px <= 8.0) return 0.0;
     float over = rise_over(line, piece, cell, west), out_m = max(way_out_of(piece, low, low + size), 0.0);
@@ -323,7 +323,7 @@ float sun_over_terrain(CastPoint point) {
     CasterNode node;
     if (!caster_at(point.post, error_m, level, node)) return 1.0;
     CasterCell cell = caster_cell(PageBlocks(node.block), level, point.post);
-    vec2 share = clamp((vec2(point.post - cell.from) + point.beyond) / vec2(cell.to - cell.from), 0.0, 1.0);
+    vec2 share = clamp((as_floats(point.post - cell.from) + point.beyond) / as_floats(cell.to - cell.from), 0.0, 1.0);
     float base_m = above_base(cell, share, west_of_diagonal(cell, share) >= 0.0, 0);
     if (base_m == no_ground_m) return 1.0;
     at.h_m = base_m;

@@ -23,11 +23,14 @@ const bool opens = false;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
-layout(constant_id = 1) const int apart_px = 2;  // of the pixels of this turn: 2, then 1
+// The first turn; the second, a workgroup by itself; the second as two passes for the whole picture, the first of which only lists what needs
+// lines. A GPU's workgroups get in each other's way where they list together, and a processor's driver stops and goes on at each barrier.
+const uint first_turn = 0u, second_turn = 1u, both_turns = 2u, lists_second_turn = 3u;
+layout(constant_id = 1) const uint does = first_turn;
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 
 float share_at(ivec2 pixel) {
-    uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
+    uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
                            : imageLoad(ids, pixel).x;
     if (!is_of_grid(id)) return no_sun_share;
     vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
@@ -39,47 +42,87 @@ float share_at(ivec2 pixel) {
     vec2 shares = met_shares(ray, at, scale);
     SurfacePoint point;
     point.view = (1.0 - shares.x - shares.y) * at[0] + shares.x * at[1] + shares.y * at[2];
-    point.post = (1.0 - shares.x - shares.y) * vec2(posts[0]) + shares.x * vec2(posts[1]) + shares.y * vec2(posts[2]);
+    point.post = (1.0 - shares.x - shares.y) * as_floats(posts[0]) + shares.x * as_floats(posts[1]) + shares.y * as_floats(posts[2]);
     return sun_over_terrain(cast_point(triangle_of_id(id), point));
 }
 
 // Written by a function: glslang 12.0 does not end on such an assignment in main().
 void keep(ivec2 pixel, float share) { CasterShares(CASTERS.sun_shares).at[pixel.y * int(FRAME.width_px) + pixel.x] = share; }
 
-// The share that all pixels of the turn before around one have, three or four in a row and in a column; no_sun_share where they differ.
+// The share that those of the first turn have that are within two pixels of one, two or three in a row and in a column; no_sun_share where
+// they differ. All are asked for at once.
 float share_around(ivec2 pixel) {
-    const int step_px = 2 * apart_px;
-    ivec2 first = (pixel / step_px - 1) * step_px, last = (pixel + step_px - 1) / step_px * step_px + step_px;
+    ivec2 first = ((pixel - 1) >> 1) * 2, last = pixel / 2 * 2 + 2, between = min(first + 2, last);
     if (any(lessThan(first, ivec2(0))) || last.x >= int(FRAME.width_px) || last.y >= int(FRAME.height_px)) return no_sun_share;
     CasterShares shares = CasterShares(CASTERS.sun_shares);
-    float share = shares.at[first.y * int(FRAME.width_px) + first.x];
-    if (share != 0.0 && share != 1.0) return no_sun_share;
-    for (int y = first.y; y <= last.y; y += step_px)
-        for (int x = first.x; x <= last.x; x += step_px)
-            if (shares.at[y * int(FRAME.width_px) + x] != share) return no_sun_share;
-    return share;
+    ivec3 rows = ivec3(first.y, between.y, last.y) * int(FRAME.width_px);
+    vec3 before = vec3(shares.at[rows.x + first.x], shares.at[rows.y + first.x], shares.at[rows.z + first.x]);
+    vec3 beside = vec3(shares.at[rows.x + between.x], shares.at[rows.y + between.x], shares.at[rows.z + between.x]);
+    vec3 behind = vec3(shares.at[rows.x + last.x], shares.at[rows.y + last.x], shares.at[rows.z + last.x]);
+    float share = before.x;
+    bool is_whole = share == 0.0 || share == 1.0;
+    return is_whole && before == vec3(share) && beside == before && behind == before ? share : no_sun_share;
+}
+
+// Behind the shares: how many pixels the second turn lists (none before it), and the workgroups of its dispatch; then the pixels.
+const uint list_head = 4u, count_at = 0u, groups_at = 1u;
+uint list_at() { return (FRAME.width_px * FRAME.height_px + 3u) / 4u * 4u; }
+
+bool is_in_picture(ivec2 pixel) { return pixel.x < int(FRAME.width_px) && pixel.y < int(FRAME.height_px); }
+
+// Written by functions, as keep(). The next place in the list, with room for it in the dispatch.
+uint next_listed() {
+    uint place = atomicAdd(Words(CASTERS.sun_shares).at[list_at() + count_at], 1u), groups = place / 64u + 1u, at = list_at() + groups_at;
+    if (place % 64u != 0u) return place;
+    atomicMax(Words(CASTERS.sun_shares).at[at], min(groups, groups_per_row));
+    if (groups > groups_per_row) atomicMax(Words(CASTERS.sun_shares).at[at + 1u], (groups + groups_per_row - 1u) / groups_per_row);
+    return place;
+}
+void put(uint at, uint value) { Words(CASTERS.sun_shares).at[at] = value; }
+
+bool needs_line(ivec2 pixel) {
+    bool had_its_turn = ((pixel.x | pixel.y) & 1) == 0;
+    if (had_its_turn || !is_in_picture(pixel)) return false;
+    float share = share_around(pixel);
+    if (share != no_sun_share) keep(pixel, share);
+    return share == no_sun_share;
+}
+
+void list_in_picture(ivec2 pixel) {
+    if (!needs_line(pixel)) return;
+    put(list_at() + list_head + next_listed(), uint(pixel.y) * FRAME.width_px + uint(pixel.x));
+}
+// The next pixel of the list; false behind its end.
+bool is_listed_in_picture(out ivec2 pixel) {
+    uint number = folded(gl_WorkGroupID) * 64u + gl_LocalInvocationIndex;
+    if (number >= Words(CASTERS.sun_shares).at[list_at() + count_at]) return false;
+    uint listed = Words(CASTERS.sun_shares).at[list_at() + list_head + number];
+    pixel = ivec2(listed % FRAME.width_px, listed / FRAME.width_px);
+    return true;
 }
 
 // The pixels of a workgroup's square that need lines of their own, one after the other, so that whole subgroups have none.
 shared uint list_count;
 shared uint list[gl_WorkGroupSize.x * gl_WorkGroupSize.y];
-
-void list_pixel(ivec2 pixel) {
-    if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return;
-    bool had_its_turn = apart_px < 2 && ((pixel.x | pixel.y) & (2 * apart_px - 1)) == 0;
-    if (had_its_turn) return;
-    float share = apart_px < 2 ? share_around(pixel) : no_sun_share;
-    if (share == no_sun_share) list[atomicAdd(list_count, 1u)] = gl_LocalInvocationIndex;
-    else keep(pixel, share);
+bool is_listed_in_square(out ivec2 pixel) {
+    if (gl_LocalInvocationIndex == 0u) list_count = 0u;
+    barrier();
+    if (needs_line(ivec2(gl_GlobalInvocationID.xy))) list[atomicAdd(list_count, 1u)] = gl_LocalInvocationIndex;
+    barrier();
+    if (gl_LocalInvocationIndex >= list_count) return false;
+    uint within = list[gl_LocalInvocationIndex];
+    pixel = ivec2(gl_WorkGroupID.xy * gl_WorkGroupSize.xy + uvec2(within % gl_WorkGroupSize.x, within / gl_WorkGroupSize.x));
+    return true;
 }
 
 void main() {
-    if (gl_LocalInvocationIndex == 0u) list_count = 0u;
-    barrier();
-    list_pixel(ivec2(gl_GlobalInvocationID.xy) * apart_px);
-    barrier();
-    if (gl_LocalInvocationIndex >= list_count) return;
-    uint within = list[gl_LocalInvocationIndex];
-    ivec2 pixel = ivec2(gl_WorkGroupID.xy * gl_WorkGroupSize.xy + uvec2(within % gl_WorkGroupSize.x, within / gl_WorkGroupSize.x)) * apart_px;
-    keep(pixel, share_at(pixel));
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * 2;
+    if (does == lists_second_turn) {
+        list_in_picture(ivec2(gl_GlobalInvocationID.xy));
+        return;
+    }
+    bool is_second = does == both_turns && Words(CASTERS.sun_shares).at[list_at() + count_at] != 0u;
+    if (does == second_turn && !is_listed_in_square(pixel)) return;
+    if (is_second && !is_listed_in_picture(pixel)) return;
+    if (is_in_picture(pixel)) keep(pixel, share_at(pixel));
 }

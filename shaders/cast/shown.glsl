@@ -7,13 +7,13 @@ float sun_share() { return casts ? shown_share : 1.0; }
 CastPoint cast_point(uint id, SurfacePoint surface) {
     FramePage page = frame_pages().at[id / (meshlet_triangles * meshlets_per_page)];
     ivec2 last = ivec2(FRAME.last_row, FRAME.last_column);
-    ivec2 whole = clamp(ivec2(floor(surface.post)), ivec2(0), ivec2(int(page_quads) - 1));
-    vec2 share = surface.post - vec2(whole);
+    ivec2 whole = clamp(whole_signed(floor(surface.post)), ivec2(0), ivec2(int(page_quads) - 1));
+    vec2 share = surface.post - as_floats(whole);
     CastPoint point;
     ivec2 from = ivec2(page.first_row, page.first_column) + (whole << page.level);
     vec2 beyond = share * vec2(min(from + (1 << page.level), last) - from);
-    point.post = min(from + ivec2(floor(beyond)), last - 1);
-    point.beyond = beyond - vec2(point.post - from);
+    point.post = min(from + whole_signed(floor(beyond)), last - 1);
+    point.beyond = beyond - as_floats(point.post - from);
     point.distance_m = length(surface.view);
     point.level = page.level;
     if (HAS_NET) {
@@ -35,23 +35,13 @@ float open_share = 1.0;
 float sky_share() { return opens ? open_share : 1.0; }
 
 // Between the corners of the nodes of the page that the place is shaded from (surface.glsl, descend).
-float sky_openness(uint id, SurfacePoint surface) {
-    uint number = id / (meshlet_triangles * meshlets_per_page);
-    FramePage page = frame_pages().at[number];
-    vec2 post = surface.post, region = region_post(page, post);
-    float spacing_px = PageBlocks(page.block).at[0].row_spacing_m * float(1u << page.level) * FRAME.pixels_per_tangent / length(surface.view);
-    while (spacing_px > shading_spacing_px) {
-        uvec2 part = uvec2(greaterThanEqual(post, vec2(float(page_quads) * 0.5)));
-        uint child = page.children[part.x * 2u + part.y];
-        if (child == no_page) break;
-        number = child;
-        page = frame_pages().at[child];
-        post = clamp(page_post(page, region), vec2(0.0), vec2(float(page_quads)));
-        spacing_px *= 0.5;
-    }
+float sky_openness(SurfacePoint surface) {
+    uint number = surface.shaded_page;
+    vec2 post = surface.shaded_post;
+    if (by_means && !in_air && !draped) number = descend(number, frame_pages().at[number], post, length(surface.view));
     vec2 place = post / float(meshlet_quads);
-    uvec2 low = min(uvec2(place), uvec2(open_corners - 2u));
-    vec2 share = place - vec2(low);
+    uvec2 low = min(whole_numbers(floor(place)), uvec2(open_corners - 2u));
+    vec2 share = place - as_floats(low);
     CasterShares shares = CasterShares(CASTERS.openness);
     uint i = (number * open_corners + low.x) * open_corners + low.y;
     return mix(mix(shares.at[i], shares.at[i + 1u], share.y), mix(shares.at[i + open_corners], shares.at[i + open_corners + 1u], share.y), share.x);

@@ -17,9 +17,9 @@ uint verdict_on(FramePage page, MeshletBounds bounds) {
     return is_kept;
 }
 
+// Those that are kept are counted where they are drawn.
 void count_verdict(uint verdict) {
     Counts counts = Counts(FRAME.counts);
-    if (verdict == is_kept) atomicAdd(counts.at.meshlets_drawn, 1u);
-    else if (verdict == is_beyond_frustum) atomicAdd(counts.at.meshlets_beyond_frustum, 1u);
+    if (verdict == is_beyond_frustum) atomicAdd(counts.at.meshlets_beyond_frustum, 1u);
     else if (verdict == is_beyond_horizon) atomicAdd(counts.at.meshlets_beyond_horizon, 1u);
 }

@@ -16,8 +16,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Words { uin
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Floats { float at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Counts { FrameCounts at; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Recorded { vec3 at[]; };
-// The compute rasteriser's visibility buffer as words: x the triangle id, y the bits of the depth.
+// The compute rasteriser's visibility buffer as words: x all bits of the triangle id turned round (0: none), y those of the depth.
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer VisibilityWords { uvec2 at[]; };
+
+// The id in a pixel of it.
+uint id_of(uvec2 word) { return word.x == 0u ? 0u : ~word.x; }
 
 // The frame's constants, read where they are used: a copy would drag the tint table into every invocation.
 layout(binding = 3, scalar) uniform Frame { FrameConstants frame; };
@@ -44,6 +47,20 @@ bool is_left_to_others(uint id) { return id == 0u ? FRAME.first_page != 0u : !is
 
 // The edges (levels.glsl) of a drawn node, by its number in the frame: page * 256 + meshlet.
 uint edges_of(uint node) { return Words(FRAME.edges).at[node / 8u] >> (node % 8u * 4u) & 15u; }
+
+// A float that is a whole number, at most 2^22 and not negative, as an integer. A driver that compiles for processors converts other floats
+// one by one, and GPUs at a quarter of their speed.
+uint whole_number(float whole) { return floatBitsToUint(whole + 8388608.0) - 0x4b000000u; }
+uvec2 whole_numbers(vec2 whole) { return floatBitsToUint(whole + 8388608.0) - 0x4b000000u; }
+// ... -2^22 to 2^22.
+int whole_signed(float whole) { return floatBitsToInt(whole + 12582912.0) - 0x4b400000; }
+ivec2 whole_signed(vec2 whole) { return floatBitsToInt(whole + 12582912.0) - 0x4b400000; }
+
+// The other way: integers below 2^23, and of -2^22 to 2^22, as floats.
+float as_float(uint number) { return uintBitsToFloat(number | 0x4b000000u) - 8388608.0; }
+vec2 as_floats(uvec2 numbers) { return uintBitsToFloat(numbers | 0x4b000000u) - 8388608.0; }
+vec2 as_floats(ivec2 numbers) { return intBitsToFloat(numbers + 0x4b400000) - 12582912.0; }
+float power_of_two(uint exponent) { return uintBitsToFloat((127u + exponent) << 23u); }
 
 // The number of this workgroup in a dispatch that was folded into rows.
 uint folded(uvec3 group) { return group.y * groups_per_row + group.x; }

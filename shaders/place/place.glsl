@@ -23,14 +23,36 @@ float lattice_m(uint low, uint high, int more) {
     return whole * height_step_m;
 }
 
+// Adds a product of two whole numbers to one of 64 bits.
+void add_product(inout uint low, inout uint high, int one, int other) {
+    int product_high, product_low;
+    imulExtended(one, other, product_high, product_low);
+    uint carry;
+    low = uaddCarry(low, uint(product_low), carry);
+    high += uint(product_high) + carry;
+}
+
+// From the eye's lattice point to what the steps of a post are counted from, along an axis: 64 bits.
+uvec2 places_begin(FramePage page, PlacesOfPages places, uvec2 post, uint axis) {
+    uint low = page.from_eye_low[axis], high = page.from_eye_high[axis];
+    if ((page.cull & places_from_plane) != 0u) {
+        add_product(low, high, int(post.x) - places.at[0].middle_row, places.at[0].row_step[axis]);
+        add_product(low, high, int(post.y) - places.at[0].middle_column, places.at[0].column_step[axis]);
+        add_product(low, high, 1, places.at[0].middle[axis]);
+    }
+    return uvec2(low, high);
+}
+
 // The same for a grid whose posts lie on a net (PagePlaces): along the axes of ECEF. The difference of post and eye is exact until it is
 // rounded to a float.
 vec3 place_on_net(FramePage page, uvec2 post) {
     PlacesOfPages places = PlacesOfPages(page.places);
     uint first = 3u * (post.x * page_posts + post.y);
     precise vec3 position;
-    for (uint axis = 0u; axis < 3u; ++axis)
-        position[axis] = lattice_m(page.from_eye_low[axis], page.from_eye_high[axis], places.at[0].steps[first + axis]) - FRAME.eye_remainder[axis];
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        uvec2 begin = places_begin(page, places, post, axis);
+        position[axis] = lattice_m(begin.x, begin.y, places.at[0].steps[first + axis]) - FRAME.eye_remainder[axis];
+    }
     if ((page.cull & closes_gaps) != 0u) position += gap_reach_m(page, post, position);
     return position;
 }

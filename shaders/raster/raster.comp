@@ -11,8 +11,9 @@
 layout(local_size_x = 128) in;  // a triangle an invocation
 
 // Pixels of the largest box that one invocation draws by itself. What is larger goes to other workgroups: near the eye a few
-// meshlets cover most of the picture, and whoever drew them alone would keep all others waiting.
-const int alone_max_px = 64;
+// meshlets cover most of the picture, and whoever drew them alone would keep all others waiting. A processor has nobody to keep
+// waiting, and takes longer to begin with a workgroup.
+layout(constant_id = 1) const int alone_max_px = 64;
 
 shared vec4 posts[meshlet_vertices];  // clip coordinates; w = 0 where void
 shared uint places[meshlet_vertices];  // row << 8 | column in the page, after stitching
@@ -59,11 +60,9 @@ void draw_triangle(uint frame_page, uint meshlet, uint triangle, uint edges) {
     ivec4 box = pixel_box(t);
     ivec2 size = box.zw - box.xy + 1;
     if (min(size.x, size.y) <= 0) return;
-    if (fits_near(t) && size.x * size.y <= alone_max_px) {
-        draw_near(t, box, 0u, 1u);
-    } else if (!list_large(t, box)) {
-        draw_far(t, box, 0u, 1u);
-    }
+    // Where the lists are full raster_clip draws it alone: that code would take registers from all others here.
+    if (fits_near(t) && size.x * size.y <= alone_max_px) draw_near(t, box, 0u, 1u);
+    else if (!list_large(t, box)) list_clip(id);
 }
 
 void main() {

@@ -1,6 +1,10 @@
 // Exact coverage on a grid of 1/256 px with integer edge functions: triangles that share an edge share no pixel and leave none
 // out, in whatever order they come. Needs frame.glsl and lists.glsl.
 #extension GL_KHR_memory_scope_semantics : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Visibility { uint64_t at[]; };
 
 const int subpixels = 256;
 const float farthest_px = 16384.0;  // outside the picture; what reaches farther is clipped first
@@ -78,7 +82,8 @@ int edge_bias(ivec2 from, ivec2 to) {
 void keep_nearest(ivec2 pixel, float depth, uint id) {
     Visibility visibility = Visibility(FRAME.visibility);
     uint at = uint(pixel.y) * FRAME.width_px + uint(pixel.x);
-    uint64_t candidate = (uint64_t(floatBitsToUint(depth)) << 32) | uint64_t(id);
+    // Where two are as near the lower id wins.
+    uint64_t candidate = (uint64_t(floatBitsToUint(depth)) << 32) | uint64_t(~id);
     // Most that is behind costs a load and no exchange. The load is atomic, too: others write while it reads.
     uint64_t nearest = atomicLoad(visibility.at[at], gl_ScopeDevice, gl_StorageSemanticsBuffer, gl_SemanticsRelaxed);
     if (candidate > nearest)
@@ -120,24 +125,50 @@ void draw_near(ScreenTriangle t, ivec4 box, uint start, uint stride) {
     }
 }
 
-// The same in 64 bits, for any triangle on the grid.
-void draw_far(ScreenTriangle t, ivec4 box, uint start, uint stride) {
-    ivec2 origin = box.xy * subpixels + ivec2(subpixels / 2);
-    int64_t area = doubled_area(t.a, t.b, t.c);
-    int64_t ab = doubled_area(t.a, t.b, origin) + int64_t(edge_bias(t.a, t.b));
-    int64_t bc = doubled_area(t.b, t.c, origin) + int64_t(edge_bias(t.b, t.c));
-    int64_t ca = doubled_area(t.c, t.a, origin) + int64_t(edge_bias(t.c, t.a));
-    int width = box.z - box.x + 1;
-    uint count = uint(width * (box.w - box.y + 1));
-    for (uint i = start; i < count; i += stride) {
-        int64_t x = int64_t(int(i) % width) * subpixels, y = int64_t(int(i) / width) * subpixels;
-        int64_t at_ab = ab + int64_t(t.b.x - t.a.x) * y - int64_t(t.b.y - t.a.y) * x;
-        int64_t at_bc = bc + int64_t(t.c.x - t.b.x) * y - int64_t(t.c.y - t.b.y) * x;
-        int64_t at_ca = ca + int64_t(t.a.x - t.c.x) * y - int64_t(t.a.y - t.c.y) * x;
-        if ((at_ab | at_bc | at_ca) < 0) continue;
-        float share_b = float(at_ca - int64_t(edge_bias(t.c, t.a))) / float(area);
-        float share_c = float(at_ab - int64_t(edge_bias(t.a, t.b))) / float(area);
-        keep_nearest(box.xy + ivec2(int(i) % width, int(i) / width), depth_at(t, share_b, share_c), t.id);
+// The same in 64 bits, for any triangle on the grid. `box` is a square of large_square_px at most, all of it or what of it is in the
+// triangle's own box: most of them lie wholly within a triangle, or beside it.
+void draw_far_square(ScreenTriangle t, ivec4 box, uint start, uint stride) {
+    ivec2 origin = box.xy * subpixels + ivec2(subpixels / 2), more = box.zw - box.xy;
+    // At the first pixel's centre, and from pixel to pixel.
+    int64_t ab = doubled_area(t.a, t.b, origin), bc = doubled_area(t.b, t.c, origin), ca = doubled_area(t.c, t.a, origin);
+    int64_t ab_x = -int64_t(t.b.y - t.a.y) * subpixels, ab_y = int64_t(t.b.x - t.a.x) * subpixels;
+    int64_t bc_x = -int64_t(t.c.y - t.b.y) * subpixels, bc_y = int64_t(t.c.x - t.b.x) * subpixels;
+    int64_t ca_x = -int64_t(t.a.y - t.c.y) * subpixels, ca_y = int64_t(t.a.x - t.c.x) * subpixels;
+    int64_t ab_in = ab + edge_bias(t.a, t.b), bc_in = bc + edge_bias(t.b, t.c), ca_in = ca + edge_bias(t.c, t.a);
+    const int64_t none = int64_t(0);
+    int64_t across = int64_t(more.x), down = int64_t(more.y);
+    int64_t most = min(ab_in + max(ab_x * across, none) + max(ab_y * down, none),
+                       min(bc_in + max(bc_x * across, none) + max(bc_y * down, none), ca_in + max(ca_x * across, none) + max(ca_y * down, none)));
+    if (most < 0) return;
+    int64_t least = min(ab_in + min(ab_x * across, none) + min(ab_y * down, none),
+                        min(bc_in + min(bc_x * across, none) + min(bc_y * down, none), ca_in + min(ca_x * across, none) + min(ca_y * down, none)));
+    bool within = least >= 0;
+    float area = float(doubled_area(t.a, t.b, t.c));
+    vec3 share_b = vec3(float(ca), float(ca_x), float(ca_y)) / area, share_c = vec3(float(ab), float(ab_x), float(ab_y)) / area;
+    for (uint i = start; i < uint(more.y + 1) * large_square_px; i += stride) {
+        ivec2 step = ivec2(i % large_square_px, i / large_square_px);
+        if (step.x > more.x) continue;
+        if (!within) {
+            int64_t x = int64_t(step.x), y = int64_t(step.y);
+            if (((ab_in + ab_x * x + ab_y * y) | (bc_in + bc_x * x + bc_y * y) | (ca_in + ca_x * x + ca_y * y)) < 0) continue;
+        }
+        precise float b = share_b.x + share_b.y * float(step.x) + share_b.z * float(step.y);
+        precise float c = share_c.x + share_c.y * float(step.x) + share_c.z * float(step.y);
+        keep_nearest(box.xy + step, depth_at(t, b, c), t.id);
+    }
+}
+
+// What of a triangle's box is in a square, by its number along x and y.
+ivec4 in_square(ivec4 box, ivec2 square) {
+    ivec2 first = square * int(large_square_px);
+    return ivec4(max(box.xy, first), min(box.zw, first + int(large_square_px) - 1));
+}
+
+// All squares of a triangle, by one invocation.
+void draw_far(ScreenTriangle t, ivec4 box) {
+    ivec4 squares = box / int(large_square_px);
+    for (int y = squares.y; y <= squares.w; ++y) {
+        for (int x = squares.x; x <= squares.z; ++x) draw_far_square(t, in_square(box, ivec2(x, y)), 0u, 1u);
     }
 }
 

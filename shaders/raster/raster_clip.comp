@@ -56,6 +56,6 @@ void main() {
         if (!screen_triangle(corners[0], corners[i], corners[i + 1], id, t)) continue;
         ivec4 box = pixel_box(t);
         if (box.z < box.x || box.w < box.y) continue;
-        if (!list_large(t, box)) draw_far(t, box, 0u, 1u);
+        if (!list_large(t, box)) draw_far(t, box);
     }
 }

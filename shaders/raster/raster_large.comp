@@ -19,10 +19,8 @@ void main() {
     t.c = ivec2(large.cx, large.cy);
     t.depth = vec3(large.az, large.bz, large.cz);
     t.id = large.id;
-    ivec4 box = pixel_box(t);
-    ivec2 square = ivec2(task.square & 0xffffu, task.square >> 16) * int(large_square_px);
-    box = ivec4(max(box.xy, square), min(box.zw, square + int(large_square_px) - 1));
+    ivec4 box = in_square(pixel_box(t), ivec2(task.square & 0xffffu, task.square >> 16));
     if (box.z < box.x || box.w < box.y) return;
     if (fits_near(t)) draw_near(t, box, gl_LocalInvocationIndex, 128u);
-    else draw_far(t, box, gl_LocalInvocationIndex, 128u);
+    else draw_far_square(t, box, gl_LocalInvocationIndex, 128u);
 }

@@ -30,8 +30,8 @@ vec3 through_air(vec3 colour, vec3 view) {
     float distance_m = length(view);
     vec3 direction = view / distance_m, sun = sun_in_view();
     AirRay ray = AirRay(FRAME.earth_radius_m, eye_in_air_m(), dot(direction, FRAME.up_view), FRAME.style.sun_enu.z, dot(direction, sun));
-    AirLight light = aerial_light(ray, distance_m);
-    return colour * light.through + radiance(light, ray.to_sun);
+    SeenAir seen = aerial_light(ray, distance_m);
+    return colour * seen.through + seen.light;
 }
 
 vec3 sun_disc(vec3 direction) {

@@ -26,7 +26,7 @@ layout(binding = 2, rgba8) uniform writeonly image2D picture;
 float depth_at(ivec2 pixel) { return Floats(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]; }
 bool within(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(FRAME.width_px, FRAME.height_px))); }
 uint id_at(ivec2 pixel) {
-    return from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x : imageLoad(ids, pixel).x;
+    return from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]) : imageLoad(ids, pixel).x;
 }
 
 // Two pixels beside each other, by a number: those of each row of the workgroup's square and the ones before and behind it, then those of
@@ -79,15 +79,17 @@ void main() {
     const int lanes = side_px * side_px;
     for (int i = int(gl_LocalInvocationIndex); i < pair_count; i += lanes) list_pair(i);
     barrier();
+    if (listed_count == 0u) return;
     for (uint i = gl_LocalInvocationIndex; i < listed_count; i += uint(lanes)) shares_of_pairs[listed[i]] = shares_of(pair_of(int(listed[i])));
     barrier();
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), within_square = ivec2(gl_LocalInvocationID.xy);
-    if (!within(pixel) || (FRAME.grids_beside != 0u && is_left_to_others(id_at(pixel)))) return;
-    vec4 own = imageLoad(shaded, pixel), colour = own;
     const ivec2 steps[4] = {ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1)};
     int before = within_square.y * (side_px + 1) + within_square.x;
     int above = pairs_across + within_square.x * (side_px + 1) + within_square.y;
     vec4 shares = vec4(shares_of_pairs[before + 1].x, shares_of_pairs[before].y, shares_of_pairs[above + 1].x, shares_of_pairs[above].y);
+    // Without an edge it is as it was shaded.
+    if (shares == vec4(0.0) || !within(pixel) || (FRAME.grids_beside != 0u && is_left_to_others(id_at(pixel)))) return;
+    vec4 own = imageLoad(shaded, pixel), colour = own;
     // A slanting edge is seen beside and above: it counts once.
     float beside = shares.x + shares.y, above_below = shares.z + shares.w, all = max(max(beside, above_below), 1.0);
     int first = beside >= above_below ? 0 : 2;

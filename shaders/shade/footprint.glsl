@@ -20,13 +20,14 @@ void add_square(inout GroundSum sum, uvec2 means, ivec2 square, float share, flo
     uint normal = square_of.normal, spread = square_of.spread;
     if (normal == 0u) return;
     vec2 height = unpackHalf2x16(square_of.height);
-    vec3 mean = vec3(bitfieldExtract(int(normal), 0, 11), bitfieldExtract(int(normal), 11, 11), int(normal >> 22)) / means_normal_steps;
+    uvec2 level = (uvec2(normal, normal >> 11u) & 2047u) ^ 1024u;  // from -1024 on
+    vec3 mean = vec3(as_floats(level) - 1024.0, as_float(normal >> 22u)) / means_normal_steps;
     float h_m = height.x - origin_m;
     sum.normal += share * mean;
     sum.h_m += share * h_m;
     sum.share += share;
     if (are_posts) return;  // one by one nothing is spread
-    vec2 apart = vec2(spread & 2047u, bitfieldExtract(spread, 11, 11)) / means_spread_steps;
+    vec2 apart = as_floats(uvec2(spread, spread >> 11u) & 2047u) / means_spread_steps;
     float correlation = float(int(spread) >> 22) / means_correlation_steps;
     sum.second += share * (mean.xxy * mean.xyy + apart.xxy * apart.xyy * vec3(1.0, correlation, 1.0));
     sum.hh_m2 += share * (h_m * h_m + height.y * height.y);
@@ -35,7 +36,7 @@ void add_square(inout GroundSum sum, uvec2 means, ivec2 square, float share, flo
 // Bilinear between the squares' middles.
 void add_squares(inout GroundSum sum, uvec2 means, vec2 place, float origin_m, bool are_posts) {
     vec2 low = floor(place), on = place - low;
-    ivec2 first = ivec2(low);
+    ivec2 first = whole_signed(low);
     add_square(sum, means, first, (1.0 - on.x) * (1.0 - on.y), origin_m, are_posts);
     add_square(sum, means, first + ivec2(0, 1), (1.0 - on.x) * on.y, origin_m, are_posts);
     add_square(sum, means, first + ivec2(1, 0), on.x * (1.0 - on.y), origin_m, are_posts);
@@ -46,29 +47,44 @@ void add_squares(inout GroundSum sum, uvec2 means, vec2 place, float origin_m, b
 void add_smooth(inout GroundSum sum, uvec2 means, vec2 place, float origin_m) {
     vec2 middle = floor(place + 0.5), off = place - middle;
     vec2 weights[3] = {0.5 * (0.5 - off) * (0.5 - off), 0.75 - off * off, 0.5 * (0.5 + off) * (0.5 + off)};
+    ivec2 first = whole_signed(middle) - 1;
     for (int i = 0; i < 9; ++i)
-        add_square(sum, means, ivec2(middle) + ivec2(i / 3 - 1, i % 3 - 1), weights[i / 3].x * weights[i % 3].y, origin_m, true);
+        add_square(sum, means, first + ivec2(i / 3, i % 3), weights[i / 3].x * weights[i % 3].y, origin_m, true);
 }
 
+// A page of this frame, and where its squares are: its first post in the region, and how many of those there are from one of its own to the
+// next.
+struct MeansPage {
+    uint number;
+    uint level;
+    vec2 first;
+    float spacing;
+};
+MeansPage means_page(uint number) {
+    uint level = frame_pages().at[number].level;
+    return MeansPage(number, level, vec2(frame_pages().at[number].first_row, frame_pages().at[number].first_column), power_of_two(level));
+}
+uvec2 means_of(MeansPage page) { return frame_pages().at[page.number].means; }
+
 // The page of that level over a place of the region, of those in this frame: the nearest level below and above that is here.
-uint page_over(uint number, uint level, vec2 region) {
-    while (frame_pages().at[number].level < level && frame_pages().at[number].parent != no_page) number = frame_pages().at[number].parent;
-    while (frame_pages().at[number].level > level) {
-        vec2 first = vec2(frame_pages().at[number].first_row, frame_pages().at[number].first_column);
-        float half_page = float(page_quads / 2u << frame_pages().at[number].level);
-        uvec2 part = uvec2(greaterThanEqual(region + 0.5 - first, vec2(half_page)));
-        uint child = frame_pages().at[number].children[part.x * 2u + part.y];
-        if (child == no_page) break;
-        number = child;
+MeansPage page_over(MeansPage page, uint level, vec2 region) {
+    while (page.level < level) {
+        uint parent = frame_pages().at[page.number].parent;
+        if (parent == no_page) break;
+        page = means_page(parent);
     }
-    return number;
+    while (page.level > level) {
+        float half_page = float(page_quads / 2u) * page.spacing;
+        bvec2 part = greaterThanEqual(region + 0.5 - page.first, vec2(half_page));
+        uint child = frame_pages().at[page.number].children[(part.x ? 2u : 0u) + (part.y ? 1u : 0u)];
+        if (child == no_page) break;
+        page = MeansPage(child, page.level - 1u, page.first + vec2(part) * half_page, 0.5 * page.spacing);
+    }
+    return page;
 }
 
 // Where a place of the region is among a page's squares.
-vec2 among_squares(uint number, vec2 region) {
-    vec2 first = vec2(frame_pages().at[number].first_row, frame_pages().at[number].first_column);
-    return (region - first + 0.5) / float(1u << frame_pages().at[number].level) - 0.5;
-}
+vec2 among_squares(MeansPage page, vec2 region) { return (region - page.first + 0.5) / page.spacing - 0.5; }
 
 // The ground under a pixel: a parallelogram of posts (row, column).
 struct Footprint {
@@ -129,14 +145,14 @@ float samples_apart(float posts, float square, int count) {
 }
 
 // Of the finest posts that are here: a map's angles by Horn's formula, and light without edges between posts.
-vec3 finest_normal(uint number, vec2 region, float origin_m) {
-    uint finest = page_over(number, 0u, region);
+vec3 finest_normal(MeansPage near_page, vec2 region, float origin_m) {
+    MeansPage finest = page_over(near_page, 0u, region);
     if (as_map && shows_angles()) {
-        FramePage page = frame_pages().at[finest];
+        FramePage page = frame_pages().at[finest.number];
         return horn_normal_at(PageBlocks(page.block), page, clamp(page_post(page, region), vec2(0.0), vec2(float(page_quads))));
     }
     GroundSum here = no_ground();
-    add_smooth(here, frame_pages().at[finest].means, among_squares(finest, region), origin_m);
+    add_smooth(here, means_of(finest), among_squares(finest, region), origin_m);
     return here.share > 0.0 ? normalize(here.normal) : vec3(0.0, 0.0, 1.0);
 }
 
@@ -157,7 +173,7 @@ struct PixelGround {
     float on;  // towards the next level
     int rows;
     bool smooth_posts;  // where several are beside each other in a pixel nobody sees how they are joined
-    uint page;
+    MeansPage page;
     float origin_m;
     float undulation_m;  // not exaggerated
     PartsOfLevel finer;
@@ -165,14 +181,13 @@ struct PixelGround {
 };
 PixelGround pixel_ground;
 
-PartsOfLevel parts_of_level(Footprint foot, uint near_page, uint level, int rows, int steps) {
-    uint page = page_over(near_page, level, foot.region);
-    float square = float(1u << frame_pages().at[page].level), long_posts = length(foot.along);
+PartsOfLevel parts_of_level(Footprint foot, MeansPage near_page, uint level, int rows, int steps) {
+    MeansPage page = page_over(near_page, level, foot.region);
+    float square = page.spacing, long_posts = length(foot.along);
     vec2 along = foot.along * (samples_apart(long_posts, square, steps) / (long_posts * square));
     vec2 across = foot.across * (samples_apart(foot.across_posts, square, rows) / (foot.across_posts * square));
     vec2 first = among_squares(page, foot.region) - 0.5 * (float(steps - 1) * along + float(rows - 1) * across);
-    vec2 corner = vec2(frame_pages().at[page].first_row, frame_pages().at[page].first_column);
-    return PartsOfLevel(frame_pages().at[page].means, square == 1.0, corner, first, along, across);
+    return PartsOfLevel(means_of(page), square == 1.0, page.first, first, along, across);
 }
 
 // One of them, from the squares of one level.
@@ -230,15 +245,16 @@ vec3 normal_of(vec2 level) {
 // Ice lies on level ground that is wide; a level crest has slopes on both sides. From how steep all ground around is on average.
 float wide_level_at(SurfacePoint point) {
     float wide_posts = 500.0 / point.post_m;
-    uint page = page_over(point.page, uint(max(log2(wide_posts), 0.0)), point.region);
-    float square = float(1u << frame_pages().at[page].level);
+    MeansPage page = page_over(means_page(point.page), uint(max(log2(wide_posts), 0.0)), point.region);
+    float square = page.spacing;
     vec2 middle = among_squares(page, point.region);
     GroundSum around = no_ground();
+    uvec2 means = means_of(page);
     // A small region may have no level of such squares.
     int sides = square < 0.5 * wide_posts ? 4 : 1;
     for (int i = 0; i < sides * sides; ++i) {
         vec2 off = (vec2(i / sides, i % sides) - 0.5 * float(sides - 1)) * (wide_posts / (float(sides) * square));
-        add_squares(around, frame_pages().at[page].means, middle + off, 0.0, false);
+        add_squares(around, means, middle + off, 0.0, false);
     }
     if (around.share <= 0.0) return 1.0;
     float sine2 = min((around.second.x + around.second.z) / around.share, 1.0), up2 = FRAME.exaggeration * FRAME.exaggeration;
@@ -247,42 +263,44 @@ float wide_level_at(SurfacePoint point) {
 }
 
 // True where all of a pixel's footprint is narrower than from post to post, so that the smooth slope in its middle stands for it.
-bool one_place_will_do(uint number, vec2 region, float origin_m, vec2 post_m, inout SurfacePoint point) {
+bool one_place_will_do(MeansPage near_page, vec2 region, float origin_m, vec2 post_m, inout SurfacePoint point) {
     float round_posts = length(point.view) / (FRAME.pixels_per_tangent * min(post_m.x, post_m.y));
-    uint finest = page_over(number, 0u, region);
-    if (round_posts >= 1.0 || frame_pages().at[finest].level > 0u) return false;
+    if (round_posts >= 1.0) return false;
+    MeansPage finest = page_over(near_page, 0u, region);
+    if (finest.level > 0u) return false;
     GroundSum here = no_ground();
-    add_smooth(here, frame_pages().at[finest].means, among_squares(finest, region), origin_m);
+    add_smooth(here, means_of(finest), among_squares(finest, region), origin_m);
     point.normal = here.share > 0.0 ? normalize(here.normal) : vec3(0.0, 0.0, 1.0);
     return round_posts < dot(point.normal, normalize(-point.view) * axes_at(point.view));
 }
 
 // Takes what the pixel's triangle says of its middle and puts the mean of its footprint in its place. number: of the triangle's page.
-void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
-    float H_ex = FRAME.exaggeration, undulation_m = undulation_at(region), origin_m = (point.h_m) / H_ex;
+void average_over_pixel(uint number, vec2 region, float undulation_m, inout SurfacePoint point) {
+    float H_ex = FRAME.exaggeration, origin_m = (point.h_m) / H_ex;
     uvec2 block = frame_pages().at[number].block;
-    uint row = min(uint(max(point.post.x, 0.0)), page_posts - 1u);
+    uint row = min(whole_number(floor(max(point.post.x, 0.0))), page_posts - 1u);
     float cosine = abs(RowTable(FRAME.row_terms).at[frame_pages().at[number].row_terms + row].cosine);
     vec2 post_m = vec2(PageBlocks(block).at[0].row_spacing_m, max(cosine * PageBlocks(block).at[0].column_spacing_m, 1.0e-3));
     find_row_turn(PageBlocks(block), point.post);
     point.page = number;
     point.region = region;
     point.post_m = post_m.x;
+    MeansPage near_page = means_page(number);
     if (FRAME.style.footprint == footprint_finest) {
-        point.normal = finest_normal(number, region, origin_m);
+        point.normal = finest_normal(near_page, region, origin_m);
         return;
     }
     if (parts_follow || parts_alone) {
-        point.is_left = one_place_will_do(number, region, origin_m, post_m, point) != parts_follow;
+        point.is_left = one_place_will_do(near_page, region, origin_m, post_m, point) != parts_follow;
         if (parts_follow || point.is_left) return;
     }
     mat3 axes = axes_at(point.view);
     vec3 to_eye = normalize(-point.view) * axes;
     float round_posts = length(point.view) / (FRAME.pixels_per_tangent * post_m.x);
-    uint slope_level = uint(log2(max(round_posts, 1.0)));
-    uint slope_page = page_over(number, slope_level, region);
+    uint slope_level = whole_number(floor(log2(max(round_posts, 1.0))));
+    MeansPage slope_page = page_over(near_page, slope_level, region);
     GroundSum slope = no_ground();
-    add_squares(slope, frame_pages().at[slope_page].means, among_squares(slope_page, region), origin_m, true);
+    add_squares(slope, means_of(slope_page), among_squares(slope_page, region), origin_m, true);
     if (slope.share <= 0.0) {
         point.normal = vec3(0.0, 0.0, 1.0);
         return;
@@ -292,15 +310,15 @@ void average_over_pixel(uint number, vec2 region, inout SurfacePoint point) {
     foot.region += to_mean_ground(foot, slope.normal, to_eye, H_ex * slope.h_m / slope.share, post_m);
     float level = log2((in_air ? 0.45 : means_spacing_px) * foot.across_posts);
     if (as_map && shows_angles() && foot.across_posts < 1.3333) {
-        point.normal = finest_normal(number, region, origin_m);
+        point.normal = finest_normal(near_page, region, origin_m);
         return;
     }
     float whole = max(floor(level), 0.0), on = level < 0.0 ? 0.0 : smoothstep(0.75, 1.0, level - whole);
     float square = exp2(whole);
-    int rows = clamp(int(ceil(foot.across_posts / square - 0.8)), 1, 6);
-    int steps = clamp(int(ceil(length(foot.along) / square - 0.8)), rows, 8);
-    PartsOfLevel finer = parts_of_level(foot, slope_page, uint(whole), rows, steps), coarser = finer;
-    if (on > 0.0) coarser = parts_of_level(foot, slope_page, uint(whole) + 1u, rows, steps);
+    int rows = whole_signed(clamp(ceil(foot.across_posts / square - 0.8), 1.0, 6.0));
+    int steps = whole_signed(clamp(ceil(length(foot.along) / square - 0.8), float(rows), 8.0));
+    PartsOfLevel finer = parts_of_level(foot, slope_page, whole_number(whole), rows, steps), coarser = finer;
+    if (on > 0.0) coarser = parts_of_level(foot, slope_page, whole_number(whole) + 1u, rows, steps);
     pixel_ground = PixelGround(foot.to_next, to_eye, on, rows, foot.across_posts < 1.0 && steps < 3, slope_page, origin_m, undulation_m / H_ex, finer, coarser);
     point.parts = rows * steps;
 }

@@ -185,7 +185,8 @@ vec3 ground_colour(SurfacePoint point) {
 
 // By the light of the sun and of the sky, before the air between. Of slopes, the part that does not see the sky sees other ground.
 vec3 sent_by(LitPlace place) {
-    vec3 from_sun = sunlight(place.h_m, place.sun.z), from_sky = skylight(place.h_m, place.sun.z);
+    PlaceLight light = light_at(place.h_m, place.sun.z);
+    vec3 from_sun = light.from_sun, from_sky = light.from_sky;
     vec3 from_ground = AIR.ground_albedo * (from_sun * max(place.sun.z, 0.0) + from_sky);
     vec3 ground = (from_sun * sun_share() * place.ground.lit + from_ground * place.ground.colour
                    + (from_sky - from_ground) * sky_share() * place.ground.open) / pi;
@@ -215,7 +216,12 @@ void look_for_snow(inout SurfacePoint point) {
     point.snow_line_m = snow_line_m(point.lat_deg);
     // Far below it nothing is ice, and far above it everything is.
     float above_m = point.mean_H_m - point.snow_line_m, level_m = FRAME.style.cover.level_m;
-    if (by_means && level_m > 0.0 && above_m > -1.6 * level_m - 1000.0 && above_m < 2000.0) point.wide_level = wide_level_at(point);
+    if (!by_means || level_m <= 0.0 || above_m <= -1.6 * level_m - 1000.0 || above_m >= 2000.0) return;
+    // Nor is it on slopes of 15 degrees; where a pixel has one slope and one height that can be told (cover.glsl).
+    float lean = length(point.normal.xy), up = FRAME.exaggeration * point.normal.z;
+    bool is_one = parts_follow || point.parts == 0;
+    if (is_one && (lean > 0.2682 * up || above_m + abs(FRAME.style.cover.shade_m) <= -1.6 * max(level_m, 1.0))) return;
+    point.wide_level = wide_level_at(point);
 }
 
 // Without air.

@@ -41,7 +41,7 @@ layout(constant_id = 7) const bool parts_alone = false;
 #include "shaders/cast/cast_on.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 5) const bool edges_follow = false;  // edges.comp makes the picture of `sum`
+layout(constant_id = 5) const bool edges_follow = false;  // edges.comp mixes what is in `sum`
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
 // Written by a function: glslang 12.0 does not end on such an assignment in main().
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Depths { float at[]; };
@@ -56,14 +56,11 @@ void keep_depth(ivec2 pixel, float depth) {
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer TilesInParts { uint at[]; };
 uint tile_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 bool tile_has_parts() { return TilesInParts(FRAME.tiles_in_parts).at[tile_number()] != 0u; }
-void keep_tile(uint has_parts) { TilesInParts(FRAME.tiles_in_parts).at[tile_number()] = has_parts; }
+void keep_tile() { atomicOr(TilesInParts(FRAME.tiles_in_parts).at[tile_number()], 1u); }
 
 void keep_colour(ivec2 pixel, vec3 colour, float ground) {
-    if (edges_follow) {
-        imageStore(sum, pixel, vec4(colour, ground));
-        return;
-    }
-    if (FRAME.sample_count > 1u) {
+    if (edges_follow) imageStore(sum, pixel, vec4(colour, ground));
+    else if (FRAME.sample_count > 1u) {
         vec4 total = vec4(colour, ground) + (FRAME.sample_index == 0u ? vec4(0.0) : imageLoad(sum, pixel));
         imageStore(sum, pixel, total);
         if (FRAME.sample_index + 1u < FRAME.sample_count) return;
@@ -78,7 +75,7 @@ bool shade(ivec2 pixel) {
     if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return true;
     vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
-    uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
+    uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
                            : imageLoad(ids, pixel).x;
     if (FRAME.grids_beside != 0u && is_left_to_others(id)) return true;
     if (id == 0u && parts_alone) return false;
@@ -98,7 +95,7 @@ bool shade(ivec2 pixel) {
         SurfacePoint point = surface_at(triangle_of_id(id), ray);
         if (point.is_left) return false;
         depth = FRAME.near_m / -point.view.z;
-        cast_on(triangle_of_id(id), point, pixel);
+        cast_on(point, pixel);
         look_for_snow(point);
 #ifdef IN_AIR
         place = ground_place(point);
@@ -115,14 +112,7 @@ bool shade(ivec2 pixel) {
     return true;
 }
 
-shared uint has_parts;
-
 void main() {
     if (parts_alone && !tile_has_parts()) return;
-    if (gl_LocalInvocationIndex == 0u) has_parts = 0u;
-    if (parts_follow) barrier();
-    if (!shade(ivec2(gl_GlobalInvocationID.xy))) atomicOr(has_parts, 1u);
-    if (!parts_follow) return;
-    barrier();
-    if (gl_LocalInvocationIndex == 0u) keep_tile(has_parts);
+    if (!shade(ivec2(gl_GlobalInvocationID.xy)) && parts_follow) keep_tile();
 }

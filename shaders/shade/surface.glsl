@@ -9,6 +9,8 @@ struct SurfacePoint {
     float lat_deg;  // where the style asks for it
     float snow_line_m; // H, likewise; of look_for_snow()
     float wide_level;  // likewise: 1 on ground that is level for half a kilometre around, 0 on slopes and crests
+    uint shaded_page;  // that it is shaded from,
+    vec2 shaded_post;  // ... and where in it: (row, column), fractional
     uint page;         // of the triangle,
     vec2 region;       // the place in the region,
     float post_m;      // and metres from its row to the next: where the pixel has means
@@ -31,33 +33,37 @@ int height_or(PageBlocks block, ivec2 post, int otherwise) {
 // Number in the region of a place in a page (row, column, fractional): the last quad is narrower where the region ends.
 vec2 region_post(FramePage page, vec2 post) {
     vec2 first = vec2(page.first_row, page.first_column), last = vec2(FRAME.last_row, FRAME.last_column);
-    float spacing = float(1u << page.level);
+    float spacing = power_of_two(page.level);
     vec2 whole = floor(post);
     vec2 from = min(first + whole * spacing, last), to = min(first + (whole + 1.0) * spacing, last);
     return from + (post - whole) * (to - from);
 }
 
-// The inverse.
-vec2 page_post(FramePage page, vec2 region) {
-    vec2 first = vec2(page.first_row, page.first_column), last = vec2(FRAME.last_row, FRAME.last_column);
-    float spacing = float(1u << page.level);
-    vec2 whole = floor((region - first) / spacing);
+// The inverse, of a page that begins at a post of the region and has so many of the region's posts from one to the next.
+vec2 post_of_page(vec2 first, float spacing, vec2 region) {
+    vec2 last = vec2(FRAME.last_row, FRAME.last_column), whole = floor((region - first) / spacing);
     vec2 from = first + whole * spacing, to = min(from + spacing, last);
     return whole + (region - from) / max(to - from, vec2(1.0e-3));
 }
+vec2 page_post(FramePage page, vec2 region) { return post_of_page(vec2(page.first_row, page.first_column), power_of_two(page.level), region); }
 
-// Goes down to the page that a place is shaded from: posts close enough on the screen, or the finest that is here.
-void descend(inout FramePage page, inout vec2 post, float distance_m) {
-    float spacing_px = PageBlocks(page.block).at[0].row_spacing_m * float(1u << page.level) * FRAME.pixels_per_tangent / distance_m;
-    vec2 region = region_post(page, post);
+// Goes down to the page that a place is shaded from: posts close enough on the screen, or the finest that is here. Its number; what it
+// asks memory for waits for what it asked before, so it asks for the children alone.
+uint descend(uint number, FramePage page, inout vec2 post, float distance_m) {
+    float spacing_px = PageBlocks(page.block).at[0].row_spacing_m * power_of_two(page.level) * FRAME.pixels_per_tangent / distance_m;
+    vec2 region = region_post(page, post), first = vec2(page.first_row, page.first_column);
+    float spacing = power_of_two(page.level);
     while (spacing_px > shading_spacing_px) {
-        uvec2 part = uvec2(greaterThanEqual(post, vec2(float(page_quads) * 0.5)));
-        uint child = page.children[part.x * 2u + part.y];
-        if (child == no_page) return;
-        page = frame_pages().at[child];
-        post = clamp(page_post(page, region), vec2(0.0), vec2(float(page_quads)));
+        bvec2 part = greaterThanEqual(post, vec2(float(page_quads) * 0.5));
+        uint child = frame_pages().at[number].children[(part.x ? 2u : 0u) + (part.y ? 1u : 0u)];
+        if (child == no_page) break;
+        number = child;
+        first += vec2(part) * (spacing * float(page_quads / 2u));
+        spacing *= 0.5;
+        post = clamp(post_of_page(first, spacing, region), vec2(0.0), vec2(float(page_quads)));
         spacing_px *= 0.5;
     }
+    return number;
 }
 
 // Slope at a post towards (south, east), metres from one of the region's posts to the next. One-sided beside a void.
@@ -71,7 +77,7 @@ vec2 slope_at_post(PageBlocks block, FramePage page, ivec2 post) {
     // A region that goes round the Earth has posts beyond its last: there the spacing is the same on both sides.
     vec2 at = region_post(page, vec2(post));
     vec2 before = region_post(page, vec2(post - 1)), after = region_post(page, vec2(post + 1));
-    float spacing = float(1u << page.level);
+    float spacing = power_of_two(page.level);
     vec2 to_after = vec2(after.x > at.x ? after.x - at.x : spacing, after.y > at.y ? after.y - at.y : spacing);
     vec2 to_before = vec2(at.x > before.x ? at.x - before.x : spacing, at.y > before.y ? at.y - before.y : spacing);
     float down = float((there.y ? around.y : here) - (there.x ? around.x : here));
@@ -101,7 +107,7 @@ vec2 posts_along(vec2 east_north, vec2 post_m) {
 
 // Normal of the smoothed surface: slopes at the cell's four posts, bilinear between them.
 vec3 normal_at(PageBlocks block, FramePage page, vec2 post) {
-    ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
+    ivec2 cell = clamp(whole_signed(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 in_cell = post - vec2(cell);
     vec2 north = mix(slope_at_post(block, page, cell), slope_at_post(block, page, cell + ivec2(0, 1)), in_cell.y);
     vec2 south = mix(slope_at_post(block, page, cell + ivec2(1, 0)), slope_at_post(block, page, cell + ivec2(1, 1)), in_cell.y);
@@ -117,9 +123,9 @@ float undulation_at(vec2 post) {
     if (FRAME.undulation.N_m == uvec2(0u)) return 0.0;
     vec2 size = vec2(FRAME.undulation.rows, FRAME.undulation.columns);
     vec2 node = clamp(FRAME.undulation.first + post * FRAME.undulation.per_post, vec2(0.0), size - 1.0);
-    uvec2 low = uvec2(min(floor(node), max(size - 2.0, 0.0)));
+    uvec2 low = whole_numbers(min(floor(node), max(size - 2.0, 0.0)));
     uvec2 high = min(low + 1u, uvec2(size) - 1u);
-    vec2 share = node - vec2(low);
+    vec2 share = node - as_floats(low);
     Floats N_m = Floats(FRAME.undulation.N_m);
     uint columns = FRAME.undulation.columns;
     float north = mix(N_m.at[low.x * columns + low.y], N_m.at[low.x * columns + high.y], share.y);
@@ -176,8 +182,15 @@ vec2 shares_change(vec3 ray_step, vec3 first, vec3 edge_b, vec3 edge_c, vec2 sha
     return vec2(dot(-first, p), dot(ray_step, cross(-first, edge_b))) - shares * dot(edge_b, p);
 }
 
-// A place in a page (row, column, fractional) in the region, without the rounding that a large number would bring.
-void drape_place(FramePage page, vec2 post, out ivec2 whole, out vec2 part) {
+// A place in a page (row, column, fractional) in the region, without the rounding that a large number would bring. Of a seam that of
+// region_place().
+void drape_place(FramePage page, vec2 post, vec2 region, out ivec2 whole, out vec2 part) {
+    if (HAS_NET && FRAME.is_seam != 0u) {
+        vec2 seam_post = floor(region);
+        whole = ivec2(seam_post);
+        part = region - seam_post;
+        return;
+    }
     ivec2 first = ivec2(page.first_row, page.first_column), last = ivec2(FRAME.last_row, FRAME.last_column);
     vec2 quad = floor(post);
     ivec2 from = min(first + (ivec2(quad) << page.level), last), to = min(from + (1 << page.level), last);
@@ -231,18 +244,26 @@ SurfacePoint surface_at(uint id, vec3 ray) {
 
     SurfacePoint point;
     point.view = share_a * at[0] + share_b * at[1] + share_c * at[2];
-    point.post = share_a * vec2(posts[0]) + share_b * vec2(posts[1]) + share_c * vec2(posts[2]);
+    point.post = share_a * as_floats(posts[0]) + share_b * as_floats(posts[1]) + share_c * as_floats(posts[2]);
     point.h_m = share_a * heights_m[0] + share_b * heights_m[1] + share_c * heights_m[2];
     vec2 region = region_place(page, point.post, point.view);
-    point.H_m = (point.h_m - undulation_at(region)) / FRAME.exaggeration;
-    if (draped) drape_place(page, point.post, point.drape_post, point.drape_part);
+    float undulation_m = undulation_at(region);
+    point.H_m = (point.h_m - undulation_m) / FRAME.exaggeration;
+    if (draped) drape_place(page, point.post, region, point.drape_post, point.drape_part);
     point.mean_H_m = point.H_m;
     point.parts = 0;
     point.is_left = false;
-    if (by_means) average_over_pixel(id / (meshlet_triangles * meshlets_per_page), region, point);
+    uint number = id / (meshlet_triangles * meshlets_per_page);
+    if (by_means) average_over_pixel(number, region, undulation_m, point);
     if (point.is_left) return point;
     vec2 post = point.post;
-    if (!by_means || in_air || draped) descend(page, post, length(point.view));
+    if (!by_means || in_air || draped) {
+        uint shaded = descend(number, page, post, length(point.view));
+        if (shaded != number) page = frame_pages().at[shaded];
+        number = shaded;
+    }
+    point.shaded_page = number;
+    point.shaded_post = post;
     bool shows_angle = as_map && shows_angles();
     if (draped || (!by_means && !shows_angle)) point.smooth_normal = normal_at(PageBlocks(page.block), page, post);
     if (!by_means && shows_angle) point.normal = horn_normal_at(PageBlocks(page.block), page, post);
@@ -251,7 +272,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     point.lat_deg = point.snow_line_m = 0.0;
     point.wide_level = 1.0;
     if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
-        RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + uint(clamp(post.x, 0.0, float(page_quads)))];
+        RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + whole_number(floor(clamp(post.x, 0.0, float(page_quads))))];
         point.lat_deg = degrees(atan(row.S, row.C));
         if (HAS_NET && FRAME.is_seam != 0u) point.lat_deg = degrees(atan(FRAME.eye_post.latitude.y, FRAME.eye_post.latitude.x) + angles_from_eye(point.view).x);
     }

@@ -50,7 +50,7 @@ void keep(ivec2 pixel, DrawnTriangle triangle) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return;
-    uint id = from_compute ? VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)].x
+    uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
                            : imageLoad(ids, pixel).x;
     keep(pixel, triangle_of(id));
 }

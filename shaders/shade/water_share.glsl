@@ -41,13 +41,13 @@ float between_corners(vec4 corners, vec2 in_cell) { return mix(mix(corners.x, co
 // over 5.
 float water_share(FramePage page, vec2 post) {
     PageBlocks block = PageBlocks(page.block);
-    ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
+    ivec2 cell = clamp(whole_signed(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     ivec4 steps = ivec4(height_or(block, cell, void_height), height_or(block, cell + ivec2(0, 1), void_height),
                         height_or(block, cell + ivec2(1, 0), void_height), height_or(block, cell + ivec2(1, 1), void_height));
     if (any(equal(steps, ivec4(void_height)))) return 0.0;
     int lowest = min(min(steps.x, steps.y), min(steps.z, steps.w)), highest = max(max(steps.x, steps.y), max(steps.z, steps.w));
     // Most ground is told by its cell alone. N rises by less than a metre a kilometre.
-    float cell_m = float(1u << page.level) * (block.at[0].row_spacing_m + block.at[0].column_spacing_m);
+    float cell_m = power_of_two(page.level) * (block.at[0].row_spacing_m + block.at[0].column_spacing_m);
     float sea_m = max(FRAME.style.water.sea_high_H_m - max(FRAME.style.water.sea_low_H_m, -1.0e5), 0.0) * FRAME.exaggeration;
     if (float(highest - lowest) * height_step_m > max(level_within_m(), sea_m) + 1.0e-3 * cell_m) return 0.0;
     vec4 level, sea;

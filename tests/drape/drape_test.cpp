@@ -137,7 +137,7 @@ class Drape : public test::GpuTest {
     Picture draw(test::DrawnScene& drawn, const Camera& camera, const gpu::FrameStyle& style) {
         auto plan = drawn.scene().settled_plan(camera, test::whole_picture(camera), 1.0);
         EXPECT_TRUE(plan.ok());
-        auto report = drawn.renderer().draw(std::move(plan).value(), style, 0, 1, drawn.scene().drape());
+        auto report = drawn.renderer().draw(std::move(plan).value(), style, 0, 1, drawn.scene().drapes());
         EXPECT_TRUE(report.ok()) << report.error().line();
         Picture picture;
         picture.report = *report;

@@ -34,5 +34,31 @@ TEST_F(Store, NeverHoldsMoreThanItsCapacity) {
     EXPECT_EQ(*store->send(some(300, 1)), 1U) << "it is here already";
 }
 
+// Two regions' pages in the memory of one: who looks elsewhere makes room for the other.
+TEST_F(Store, SharesItsBudgetWithOthers) {
+    const auto budget = std::make_shared<PageBudget>(64 * sizeof(gpu::PageBlock));
+    auto one = PageStore::create(*gpu_, budget), other = PageStore::create(*gpu_, budget);
+    ASSERT_TRUE(one.ok() && other.ok());
+    EXPECT_EQ(one->capacity(), 64U);
+    EXPECT_EQ(*one->send(some(0, 64)), 64U);
+    EXPECT_EQ(budget->left(), 0U);
+    EXPECT_EQ(*other->send(some(0, 20)), 1U) << "a page is always given room for";
+    one->begin_frame();
+    EXPECT_NE(one->address({0, 3, 0}), 0U);
+    other->begin_frame();
+    EXPECT_TRUE(one->release_unused()) << "the second of its buffers";
+    EXPECT_FALSE(one->release_unused());
+    EXPECT_EQ(one->size(), 32U);
+    EXPECT_NE(one->address({0, 3, 0}), 0U) << "it is in use";
+    EXPECT_NE(one->address({0, 31, 0}), 0U) << "it lies beside one in use";
+    EXPECT_EQ(one->address({0, 32, 0}), 0U);
+    EXPECT_EQ(*other->send(some(0, 40)), 32U);
+    EXPECT_LE(one->bytes() + other->bytes(), budget->bytes() + sizeof(gpu::PageBlock));
+    // What is left goes on as before.
+    one->begin_frame();
+    EXPECT_EQ(*one->send(some(100, 32)), 32U);
+    for (int i = 100; i < 132; ++i) EXPECT_NE(one->address({0, i, 0}), 0U) << i;
+}
+
 }  // namespace
 }  // namespace oro

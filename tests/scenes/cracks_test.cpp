@@ -152,7 +152,8 @@ TEST_P(Cracks, NoneInMadeTerrain) {
 TEST_P(Cracks, NoneOnNets) {
     for (const auto& [name, plane] :
          {std::pair("a turned net", test::PlaneOfPosts{900, 1100, {46.5, 8.0}, 80.0, 27.0}),
-          std::pair("a net over the pole", test::PlaneOfPosts{700, 700, {89.9, 40.0}, 90.0, 0.0})})
+          std::pair("a net over the pole", test::PlaneOfPosts{700, 700, {89.9, 40.0}, 90.0, 0.0}),
+          std::pair("a continent", test::PlaneOfPosts{400, 600, {-82.0, 40.0}, 10000.0, 30.0})})
         look_for_holes(name, test::net_field(plane, test::patchy_H_m, 40.0F), camera_count() / 8, 105);
 }
 TEST_P(Cracks, NoneInTheAlps) {

@@ -211,7 +211,7 @@ Result<void> draw(const PanoramaOptions& options, const RegionGround& ground, co
     Scene& scene = whole.scene;
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
-    ORO_CHECK(lay_images(view, report.region, options.memory, *gpu, scene, options.quiet));
+    ORO_CHECK(lay_images(view, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(report.scene, draw_scene(view, report.region, ground.ground(), report.laid.around, *gpu, scene,
                                      style, [&](double share) { bar.show(share, "drawing"); }));
     report.draw_s = seconds_since(drawing);

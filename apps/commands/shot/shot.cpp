@@ -212,7 +212,7 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
     shot.has_means = asks_for_means(style.frame) && scene.pages().knows_means();
-    ORO_CHECK(lay_images(shot.view, shot.region, options.memory, gpu, scene, options.quiet));
+    ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
     const PageLayout finest = scene.pages().layout(0);
     shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
     shot.triangles_at_full_resolution = whole.triangles;

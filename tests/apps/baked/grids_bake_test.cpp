@@ -145,7 +145,11 @@ TEST_F(GridsBake, SparesFilesOfOthers) {
 
 TEST_F(GridsBake, IsRefusedWhereOneGridIsAskedFor) {
     ASSERT_EQ(bake().exit_code, 0);
-    const Outcome outcome = run_orograph({"shot", out_, "--drape", out_, "--out", folder / "draped.png"});
+    // A picture of one grid is drawn again from one.
+    const fs::path picture = folder / "one.png";
+    ASSERT_EQ(run_orograph({"shot", bundled(), "--size", "64x48", "--out", picture}).exit_code, 0);
+    const Outcome outcome =
+        run_orograph({"shot", "--view", picture, out_, "--data-changed", "--out", folder / "again.png"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.err.find("holds 2 grids of posts, and this takes one"), std::string::npos)
         << outcome.err;

@@ -137,9 +137,11 @@ TEST(GridNet, RefusesWhatIsNone) {
               "its places on the Earth do not follow smoothly from row and column");
 }
 
-// Every page and level has the same whole steps for a post.
-TEST(PageOnNet, PostsHaveOnePlaceOnEveryPageAndLevel) {
-    const HeightField field = test::net_field({300, 420, {46.5, 8.0}, 25.0, 12.0}, test::patchy_H_m, 47.5F);
+// Every page and level has the same whole steps for a post; true also of a continent, whose pages reach far.
+struct PlacesOnPages {
+    int far_pages{}, near_pages{};
+};
+void check_places(const HeightField& field, PlacesOnPages& pages) {
     const RegionShape shape = region_shape(field, 1.0);
     const DrawnHeights heights = drawn_heights(field, 1.0, 2);
     std::vector<std::array<std::int64_t, 3>> seen(field.H_m.size());
@@ -155,15 +157,19 @@ TEST(PageOnNet, PostsHaveOnePlaceOnEveryPageAndLevel) {
             const PageSummary page = build_page(field.grid, shape, of_page, index, *block);
             auto places = std::make_unique<gpu::PagePlaces>();
             ASSERT_TRUE(fill_places(field.grid, page, of_page, *places));
+            ++(reaches_far(page) ? pages.far_pages : pages.near_pages);
             const LatticePoint origin = lattice_point(page.origin_ecef.m);
             for (int i = 0; i < 129 * 129; ++i) {
                 const int row = index.row * 128 + i / 129, column = index.column * 128 + i % 129;
                 if (row > grid.row.quads || column > grid.column.quads) continue;
-                const auto post = static_cast<std::size_t>(grid.row.region_post(row) * 420 +
+                const auto post = static_cast<std::size_t>(grid.row.region_post(row) * field.grid.columns() +
                                                            grid.column.region_post(column));
                 std::array<std::int64_t, 3> at{};
                 for (std::size_t axis = 0; axis < 3; ++axis)
-                    at[axis] = origin.steps[axis] + places->steps[static_cast<std::size_t>(i) * 3 + axis];
+                    at[axis] = origin.steps[axis] + places->steps[static_cast<std::size_t>(i) * 3 + axis] +
+                               places->middle[axis] +
+                               std::int64_t{i / 129 - places->middle_row} * places->row_step[axis] +
+                               std::int64_t{i % 129 - places->middle_column} * places->column_step[axis];
                 if (times[post]++ > 0) {
                     ASSERT_EQ(seen[post], at);
                 }
@@ -175,7 +181,8 @@ TEST(PageOnNet, PostsHaveOnePlaceOnEveryPageAndLevel) {
     for (std::size_t post = 0; post < seen.size(); ++post) {
         ASSERT_GT(times[post], 0);
         several += times[post] > 1 ? 1 : 0;
-        const int row = static_cast<int>(post) / 420, column = static_cast<int>(post) % 420;
+        const int row = static_cast<int>(post) / field.grid.columns(),
+                  column = static_cast<int>(post) % field.grid.columns();
         const PostPlace place = field.grid.net->place_at(row, column);
         glm::dvec3 truth{};
         earth.Forward(place.lat_deg, place.lon_deg, field.h_at_post_m(row, column), truth.x, truth.y,
@@ -187,6 +194,30 @@ TEST(PageOnNet, PostsHaveOnePlaceOnEveryPageAndLevel) {
     }
     EXPECT_GT(several, 30000);
     EXPECT_LE(worst_m, 0.7e-3);
+}
+
+TEST(PageOnNet, PostsHaveOnePlaceOnEveryPageAndLevel) {
+    PlacesOnPages pages;
+    check_places(test::net_field({300, 420, {46.5, 8.0}, 25.0, 12.0}, test::patchy_H_m, 47.5F), pages);
+    EXPECT_EQ(pages.far_pages, 0);
+}
+
+// 4,500 x 6,300 km, a pole among them: levels of both kinds.
+TEST(PageOnNet, PostsOfAContinentDoToo) {
+    PlacesOnPages pages;
+    check_places(test::net_field({300, 420, {-78.0, 40.0}, 15000.0, 30.0}, test::patchy_H_m, 47.5F), pages);
+    std::printf("%d pages reach far, %d do not\n", pages.far_pages, pages.near_pages);
+    EXPECT_GT(pages.far_pages, 3);
+    EXPECT_GT(pages.near_pages, 3);
+}
+
+TEST(PageOnNet, HoldsNoHemisphere) {
+    const auto holds = [](int posts, double spacing_m) {
+        return fits_one_page(*test::net_of({posts, posts, {46.5, 8.0}, spacing_m, 20.0}));
+    };
+    EXPECT_TRUE(holds(200, 1000.0));
+    EXPECT_TRUE(holds(200, 40000.0));
+    EXPECT_FALSE(holds(800, 20000.0));
 }
 
 }  // namespace

@@ -57,9 +57,9 @@ TEST(LyingApart, TheAntimeridianIsNoGap) {
 TEST(LyingApart, SoManyGroupsAreOneRegion) {
     std::vector<Source> sources;
     for (int i = 0; i < static_cast<int>(groups_max); ++i)
-        sources.push_back(tile(-60 + 4 * (i % 30), 10 * (i / 30) + 3 * (i % 3)));
+        sources.push_back(tile(-60 + 3 * (i % 40), -180 + 3 * (i / 40)));
     EXPECT_EQ(lying_apart(sources, {}).size(), groups_max);
-    sources.push_back(tile(0, 120));
+    sources.push_back(tile(0, 170));
     EXPECT_EQ(lying_apart(sources, {}).size(), 1U);
 }
 

@@ -1,0 +1,15 @@
+// The colours of pictures that explain a frame (shaders/shade/show_colours.glsl), for their legends.
+#pragma once
+
+#include "shaders/shared.h"
+
+namespace oro {
+
+// sRGB, 0 to 1.
+gpu::vec3 colour_of_level(gpu::uint level);
+// Of a meshlet that the frame's last round drew, or one before it.
+gpu::vec3 colour_of_round(bool before_last);
+// Of a meshlet or a triangle by its number.
+gpu::vec3 colour_of_number(gpu::uint number);
+
+}  // namespace oro

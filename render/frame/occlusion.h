@@ -1,0 +1,63 @@
+// What ground hides other ground: whether a frame is drawn in rounds, in which, and the pyramid of the
+// farthest depths between them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/frame/frame_plan.h"
+#include "render/device/resources.h"
+#include "render/frame/pipelines.h"
+
+namespace oro {
+
+// Whether meshlets that other ground hides are left out. The picture is the same, bit for bit.
+enum class OcclusionUse {
+    off,
+    on,
+    if_it_pays  // as it took less time when both were tried; now and then the other is tried again
+};
+
+class Occlusion {
+  public:
+    // nearest: makes the wrong pyramid (tests only).
+    Occlusion(OcclusionUse use, bool nearest) : use_(use), nearest_(nearest) {}
+    // For pictures up to that size.
+    Result<void> resize(const Gpu& gpu, RasterPath path, VkExtent2D extent);
+
+    // The rounds of a frame, in their order; one where it is drawn without occlusion. remembers: it is known
+    // what the last frame saw.
+    void begin(const FramePlan& plan, bool remembers);
+    [[nodiscard]] const std::vector<gpu::FrameRound>& rounds() const { return rounds_; }
+    [[nodiscard]] bool is_on() const { return rounds_.size() > 1; }
+    // Whether the first round draws what the last frame saw.
+    [[nodiscard]] bool uses_last_frame() const { return uses_last_frame_; }
+    // Whether a round may draw what is as near as what an earlier one drew, and has a lower id.
+    [[nodiscard]] bool may_tie() const { return may_tie_; }
+    void address(gpu::FrameConstants& constants) const;
+    // From what the rounds so far have drawn; the frame's first set is bound, and its depths are there to be
+    // read. Leaves the pyramid ready for compute reads.
+    void record_pyramid(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan) const;
+    // How long the frame's rounds took.
+    void end(double raster_s);
+    static constexpr std::size_t most_rounds = 3;
+
+  private:
+    [[nodiscard]] bool shows_much_of(const FramePlan& plan) const;
+
+    OcclusionUse use_;
+    bool nearest_;
+    bool may_tie_{}, uses_last_frame_{};
+    std::vector<gpu::FrameRound> rounds_;
+    gpu::FrameConstants
+        last_{};  // of the last frame that was drawn in rounds; its page_count 0: there is none
+    // Of if_it_pays: what a frame took with it and without, 0 where it was not tried; frames until the slower
+    // is tried again, and after how many that is.
+    [[nodiscard]] bool goes_without();
+    double with_s_{}, without_s_{};
+    std::uint32_t wait_{}, patience_{}, trials_{};
+    bool was_on_{};
+    Buffer pyramid_, ids_before_;
+};
+
+}  // namespace oro

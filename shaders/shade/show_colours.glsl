@@ -1,0 +1,28 @@
+// The colours of a frame's parts, sRGB. Compiled as GLSL for the GPU and as C++ for legends (core/frame/frame_colours.cpp).
+
+// By level: the finest blue, each next one apart from the one before; they come again after eight.
+ORO_FUNCTION vec3 shown_level(uint level) {
+    uint which = level % 8u;
+    if (which == 0u) return vec3(0.16f, 0.38f, 0.78f);
+    if (which == 1u) return vec3(0.20f, 0.71f, 0.65f);
+    if (which == 2u) return vec3(0.47f, 0.77f, 0.26f);
+    if (which == 3u) return vec3(0.95f, 0.82f, 0.22f);
+    if (which == 4u) return vec3(0.95f, 0.55f, 0.16f);
+    if (which == 5u) return vec3(0.83f, 0.25f, 0.22f);
+    if (which == 6u) return vec3(0.66f, 0.33f, 0.68f);
+    return vec3(0.60f, 0.60f, 0.62f);
+}
+
+// Whether the rounds before the last one had drawn it.
+ORO_FUNCTION vec3 shown_round(bool before) { return before ? vec3(0.36f, 0.64f, 0.40f) : vec3(0.96f, 0.57f, 0.18f); }
+
+// A colour of its own for each number, none of them dark. Source of the mixing: C. Wellons, hash-prospector (public domain), lowbias32.
+ORO_FUNCTION vec3 shown_by_hash(uint number) {
+    uint x = number;
+    x ^= x >> 16u;
+    x *= 0x7feb352du;
+    x ^= x >> 15u;
+    x *= 0x846ca68bu;
+    x ^= x >> 16u;
+    return vec3(0.3f) + 0.7f * vec3(float(x & 255u), float(x >> 8u & 255u), float(x >> 16u & 255u)) / 255.0f;
+}

@@ -1,0 +1,155 @@
+// What other ground hides is left out, and nothing that shows: from eyes in motion the ids in every pixel are
+// those of frames that draw all, on both paths.
+#include "core/terrain/ground.h"
+#include "tests/support/occlusion_pairs.h"
+#include "tests/support/rough_terrain.h"
+
+namespace oro {
+namespace {
+
+// No power of two, and not the same in both directions.
+constexpr int width_px = 203, height_px = 117;
+
+class Occluded : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
+  protected:
+    Scene scene_of(const HeightField& field, double exaggeration = 1.0,
+                   std::uint64_t memory = std::uint64_t{256} << 20U) {
+        auto scene = Scene::create(*gpu_, pages_in_memory(field, exaggeration, 2), {memory, 0});
+        EXPECT_TRUE(scene.ok()) << scene.error().line();
+        return std::move(scene).value();
+    }
+    static test::EyeGround over(const HeightField& field, double exaggeration = 1.0) {
+        return {46.65, 46.85, 8.2, 8.5, [&field, exaggeration](double lat_deg, double lon_deg) {
+                    return exaggeration * *ground_h_m(field, lat_deg, lon_deg);
+                }};
+    }
+};
+
+TEST_P(Occluded, PicturesAreThoseWithout) {
+    const HeightField field = test::rough_field(47.0, 8.0, 700, 900);
+    Scene scene = scene_of(field);
+    test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
+    EXPECT_EQ(
+        test::draw_pairs(renderers, scene, over(field), 71, test::occlusion_pairs(60), width_px, height_px),
+        0U);
+    EXPECT_LT(3 * renderers.drawn_with, 2 * renderers.drawn_without) << "or little was left out";
+    EXPECT_GT(renderers.later, 0U);
+}
+
+// Bent light lifts the ground; heights may be exaggerated and rounded.
+TEST_P(Occluded, PicturesAreThoseWithoutInOtherModels) {
+    const HeightField field = test::rough_field(47.0, 8.0, 500, 700);
+    unsigned seed = 72;
+    for (const double k : {0.13, 0.9, -1.0}) {
+        Scene scene = scene_of(field);
+        test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
+        WorldModel model;
+        model.air.k = k;
+        EXPECT_EQ(test::draw_pairs(renderers, scene, over(field), seed++, test::occlusion_pairs(8), width_px,
+                                   height_px, model),
+                  0U)
+            << "refraction " << k;
+    }
+    Scene tall = scene_of(field, 3.0);
+    test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
+    EXPECT_EQ(test::draw_pairs(renderers, tall, over(field, 3.0), seed, test::occlusion_pairs(8), width_px,
+                               height_px),
+              0U);
+    for (const Precision precision : {Precision::rounded_posts, Precision::naive}) {
+        WorldModel model;
+        model.precision = precision;
+        Scene scene = scene_of(field);
+        test::OcclusionPair rounded(*gpu_, GetParam(), width_px, height_px);
+        EXPECT_EQ(test::draw_pairs(rounded, scene, over(field), ++seed, test::occlusion_pairs(8), width_px,
+                                   height_px, model),
+                  0U);
+    }
+}
+
+// The comparison can fail: with the nearest depths instead of the farthest it tells of lost ground.
+TEST_P(Occluded, AWrongPyramidIsNoticed) {
+    const HeightField field = test::rough_field(47.0, 8.0, 500, 700);
+    Scene scene = scene_of(field);
+    test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px, true);
+    EXPECT_GT(test::draw_pairs(renderers, scene, over(field), 79, 16, width_px, height_px), 10U);
+}
+
+// Two halves of a region: either hides the other.
+TEST_P(Occluded, GridsHideEachOther) {
+    const HeightField field = test::rough_field(47.0, 8.0, 500, 700);
+    const auto part = [&](int first, int count) {
+        HeightField half;
+        half.grid = field.grid;
+        half.grid.lon.first += first;
+        half.grid.lon.count = count;
+        half.undulation = field.undulation;
+        for (int row = 0; row < field.grid.rows(); ++row)
+            for (int column = first; column < first + count; ++column)
+                half.H_m.push_back(field.H_at_post_m(row, column));
+        return half;
+    };
+    Scene halves = scene_of(part(0, 421));
+    halves.draw_beside(scene_of(part(420, 280)));
+    test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
+    EXPECT_EQ(
+        test::draw_pairs(renderers, halves, over(field), 80, test::occlusion_pairs(25), width_px, height_px),
+        0U);
+    EXPECT_LT(3 * renderers.drawn_with, 2 * renderers.drawn_without);
+}
+
+// While pages arrive, under a budget: each frame is the one without occlusion, an eye that sees ground alone
+// sees no background, and the settled frame is that of a scene without a budget.
+TEST_P(Occluded, FramesHoldWhileDataStreamIn) {
+    const HeightField field = test::rough_field(47.0, 8.0, 700, 900);
+    constexpr std::uint64_t budget = std::uint64_t{32} << 20U;
+    Scene few = scene_of(field, 1.0, budget), all = scene_of(field);
+    test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px),
+        free(*gpu_, GetParam(), width_px, height_px);
+    constexpr unsigned seed = 81;
+    std::mt19937 random(seed);
+    int unsettled = 0, frames = 0;
+    for (int i = 0; i < 6; ++i) {
+        Camera camera = test::eyes_in_motion(over(field), random, width_px, height_px).first;
+        const bool down = i % 2 == 0;
+        if (down) {
+            camera.attitude.pitch_deg = -80.0;
+            camera.vertical_fov_deg = 20.0;
+        }
+        const Tile tile{0, 0, width_px, height_px, {0.5, 0.5}};
+        std::vector<PageIndex> missing;
+        bool settled = false;
+        for (int step = 0; step < 4000 && !settled; ++step) {
+            auto plan = few.plan(camera, tile, 1.0);
+            ASSERT_TRUE(plan.ok()) << plan.error().line();
+            settled = plan->missing.empty();
+            missing = plan->missing;
+            auto advanced = few.advance(missing);
+            ASSERT_TRUE(advanced.ok()) << advanced.error().line();
+            if (!*advanced && !settled && step % 50 != 0) continue;
+            unsettled += settled ? 0 : 1;
+            ++frames;
+            const bool ground = !plan->pages.empty();
+            renderers.background = 0;
+            ASSERT_EQ(renderers.differing(*plan), 0U) << "frame " << frames;
+            if (down && ground) {
+                EXPECT_EQ(renderers.background, 0U) << "frame " << frames;
+            }
+        }
+        ASSERT_TRUE(settled);
+        auto plan = few.settled_plan(camera, tile, 1.0), other = all.settled_plan(camera, tile, 1.0);
+        ASSERT_TRUE(plan.ok() && other.ok());
+        ASSERT_EQ(plan->page_indices.size(), other->page_indices.size());
+        ASSERT_EQ(renderers.differing(*plan), 0U);
+        ASSERT_EQ(free.differing(*other), 0U);
+    }
+    std::printf("seed %u: %d frames, %d of them while pages were missing\n", seed, frames, unsettled);
+    EXPECT_GT(unsettled, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, Occluded, ::testing::Values(RasterPath::mesh, RasterPath::compute),
+                         [](const auto& path) {
+                             return std::string(path.param == RasterPath::mesh ? "mesh" : "compute");
+                         });
+
+}  // namespace
+}  // namespace oro

@@ -1,0 +1,76 @@
+// Pictures that explain a frame: each pixel has the colour of what draws it.
+#include <cmath>
+#include <cstdlib>
+
+#include "core/frame/frame_colours.h"
+#include "core/terrain/ground.h"
+#include "render/frame/frame_renderer.h"
+#include "render/scene/scene.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/rough_terrain.h"
+
+namespace oro {
+namespace {
+
+class ShownParts : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {};
+
+// Of a pixel's triangle, by its id.
+gpu::vec3 expected_colour(gpu::uint show, std::uint32_t id, const FramePlan& plan) {
+    const std::uint32_t triangle = id - 1, node = triangle / gpu::meshlet_triangles;
+    if (show == gpu::show_triangles) return colour_of_number(triangle);
+    if (show == gpu::show_meshlets) return colour_of_number(node);
+    const float light = 0.85F + 0.15F * colour_of_number(node).x;
+    return light * colour_of_level(plan.pages[node / gpu::meshlets_per_page].level);
+}
+
+TEST_P(ShownParts, HaveTheColoursOfTheirNumbersAndLevels) {
+    constexpr std::uint32_t side_px = 96;
+    const HeightField field = test::rough_field(47.0, 8.0, 500, 500);
+    auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {std::uint64_t{64} << 20U, 0});
+    ASSERT_TRUE(scene.ok()) << scene.error().line();
+    Camera camera;
+    camera.eye = {46.75, 8.2, *ground_h_m(field, 46.75, 8.2) + 300.0};
+    camera.attitude = {40.0, -5.0, 0.0};
+    camera.width_px = camera.height_px = side_px;
+    for (const gpu::uint show :
+         {gpu::show_visible, gpu::show_levels, gpu::show_meshlets, gpu::show_triangles}) {
+        FrameRendererOptions options;
+        options.extent = {side_px, side_px};
+        options.path = GetParam();
+        options.show = show;
+        auto renderer = FrameRenderer::create(*gpu_, options);
+        ASSERT_TRUE(renderer.ok()) << renderer.error().line();
+        auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
+        ASSERT_TRUE(plan.ok()) << plan.error().line();
+        ASSERT_TRUE(renderer->draw(*plan, {}).ok());
+        const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
+        const std::vector<std::uint8_t> rgba = *renderer->read_picture(side_px, side_px);
+        std::size_t ground = 0, wrong = 0, orange = 0;
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            wrong += (rgba[4 * i + 3] != 0) != (ids[i] != 0);
+            if (ids[i] == 0) continue;
+            ++ground;
+            orange += rgba[4 * i] > rgba[4 * i + 1];
+            if (show == gpu::show_visible) continue;
+            const gpu::vec3 expected = expected_colour(show, ids[i], *plan);
+            for (int c = 0; c < 3; ++c)
+                wrong += std::abs(255.0F * expected[c] -
+                                  static_cast<float>(rgba[4 * i + static_cast<std::size_t>(c)])) > 1.0F;
+        }
+        EXPECT_GT(ground, ids.size() / 4);
+        EXPECT_EQ(wrong, 0U) << "show " << show;
+        // Of a first frame some ground is near, and some is not.
+        if (show == gpu::show_visible) {
+            EXPECT_GT(orange, 0U);
+            EXPECT_LT(orange, ground);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, ShownParts, ::testing::Values(RasterPath::mesh, RasterPath::compute),
+                         [](const auto& path) {
+                             return std::string(path.param == RasterPath::mesh ? "mesh" : "compute");
+                         });
+
+}  // namespace
+}  // namespace oro

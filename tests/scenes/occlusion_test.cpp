@@ -1,0 +1,86 @@
+// Occlusion over real ground, and where grids meet by seams: the ids in every pixel are those of frames that
+// draw all.
+#include "core/seam/seam_pages.h"
+#include "core/terrain/ground.h"
+#include "geo/together/cut_regions.h"
+#include "tests/support/occlusion_pairs.h"
+#include "tests/support/test_data.h"
+#include "tests/support/three_grids.h"
+
+namespace oro {
+namespace {
+
+constexpr int width_px = 251, height_px = 142;
+
+class OccludedScene : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
+  protected:
+    Scene scene_of(std::unique_ptr<RegionPages> pages) {
+        auto scene = Scene::create(*gpu_, std::move(pages), {std::uint64_t{384} << 20U, 0});
+        EXPECT_TRUE(scene.ok()) << scene.error().line();
+        return std::move(scene).value();
+    }
+};
+
+// Where people stand: valleys and ridges of the Bernese Alps.
+TEST_P(OccludedScene, TheAlpsAreThoseWithout) {
+    const auto data = test::real_data("alps");
+    if (!data) GTEST_SKIP() << "needs alps";
+    RegionRequest request;
+    request.paths = {data->string()};
+    request.box = *parse_tile_range("N46E007:N46E008");
+    auto region = open_region(request);
+    ASSERT_TRUE(region.ok()) << region.error().line();
+    Scene scene = scene_of(pages_in_memory(region->field, 1.0, 2));
+    const test::EyeGround where{46.3, 46.8, 7.4, 8.6, [&](double lat_deg, double lon_deg) {
+                                    return ground_h_m(region->field, lat_deg, lon_deg).value_or(0.0);
+                                }};
+    test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
+    EXPECT_EQ(test::draw_pairs(renderers, scene, where, 91, test::occlusion_pairs(25), width_px, height_px),
+              0U);
+    EXPECT_LT(3 * renderers.drawn_with, 2 * renderers.drawn_without);
+}
+
+// Steps between grids reach out by tau in the shader, and are never left out; what they hide may be.
+TEST_P(OccludedScene, GridsWithSeamsAreThoseWithout) {
+    Region region = test::three_grids(500);
+    auto cuts = cut_regions(region);
+    ASSERT_TRUE(cuts.ok()) << cuts.error().line();
+    const Seam seam = seam_between(region, *cuts, 1.0);
+    std::optional<Scene> scene;
+    const std::vector<const Region*> grids = all_grids(region);
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        HeightField rest = grids[i]->field;
+        const CutOut& cut = cuts->grids[i];
+        for (std::size_t post = 0; post < cut.left_out.size(); ++post)
+            if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
+        Scene one = scene_of(pages_in_memory(rest, 1.0, 2));
+        if (i == 0)
+            scene.emplace(std::move(one));
+        else
+            scene->draw_beside(std::move(one));
+    }
+    auto pages = seam_pages(seam, {}, region_shape(region.field, 1.0));
+    ASSERT_TRUE(pages.ok()) << pages.error().line();
+    scene->draw_beside(scene_of(std::move(pages).value()));
+    const double middle = 0.5 * 500 / 1200.0;
+    const test::EyeGround where{
+        47.0 - middle - 0.05, 47.0 - middle + 0.05, 8.0 + middle - 0.05, 8.0 + middle + 0.07,
+        [&](double lat_deg, double lon_deg) {
+            double highest_m = -1000.0;
+            for (const Region* grid : grids)
+                highest_m = std::max(highest_m, ground_h_m(grid->field, lat_deg, lon_deg).value_or(-1000.0));
+            return highest_m;
+        }};
+    test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
+    EXPECT_EQ(test::draw_pairs(renderers, *scene, where, 92, test::occlusion_pairs(25), width_px, height_px),
+              0U);
+    EXPECT_LT(renderers.drawn_with, renderers.drawn_without);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, OccludedScene, ::testing::Values(RasterPath::mesh, RasterPath::compute),
+                         [](const auto& path) {
+                             return std::string(path.param == RasterPath::mesh ? "mesh" : "compute");
+                         });
+
+}  // namespace
+}  // namespace oro
