@@ -108,7 +108,7 @@ struct PageBlock {
     // column_spacing_m needs no cosine of a latitude.
     vec3 turn;
     // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its north-west to its
-    // south-east (core/terrain/cell_diagonal.h). Two words a meshlet, row by row, the first the lowest bit.
+    // south-east (core/cells/cell_diagonal.h). Two words a meshlet, row by row, the first the lowest bit.
     uint rises[512];
     vec2 up;  // the ellipsoid's normal at the page's origin, in the page frame: along x, along z
     // Of each meshlet: how far its posts are from the centre of its sphere, along east, north and that
