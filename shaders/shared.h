@@ -33,6 +33,7 @@ ORO_CONST uint meshlets_per_page = 256u;
 ORO_CONST uint meshlets_per_task_max = 128u;  // of a task workgroup
 ORO_CONST uint meshlet_vertices = 81u;
 ORO_CONST uint meshlet_triangles = 128u;
+ORO_CONST uint page_diagonal_words = 512u;  // a bit for each quad
 // Heights are kept with one more post on each side, so that slopes are continuous across pages.
 ORO_CONST uint height_stride = 131u;
 ORO_CONST uint page_heights = 17161u;  // height_stride squared
@@ -110,6 +111,9 @@ struct PageBlock {
     // Of each meshlet: how far its posts are from the centre of its sphere, along east, north and that
     // normal, in 1023rds of its radius, 10 bits each.
     uint boxes[256];
+    // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its north-west to its
+    // south-east (core/terrain/cell_diagonal.h). Two words a meshlet, row by row, the first the lowest bit.
+    uint rises[512];
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
     // (core/terrain/height_quantization.h).

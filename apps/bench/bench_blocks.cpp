@@ -28,8 +28,8 @@ gpu::uint edges_beside_coarser(const LevelPyramid& pyramid, int level, int row, 
            (coarser(row, column - 1) ? gpu::edge_west : 0U);
 }
 
-void add_node(const LevelGrid& grid, int node_row, int node_column, gpu::uint edges,
-              std::vector<MeshTriangle>& triangles) {
+void add_node(const LevelGrid& grid, const DrawnHeights& heights, int node_row, int node_column,
+              gpu::uint edges, std::vector<MeshTriangle>& triangles) {
     constexpr int node_quads = static_cast<int>(gpu::meshlet_quads);
     const gpu::uvec2 quads(static_cast<unsigned>(grid.row.quads_of_node(node_row)),
                            static_cast<unsigned>(grid.column.quads_of_node(node_column)));
@@ -40,9 +40,16 @@ void add_node(const LevelGrid& grid, int node_row, int node_column, gpu::uint ed
     };
     for (unsigned row = 0; row < quads.x; ++row) {
         for (unsigned column = 0; column < quads.y; ++column) {
-            const MeshPost nw = post(row, column), se = post(row + 1, column + 1);
-            const MeshPost sw = post(row + 1, column), ne = post(row, column + 1);
-            for (const MeshTriangle& triangle : {MeshTriangle{nw, se, sw}, MeshTriangle{nw, ne, se}}) {
+            const Diagonal own = heights.diagonal(grid.level(), node_row * node_quads + static_cast<int>(row),
+                                                  node_column * node_quads + static_cast<int>(column));
+            const bool rises = gpu::drawn_rising(own == Diagonal::rises, {row, column}, quads, edges);
+            for (const bool west : {true, false}) {
+                const CellCorners at = cell_corners(rises ? Diagonal::rises : Diagonal::falls, west);
+                const auto corner = [&](std::size_t i) {
+                    return post(row + static_cast<unsigned>(at[i][0]),
+                                column + static_cast<unsigned>(at[i][1]));
+                };
+                const MeshTriangle triangle{corner(0), corner(2), corner(1)};
                 if (twice_area(triangle[0], triangle[1], triangle[2]) != 0) triangles.push_back(triangle);
             }
         }
@@ -51,7 +58,7 @@ void add_node(const LevelGrid& grid, int node_row, int node_column, gpu::uint ed
 
 }  // namespace
 
-BlockMesh block_mesh(const LevelPyramid& pyramid, double error_m) {
+BlockMesh block_mesh(const LevelPyramid& pyramid, const DrawnHeights& heights, double error_m) {
     assert(!pyramid.goes_round);
     BlockMesh mesh;
     for (int level = 0; level < static_cast<int>(pyramid.levels.size()); ++level) {
@@ -63,8 +70,8 @@ BlockMesh block_mesh(const LevelPyramid& pyramid, double error_m) {
                     acceptable(pyramid, level + 1, row / 2, column / 2, error_m))
                     continue;
                 ++nodes;
-                add_node(grid, row, column, edges_beside_coarser(pyramid, level, row, column, error_m),
-                         mesh.triangles);
+                add_node(grid, heights, row, column,
+                         edges_beside_coarser(pyramid, level, row, column, error_m), mesh.triangles);
             }
         }
     }

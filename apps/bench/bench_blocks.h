@@ -18,6 +18,6 @@ struct BlockMesh {
 // The coarsest nodes that are certified (MeshletBounds::error_m: heights, sag and stitching, grown as level
 // choice needs it) to at most error_m metres, level 0 where nothing coarser is: select_nodes() with metres
 // for pixels. A region without voids that does not go round the Earth.
-BlockMesh block_mesh(const LevelPyramid& pyramid, double error_m);
+BlockMesh block_mesh(const LevelPyramid& pyramid, const DrawnHeights& heights, double error_m);
 
 }  // namespace oro

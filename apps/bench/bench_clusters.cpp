@@ -155,7 +155,7 @@ class References {
           every_place_(heights, true) {}
 
     Result<void> print(double error_m) {
-        const std::size_t blocks = block_mesh(pyramid_, error_m).triangles.size();
+        const std::size_t blocks = block_mesh(pyramid_, heights_, error_m).triangles.size();
         tin_.refine(error_m);
         every_place_.refine(error_m);
         const double tin_m = every_place_m(heights_, tin_.mesh());

@@ -83,8 +83,14 @@ WorstPlace worst_place(const DrawnHeights& heights, const MeshTriangle& triangle
                 MeshPost from{a.row + static_cast<int>(whole), a.column + static_cast<int>(whole)};
                 if (along.row == 0) from.row = a.row + (down > 0 ? line : -line);
                 if (along.column == 0) from.column = a.column + (right > 0 ? line : -line);
-                if (along.row != 0 && along.column != 0) from.column += right > down ? line : -line;
+                if (along.row != 0 && along.column > 0) from.column += right > down ? line : -line;
+                if (along.column < 0)
+                    from.column = a.column - static_cast<int>(whole) + (right + down > 0 ? line : -line);
                 if (beyond == 0.0) continue;  // a post
+                const bool diagonal = along.row != 0 && along.column != 0;
+                if (diagonal && heights.diagonal(0, from.row, from.column - (along.column < 0 ? 1 : 0)) !=
+                                    (along.column < 0 ? Diagonal::rises : Diagonal::falls))
+                    continue;  // that cell has the other one
                 const MeshPost to{from.row + along.row, from.column + along.column};
                 const double ground = heights.at(from.row, from.column) * (1.0 - beyond) +
                                       heights.at(to.row, to.column) * beyond;
@@ -95,6 +101,7 @@ WorstPlace worst_place(const DrawnHeights& heights, const MeshTriangle& triangle
         cross(std::abs(down), {0, 1});
         cross(std::abs(right), {1, 0});
         cross(std::abs(right - down), {1, 1});
+        if (heights.diagonals) cross(std::abs(right + down), {1, -1});
     }
     return worst;
 }

@@ -110,7 +110,7 @@ Result<TrianglesReport> count_triangles(const TrianglesOptions& options) {
     for (const double error_m : errors_m) {
         ErrorRow row;
         row.error_m = error_m;
-        BlockMesh blocks = block_mesh(pyramid, error_m);
+        BlockMesh blocks = block_mesh(pyramid, heights, error_m);
         row.nodes = std::move(blocks.nodes);
         tin.refine(error_m);
         square_tin.refine(error_m);

@@ -34,13 +34,16 @@ std::pair<double, double> part_over(const PostGrid& grid, const GridPlace& from,
     return {first, last};
 }
 
-// Adds the shares at which something that goes from `begin` to `end` is a whole number.
-void add_crossings(double begin, double end, double first, double last, std::vector<double>& shares) {
+// Adds the shares at which something that goes from `begin` to `end` is a whole number, if is_edge(share)
+// says yes.
+template <class IsEdge>
+void add_crossings(double begin, double end, double first, double last, std::vector<double>& shares,
+                   const IsEdge& is_edge) {
     const double step = end - begin;
     if (step == 0.0) return;
     const double low = begin + first * step, high = begin + last * step;
     for (double whole = std::ceil(std::min(low, high)); whole <= std::max(low, high); whole += 1.0)
-        shares.push_back((whole - begin) / step);
+        if (const double share = (whole - begin) / step; is_edge(share)) shares.push_back(share);
 }
 
 // The same over grids on nets, where a way that is straight in latitude and longitude is bent among the
@@ -85,10 +88,20 @@ void follow_ground(const TrueGround& ground, const VectorPlace& from, const Vect
     }
     if (first > 0.0) sink(std::nullopt);
     std::vector<double> shares{first, last};
-    add_crossings(a.row, b.row, first, last, shares);
-    add_crossings(a.column, b.column, first, last, shares);
-    // Diagonals go from north-west to south-east.
-    add_crossings(a.row - a.column, b.row - b.column, first, last, shares);
+    const auto always = [](double) { return true; };
+    add_crossings(a.row, b.row, first, last, shares, always);
+    add_crossings(a.column, b.column, first, last, shares, always);
+    const auto splits = [&](double share, Diagonal diagonal) {
+        const double row = std::clamp(std::floor(std::lerp(a.row, b.row, share)), 0.0, grid.rows() - 2.0),
+                     column = std::clamp(std::floor(std::lerp(a.column, b.column, share)), 0.0,
+                                         grid.columns() - 2.0);
+        return surface.diagonal_at(static_cast<int>(row), static_cast<int>(column)) == diagonal;
+    };
+    for (const Diagonal diagonal : {Diagonal::falls, Diagonal::rises}) {
+        const double sign = diagonal == Diagonal::falls ? -1.0 : 1.0;
+        add_crossings(a.row + sign * a.column, b.row + sign * b.column, first, last, shares,
+                      [&](double share) { return splits(share, diagonal); });
+    }
     std::ranges::sort(shares);
     double before = -1.0;
     for (const double share : shares) {

@@ -32,10 +32,10 @@ Result<RegionHeader> read_header(const OpenFile& file, std::uint64_t size, Heade
         return refused("is cut off at byte " + std::to_string(size) + ", within its header of " +
                        std::to_string(header_bytes) + " bytes");
     const auto found_version = from_little_endian<std::uint32_t>(&bytes[magic.size()]);
-    if (found_version != version && found_version != version_on_net)
+    if (found_version < first_version || found_version > last_version)
         return refused("is of version " + std::to_string(found_version) +
                        " of the region format (byte 8), this program reads versions " +
-                       std::to_string(version) + " and " + std::to_string(version_on_net));
+                       std::to_string(first_version) + " to " + std::to_string(last_version));
     const std::uint64_t computed = xxh64(std::span(bytes).first(header_bytes - 8));
     const auto stored = from_little_endian<std::uint64_t>(&bytes[header_bytes - 8]);
     if (computed != stored)
@@ -123,8 +123,9 @@ Result<RegionOutline> read_outline(const OpenFile& file, const RegionHeader& hea
     }));
     if (const auto wrong = implausible(outline.undulation.N_m, offsets.undulation))
         return file.damaged(wrong->offset, wrong->what);
-    if (header.version == version_on_net) {
+    if (is_on_net(header.version)) {
         ORO_TRY(outline.grid, read_net(file, header, offsets.net));
+        outline.grid.split = header.grid.split;
     }
     return outline;
 }

@@ -92,7 +92,7 @@ void exchange_header(Visit& visit, Header& header) {
     visit(header_size);
     visit(file_bytes);
     visit(fingerprint);
-    if (found_version == version_on_net) {
+    if (is_on_net(found_version)) {
         exchange_net_axis(visit, grid.lat, net_bytes);
         exchange_net_axis(visit, grid.lon, net_checksum);
     } else {
@@ -179,8 +179,8 @@ RegionHeader header_of(const RegionOutline& outline, std::uint64_t fingerprint) 
     RegionHeader header;
     header.fingerprint = fingerprint;
     header.grid = outline.grid;
+    header.version = version_of(outline.grid);
     if (const GridNet* const net = outline.grid.net.get()) {
-        header.version = version_on_net;
         header.grid.lat = {0.0, 0.0, 0, -1, net->rows()};
         header.grid.lon = {0.0, 0.0, 0, +1, net->columns()};
         header.grid.net.reset();
@@ -213,6 +213,7 @@ RegionHeader header_from_bytes(const HeaderBytes& bytes) {
     RegionHeader header;
     Getter get(bytes.data() + magic.size());
     get(header.version);
+    header.grid.split = split_of(header.version);
     exchange_header(get, header);
     return header;
 }

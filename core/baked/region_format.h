@@ -11,9 +11,11 @@
 // Numbers are little endian. Each part has its checksum, XXH64: header and records their own, at their end;
 // description, undulation and net in the header, a payload in its record. No byte is without one.
 //
-// Version 1 has posts on latitudes and longitudes, version 2 on a net. Of its axes only step and count mean
-// anything: that of the rows has the bytes of the net where the other version has the first post's index,
-// that of the columns its checksum, and all else is 0.
+// Versions 1 and 3 have posts on latitudes and longitudes, versions 2 and 4 on a net. In 1 and 2 all cells
+// are split from their north-west to their south-east posts, in 3 and 4 as the posts of their level decide
+// (core/terrain/cell_diagonal.h); there a page in which a region round the Earth ends has one more column of
+// posts. Of a net's axes only step and count mean anything: that of the rows has the bytes of the net where
+// the other versions have the first post's index, that of the columns its checksum, and all else is 0.
 #pragma once
 
 #include <array>
@@ -32,9 +34,15 @@ namespace oro::region_format {
 // Begins with a byte that no text has, and holds both kinds of line end, which a transfer as text would
 // change.
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'O', 'R', 'O', '\r', '\n', 0x1a, '\n'};
-inline constexpr std::uint32_t version = 1, version_on_net = 2;
+inline constexpr std::uint32_t first_version = 1, last_version = 4;
 [[nodiscard]] inline std::uint32_t version_of(const PostGrid& grid) {
-    return grid.net ? version_on_net : version;
+    return (grid.net ? 2 : 1) + (grid.split == CellSplit::by_posts ? 2 : 0);
+}
+[[nodiscard]] constexpr bool is_on_net(std::uint32_t version) {
+    return version % 2 == 0;
+}
+[[nodiscard]] constexpr CellSplit split_of(std::uint32_t version) {
+    return version > 2 ? CellSplit::by_posts : CellSplit::all_fall;
 }
 inline constexpr std::size_t header_bytes = 256;
 inline constexpr std::size_t record_bytes = 448;
@@ -43,7 +51,7 @@ inline constexpr std::uint64_t largest_file = (std::uint64_t{1} << 63U) - 1;
 
 // What the header holds between version and checksum, in this order.
 struct RegionHeader {
-    std::uint32_t version{region_format::version};  // the one before the others
+    std::uint32_t version{first_version};  // the one before the others
     std::uint32_t header_size{header_bytes};
     std::uint64_t file_bytes{};  // 0: unfinished
     std::uint64_t fingerprint{};

@@ -150,7 +150,7 @@ void check_net(Findings& findings, const RegionHeader& header) {
 // All that does not follow from other numbers.
 std::optional<Implausible> implausible_given(const RegionHeader& header) {
     Findings findings;
-    if (header.version == version_on_net) {
+    if (is_on_net(header.version)) {
         check_net(findings, header);
     } else {
         check_axis(findings, header.grid.lat, -1, at_grid_lat);

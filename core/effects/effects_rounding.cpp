@@ -107,11 +107,17 @@ EffectSize EffectPrediction::in_float32(Precision precision) const {
 std::array<EffectPrediction::PostShare, 3> EffectPrediction::shares_of(const Sample& sample) const {
     const PostNumber post = grid(sample).post_at(sample.point.lat_deg, sample.point.lon_deg);
     const double down = post.row - sample.row, right = post.column - sample.column;
-    const double north_west = 1.0 - std::max(down, right), south_east = std::min(down, right);
-    return {{{sample.row, sample.column, north_west},
-             {sample.row + 1, sample.column + 1, south_east},
-             {sample.row + (sample.south_west ? 1 : 0), sample.column + (sample.south_west ? 0 : 1),
-              1.0 - north_west - south_east}}};
+    const Diagonal diagonal = surface(sample).diagonal_at(sample.row, sample.column);
+    std::array<PostShare, 3> shares{};
+    const CellCorners corners = cell_corners(diagonal, sample.west);
+    for (std::size_t i = 0; i < 3; ++i) {
+        // What a height of 1 at this post and 0 at the others makes there.
+        const auto at = [&](int r, int c) { return corners[i] == std::array{r, c} ? 1.0 : 0.0; };
+        const CellPlane plane = cell_plane(diagonal, sample.west, at(0, 0), at(0, 1), at(1, 0), at(1, 1));
+        shares[i] = {sample.row + corners[i][0], sample.column + corners[i][1],
+                     plane.at_corner + down * plane.change_down + right * plane.change_right};
+    }
+    return shares;
 }
 
 // At most half a step. What is usual is no chance: whole metres of H have all the same rest where N hardly

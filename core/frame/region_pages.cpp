@@ -27,6 +27,7 @@ class PagesInMemory : public RegionPages {
         const PageHeights heights = page_heights(facts().grid, heights_, page);
         std::copy(built.nodes.begin(), built.nodes.end(), std::begin(block.meshlets));
         std::copy(built.boxes.begin(), built.boxes.end(), std::begin(block.boxes));
+        std::ranges::copy(heights.rises, std::begin(block.rises));
         std::copy(heights.steps.begin(), heights.steps.end(), std::begin(block.heights));
         set_spacing(facts().grid, built.summary, block);
         return {};

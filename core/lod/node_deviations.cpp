@@ -52,34 +52,63 @@ std::uint32_t NodeDeviations::edges(int node_row, int node_column) const {
            (!last_column || goes_round_ ? gpu::edge_east : 0U);
 }
 
+// The plane of one of a quad's triangles: of its posts' steps, for shares of its height and width.
+CellPlane NodeDeviations::plane_of(const QuadPosts& quad, bool is_west) const {
+    return cell_plane(quad.diagonal, is_west, heights_.at(quad.north, quad.west),
+                      heights_.at(quad.north, quad.east), heights_.at(quad.south, quad.west),
+                      heights_.at(quad.south, quad.east));
+}
+
 // A quad narrower than high (or lower than wide), where the region ends: its diagonal crosses cells of the
 // full resolution. Both triangles' planes are asked at the posts of those cells: never less than the
 // deviation.
-double NodeDeviations::narrow_quad_deviation(int north, int west, int south, int east) const {
-    const double height = south - north;
-    const double width = east - west;
-    const double nw = heights_.at(north, west);
-    const double ne = heights_.at(north, east) - nw;
-    const double sw = heights_.at(south, west) - nw;
-    const double se = heights_.at(south, east) - nw;
+double NodeDeviations::narrow_quad_deviation(const QuadPosts& quad) const {
+    const double height = quad.south - quad.north, width = quad.east - quad.west;
+    const CellPlane west = plane_of(quad, true), east = plane_of(quad, false);
     Extremes extremes;
-    for (int row = north; row <= south; ++row) {
-        for (int column = west; column <= east; ++column) {
-            const double u = (row - north) / height;
-            const double v = (column - west) / width;
-            const double h = heights_.at(row, column) - nw;
-            const double side = (u - v) * height * width;
-            if (side > -(height + width)) extremes.add(h - (u * sw + v * (se - sw)));
-            if (side < height + width) extremes.add(h - (v * ne + u * (se - ne)));
+    for (int row = quad.north; row <= quad.south; ++row) {
+        for (int column = quad.west; column <= quad.east; ++column) {
+            const double down = (row - quad.north) / height, right = (column - quad.west) / width;
+            const double h = heights_.at(row, column);
+            const double side = west_of_diagonal(quad.diagonal, down, right) * height * width;
+            const auto off = [&](const CellPlane& plane) {
+                return h - plane.at_corner - (down * plane.change_down + right * plane.change_right);
+            };
+            if (side > -(height + width)) extremes.add(off(west));
+            if (side < height + width) extremes.add(off(east));
         }
     }
     return extremes.magnitude();
 }
 
+// Where cells on a square quad's diagonal are split across it: in their middles.
+double NodeDeviations::middles_deviation(const QuadPosts& quad) const {
+    Extremes extremes;
+    const int cells = quad.south - quad.north;
+    const CellPlane plane = plane_of(quad, true);
+    const double share = 1.0 / cells;
+    for (int i = 0; i < cells; ++i) {
+        const int row = quad.north + i,
+                  column = quad.diagonal == Diagonal::falls ? quad.west + i : quad.east - 1 - i;
+        if (heights_.diagonal(0, row, column) == quad.diagonal) continue;
+        const double middle =
+            quad.diagonal == Diagonal::falls
+                ? 0.5 * (static_cast<double>(heights_.at(row, column + 1)) + heights_.at(row + 1, column))
+                : 0.5 * (static_cast<double>(heights_.at(row, column)) + heights_.at(row + 1, column + 1));
+        extremes.add(middle - (plane.at_corner + share * (i + 0.5) * plane.change_down +
+                               share * (column - quad.west + 0.5) * plane.change_right));
+    }
+    return extremes.magnitude();
+}
+
 // Which part of a quad with void posts the full-resolution surface and the quad's triangles cover.
-NodeDeviations::Quad NodeDeviations::quad_with_voids(int north, int west, int south, int east) const {
+NodeDeviations::Quad NodeDeviations::quad_with_voids(const QuadPosts& quad) const {
+    // It has posts all around, and is drawn whole; something in it is not there.
+    if (quad.diagonal == Diagonal::rises) return {Cover::unequal, unfit_m};
+    const auto& [north, west, south, east, falls] = quad;
     const auto there = [&](int row, int column) { return heights_.at(row, column) != void_height_steps; };
-    std::array<std::int64_t, 2> drawn{};  // cells' triangles on either side of the diagonal
+    // Cells' triangles on either side of the diagonal; a cell on it that rises has half of each on either.
+    std::array<std::int64_t, 2> drawn{};
     for (int row = north; row < south; ++row) {
         for (int column = west; column < east; ++column) {
             if (!there(row, column) || !there(row + 1, column + 1)) continue;
@@ -93,7 +122,7 @@ NodeDeviations::Quad NodeDeviations::quad_with_voids(int north, int west, int so
     const bool diagonal = there(north, west) && there(south, east);
     const std::array present{diagonal && there(south, west), diagonal && there(north, east)};
     if (drawn[0] + drawn[1] == 0 && !present[0] && !present[1]) return {Cover::empty, 0.0};
-    if (south - north != east - west) return {Cover::unequal, unfit_m};
+    if (!quad.square()) return {Cover::unequal, unfit_m};
     const std::int64_t whole = static_cast<std::int64_t>(south - north) * (south - north);
     double deviation = 0.0;
     for (const std::size_t side : {0U, 1U}) {
@@ -108,40 +137,39 @@ NodeDeviations::Quad NodeDeviations::quad_with_voids(int north, int west, int so
 
 // Largest difference over one quad of the level, row and column counted over the level, in steps.
 NodeDeviations::Quad NodeDeviations::quad_deviation(int row, int column) const {
-    const int north = level_.row.region_post(row), south = level_.row.region_post(row + 1);
-    const int west = level_.column.region_post(column), east = level_.column.region_post(column + 1);
+    const QuadPosts quad{level_.row.region_post(row), level_.column.region_post(column),
+                         level_.row.region_post(row + 1), level_.column.region_post(column + 1),
+                         heights_.diagonal(level_.level(), row, column)};
+    const auto& [north, west, south, east, diagonal] = quad;
     bool any_void = false;
     for (const int r : {north, south}) {
         for (const int c : {west, east}) any_void = any_void || heights_.at(r, c) == void_height_steps;
     }
-    const bool square = south - north == east - west;
-    const double nw = heights_.at(north, west);
-    const double share = 1.0 / (south - north);
-    const double down_west = share * (heights_.at(south, west) - nw);
-    const double right_south =
-        share * (static_cast<double>(heights_.at(south, east)) - heights_.at(south, west));
-    const double right_north = share * (heights_.at(north, east) - nw);
-    const double down_east =
-        share * (static_cast<double>(heights_.at(south, east)) - heights_.at(north, east));
-    Extremes south_west;
-    Extremes north_east;
-    for (int i = 0; i <= south - north && !any_void; ++i) {
+    if (any_void) return quad_with_voids(quad);
+    const int size = south - north;
+    const double share = 1.0 / size;
+    const CellPlane plane_west = plane_of(quad, true), plane_east = plane_of(quad, false);
+    Extremes of_west;
+    Extremes of_east;
+    for (int i = 0; i <= size && !any_void; ++i) {
         const std::int32_t* steps = heights_.row(north + i) + west;
-        const int diagonal = square ? i : -1;
+        const int last = !quad.square() ? -1 : diagonal == Diagonal::falls ? i : size - i;
         std::int32_t lowest = 0;
-        for (int j = 0; j <= diagonal; ++j) {
-            lowest = std::min(lowest, steps[j]);
-            south_west.add(steps[j] - (nw + i * down_west + j * right_south));
-        }
-        for (int j = diagonal + 1; j <= east - west; ++j) {
-            lowest = std::min(lowest, steps[j]);
-            north_east.add(steps[j] - (nw + j * right_north + i * down_east));
-        }
+        const auto compare = [&](Extremes& extremes, const CellPlane& plane, int from, int to) {
+            const double down = share * plane.change_down, right = share * plane.change_right;
+            for (int j = from; j <= to; ++j) {
+                lowest = std::min(lowest, steps[j]);
+                extremes.add(steps[j] - (plane.at_corner + i * down + j * right));
+            }
+        };
+        compare(of_west, plane_west, 0, last);
+        compare(of_east, plane_east, last + 1, east - west);
         any_void = lowest == void_height_steps;
     }
-    if (any_void) return quad_with_voids(north, west, south, east);
-    if (!square) return {Cover::full, narrow_quad_deviation(north, west, south, east)};
-    return {Cover::full, std::max(south_west.magnitude(), north_east.magnitude())};
+    if (any_void) return quad_with_voids(quad);
+    if (!quad.square()) return {Cover::full, narrow_quad_deviation(quad)};
+    const double largest = std::max(of_west.magnitude(), of_east.magnitude());
+    return {Cover::full, heights_.diagonals ? std::max(largest, middles_deviation(quad)) : largest};
 }
 
 NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column) const {
@@ -247,8 +275,11 @@ NodeDeviation NodeDeviations::deviation(int node_row, int node_column) const {
     // edges do.
     const bool narrow = node_row == level_.row.nodes() - 1 || node_column == level_.column.nodes() - 1;
     const double rest_m = rounding_m + (finest ? 0.0 : sag_m.placement_m);
-    deviation.own_m =
-        finest ? 0.0 : deviation.own_m + rest_m + (narrow ? sag_m.stitched_m + sag_m.finest_m : sag_m.own_m);
+    // A quad's diagonal crosses those of cells that are split the other way.
+    const double crossing_m = heights_.diagonals ? sag_m.finest_m : 0.0;
+    deviation.own_m = finest ? 0.0
+                             : deviation.own_m + rest_m +
+                                   (narrow ? sag_m.stitched_m + sag_m.finest_m : sag_m.own_m + crossing_m);
     const std::uint32_t around = edges(node_row, node_column);
     for (std::size_t i = 0; i < 4; ++i) {
         if ((around >> i & 1U) != 0) deviation.stitched_m[i] += sag_m.stitched_m + sag_m.finest_m + rest_m;

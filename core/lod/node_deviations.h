@@ -32,7 +32,8 @@ class NodeDeviations {
 
     // In height, both surfaces linear over their triangles in (row, column): over every place, not only the
     // posts (the corners of the difference are the posts and where the node's edges cross those of the full
-    // resolution; all are asked). Exact; never too small where the region ends within a quad.
+    // resolution, in the middles of cells, too, that are split across a quad's diagonal; all are asked).
+    // Exact; never too small where the region ends within a quad.
     [[nodiscard]] NodeDeviation height_deviation(int node_row, int node_column) const;
     // Upper bound of the distance in space between a point of the full-resolution surface (flat triangles
     // between posts) and the point of the drawn node at the same (row, column); the rounding of the drawn
@@ -49,9 +50,12 @@ class NodeDeviations {
         int column;
     };
     using Triangle = std::array<Post, 3>;
-    // Triangle of a node, by (row, column) within it, that is there only with some edges stitched.
+    // Triangle of a node, by (row, column) within it, that is there only with some edges stitched, and where
+    // its quad is split so.
     struct Stitched {
         std::uint32_t edges;
+        std::array<std::uint32_t, 2> quad;
+        Diagonal diagonal;
         std::array<std::array<std::uint32_t, 2>, 3> posts;
     };
     enum class Cover { full, empty, equal, unequal };
@@ -82,9 +86,17 @@ class NodeDeviations {
                                                     std::uint32_t edges);
     [[nodiscard]] double triangle_deviation(const Triangle& triangle) const;
     [[nodiscard]] double crossing_deviation(const Post& from, const Post& to) const;
+    // A quad by its posts in the region, and its own diagonal.
+    struct QuadPosts {
+        int north, west, south, east;
+        Diagonal diagonal;
+        [[nodiscard]] bool square() const { return south - north == east - west; }
+    };
+    [[nodiscard]] CellPlane plane_of(const QuadPosts& quad, bool is_west) const;
     [[nodiscard]] Quad quad_deviation(int row, int column) const;
-    [[nodiscard]] Quad quad_with_voids(int north, int west, int south, int east) const;
-    [[nodiscard]] double narrow_quad_deviation(int north, int west, int south, int east) const;
+    [[nodiscard]] Quad quad_with_voids(const QuadPosts& quad) const;
+    [[nodiscard]] double narrow_quad_deviation(const QuadPosts& quad) const;
+    [[nodiscard]] double middles_deviation(const QuadPosts& quad) const;
     [[nodiscard]] static std::uint32_t unfit_edges(const std::array<Cover, 64>& covers, int rows,
                                                    int columns);
     [[nodiscard]] PerEdge stitched_deviation(int node_row, int node_column, std::uint32_t edges) const;

@@ -23,30 +23,35 @@ std::vector<NodeDeviations::Stitched> NodeDeviations::stitched_triangles(std::ui
     std::vector<Stitched> found;
     const auto known = [&](const Stitched& candidate) {
         return std::any_of(found.begin(), found.end(), [&](const Stitched& other) {
-            return other.posts == candidate.posts && (other.edges & candidate.edges) == other.edges;
+            return other.posts == candidate.posts && other.diagonal == candidate.diagonal &&
+                   other.quad == candidate.quad && (other.edges & candidate.edges) == other.edges;
         });
+    };
+    const auto add = [&](Stitched candidate, const CellCorners& corners) {
+        const glm::uvec2 quad(candidate.quad[0], candidate.quad[1]);
+        bool changed = false;
+        std::array<glm::ivec2, 3> at;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::uvec2 plain = quad + glm::uvec2(corners[i][0], corners[i][1]);
+            const glm::uvec2 to = gpu::stitched_post(plain, {rows, columns}, candidate.edges);
+            changed = changed || to != plain;
+            candidate.posts[i] = {to.x, to.y};
+            at[i] = glm::ivec2(to);
+        }
+        const glm::ivec2 a = at[1] - at[0];
+        const glm::ivec2 b = at[2] - at[0];
+        if (changed && a.x * b.y != a.y * b.x && !known(candidate)) found.push_back(candidate);
     };
     for (std::uint32_t mask = 1; mask < 16; ++mask) {
         if ((mask & edges) != mask) continue;
         for (std::uint32_t i = 0; i < 2 * rows * columns; ++i) {
-            const std::uint32_t row = i / 2 / columns;
-            const std::uint32_t column = i / 2 % columns;
-            const std::uint32_t side = i % 2;
-            const std::array<glm::uvec2, 3> plain{
-                glm::uvec2{row, column}, {row + 1 - side, column + side}, {row + 1, column + 1}};
-            Stitched candidate{mask, {}};
-            bool changed = false;
-            std::array<glm::ivec2, 3> at;
-            for (std::size_t corner = 0; corner < 3; ++corner) {
-                const glm::uvec2 to = gpu::stitched_post(plain[corner], {rows, columns}, mask);
-                changed = changed || to != plain[corner];
-                candidate.posts[corner] = {to.x, to.y};
-                at[corner] = glm::ivec2(to);
+            const std::array quad{i / 2 / columns, i / 2 % columns};
+            for (const Diagonal diagonal : {Diagonal::falls, Diagonal::rises}) {
+                const bool rises =
+                    gpu::drawn_rising(diagonal == Diagonal::rises, {quad[0], quad[1]}, {rows, columns}, mask);
+                add({mask, quad, diagonal, {}},
+                    cell_corners(rises ? Diagonal::rises : Diagonal::falls, i % 2 == 0));
             }
-            const glm::ivec2 a = at[1] - at[0];
-            const glm::ivec2 b = at[2] - at[0];
-            if (!changed || a.x * b.y == a.y * b.x || known(candidate)) continue;
-            found.push_back(candidate);
         }
     }
     return found;
@@ -57,7 +62,7 @@ std::vector<NodeDeviations::Stitched> NodeDeviations::stitched_triangles(std::ui
 double NodeDeviations::crossing_deviation(const Post& from, const Post& to) const {
     const int down = to.row - from.row;
     const int right = to.column - from.column;
-    if (down == 0 || right == 0 || down == right) return 0.0;
+    if (down == 0 || right == 0 || (down == right && !heights_.diagonals)) return 0.0;
     const double h0 = heights_.at(from.row, from.column);
     const double h1 = heights_.at(to.row, to.column);
     Extremes extremes;
@@ -87,12 +92,23 @@ double NodeDeviations::crossing_deviation(const Post& from, const Post& to) cons
     }
     const int across = right - down;
     const int step_across = across > 0 ? 1 : -1;
-    for (int i = step_across; i != across; i += step_across) {
+    for (int i = step_across; across != 0 && i != across; i += step_across) {
         const double t = static_cast<double>(i) / across;
         const double row = from.row + t * down;
         const int north = static_cast<int>(std::floor(row));
         const int west = north + from.column - from.row + i;
-        if (row > north) compare(t, north, west, row - north, 1, 1);
+        if (row > north && heights_.diagonal(0, north, west) == Diagonal::falls)
+            compare(t, north, west, row - north, 1, 1);
+    }
+    const int together = heights_.diagonals ? right + down : 0;
+    const int step_together = together > 0 ? 1 : -1;
+    for (int i = step_together; together != 0 && i != together; i += step_together) {
+        const double t = static_cast<double>(i) / together;
+        const double row = from.row + t * down;
+        const int north = static_cast<int>(std::floor(row));
+        const int east = from.row + from.column + i - north;
+        if (row > north && heights_.diagonal(0, north, east - 1) == Diagonal::rises)
+            compare(t, north, east, row - north, 1, -1);
     }
     // That surface is not there on either side of an edge that ends in a void post.
     return beside_void ? unfit_m : extremes.magnitude();
@@ -166,6 +182,10 @@ PerEdge NodeDeviations::stitched_deviation(int node_row, int node_column, std::u
     PerEdge deviation{};
     for (const Stitched& stitched : whole ? whole_node_ : own) {
         if ((stitched.edges & edges) != stitched.edges) continue;
+        if (heights_.diagonal(level_.level(), node_row * node_quads + static_cast<int>(stitched.quad[0]),
+                              node_column * node_quads + static_cast<int>(stitched.quad[1])) !=
+            stitched.diagonal)
+            continue;
         Triangle triangle;
         bool dropped = false;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -180,37 +200,54 @@ PerEdge NodeDeviations::stitched_deviation(int node_row, int node_column, std::u
     return deviation;
 }
 
-// The same for a whole node of level 0 without voids, where only two places of a pair of quads can be the
-// worst: the post that is left out, and the one crossing of an edge that is new. In halves of a step, so that
-// it is exact.
+// The same for a whole node of level 0 without voids, where only few places of a pair of quads can be the
+// worst: the post that is left out, and where edges that are new cross those of the two quads. In sixths of a
+// step, so that it is exact.
 PerEdge NodeDeviations::finest_stitched_deviation(int node_row, int node_column) const {
-    const int north = node_row * node_quads;
-    const int west = node_column * node_quads;
-    std::array<std::int64_t, 4> twice{};
-    // Twice the middle of a and b less that of c and d.
-    const auto compare = [&](std::size_t edge, std::int64_t a, std::int64_t b, std::int64_t c,
-                             std::int64_t d) {
-        twice[edge] = std::max(twice[edge], std::abs(a + b - c - d));
+    const int north = node_row * node_quads, west = node_column * node_quads;
+    std::array<std::int64_t, 4> sixfold{};
+    // A pair of quads that an edge joins. Of the posts along the edge the second goes to the first; those
+    // inside lie beside them. The first quad becomes a triangle, cut off along the line from the first post
+    // of the edge to the second inside. The second one is split by a line that ends at the first post of the
+    // edge, or as it was before. As seen from there, a diagonal `from_first` begins at the first post of the
+    // edge in either quad.
+    const auto join = [&](std::size_t edge, const std::array<std::int64_t, 3>& along,
+                          const std::array<std::int64_t, 3>& inside, bool first_from_first,
+                          bool second_from_first) {
+        const auto middles = [&](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+            sixfold[edge] = std::max(sixfold[edge], 3 * std::abs(a + b - c - d));
+        };
+        middles(along[0], along[2], along[1], along[1]);
+        if (!first_from_first) middles(along[0], inside[1], along[1], inside[0]);
+        if (!second_from_first) return;
+        middles(along[0], inside[2], along[1], inside[1]);
+        // A third along the new line, two thirds along the first quad's diagonal.
+        if (!first_from_first)
+            sixfold[edge] =
+                std::max(sixfold[edge], 2 * std::abs(2 * along[0] + inside[2] - inside[0] - 2 * along[1]));
     };
+    const auto post = [&](int row, int column) {
+        return std::int64_t{heights_.at(north + row, west + column)};
+    };
+    const auto rises = [&](int row, int column) {
+        return heights_.diagonal(0, north + row, west + column) == Diagonal::rises;
+    };
+    constexpr int last = node_quads - 1;
     for (int i = 1; i < node_quads; i += 2) {
-        const std::int32_t* top = heights_.row(north) + west + i;
-        const std::int32_t* below_top = heights_.row(north + 1) + west + i;
-        compare(0, top[-1], top[1], top[0], top[0]);
-        compare(0, top[-1], below_top[1], top[0], below_top[0]);
-        const std::int32_t* bottom = heights_.row(north + node_quads) + west + i;
-        const std::int32_t* above_bottom = heights_.row(north + node_quads - 1) + west + i;
-        compare(2, bottom[-1], bottom[1], bottom[0], bottom[0]);
-        compare(2, bottom[-1], above_bottom[0], above_bottom[-1], bottom[0]);
-        const std::int32_t* above = heights_.row(north + i - 1) + west;
-        const std::int32_t* row = heights_.row(north + i) + west;
-        const std::int32_t* below = heights_.row(north + i + 1) + west;
-        compare(1, above[8], below[8], row[8], row[8]);
-        compare(1, row[7], above[8], above[7], row[8]);
-        compare(3, above[0], below[0], row[0], row[0]);
-        compare(3, above[0], below[1], row[0], row[1]);
+        const auto row = [&](int r) { return std::array{post(r, i - 1), post(r, i), post(r, i + 1)}; };
+        const auto column = [&](int c) { return std::array{post(i - 1, c), post(i, c), post(i + 1, c)}; };
+        join(0, row(0), row(1), !rises(0, i - 1), !rises(0, i));
+        join(1, column(node_quads), column(last), rises(i - 1, last), rises(i, last));
+        join(2, row(node_quads), row(last), rises(last, i - 1), rises(last, i));
+        join(3, column(0), column(1), !rises(i - 1, 0), !rises(i, 0));
     }
+    // Where both edges are stitched this quad falls (shaders/choose/levels.glsl, drawn_rising).
+    constexpr std::uint32_t corner = gpu::edge_south | gpu::edge_east;
+    if (rises(last, last) && (edges(node_row, node_column) & corner) == corner)
+        sixfold[1] = std::max(sixfold[1], 3 * std::abs(post(last, last) + post(last + 1, last + 1) -
+                                                       post(last, last + 1) - post(last + 1, last)));
     PerEdge deviation{};
-    for (std::size_t i = 0; i < 4; ++i) deviation[i] = 0.5 * static_cast<double>(twice[i]);
+    for (std::size_t i = 0; i < 4; ++i) deviation[i] = static_cast<double>(sixfold[i]) / 6.0;
     return deviation;
 }
 

@@ -206,6 +206,7 @@ Result<void> SeamPages::load(const PageIndex& page, gpu::PageBlock& block) const
     const PageSummary& summary = records_[static_cast<std::size_t>(page.column)].summary;
     std::fill(std::begin(block.heights), std::end(block.heights), gpu::void_height);
     std::fill(std::begin(block.boxes), std::end(block.boxes), 0U);  // nothing asks for them
+    std::fill(std::begin(block.rises), std::end(block.rises), 0U);
     std::vector<Around> around(gpu::meshlets_per_page);
     const glm::dmat3 page_from_ecef = glm::transpose(summary.ecef_from_page);
     const std::span<const SeamQuad> quads = quads_on(page.column);

@@ -16,7 +16,8 @@ struct Step {
 
 class Crossings {
   public:
-    Crossings(const PostGrid& grid, const Way& way) : grid_(grid), way_(way) {}
+    Crossings(const TrueSurface& surface, const Way& way)
+        : surface_(surface), grid_(surface.field().grid), way_(way) {}
 
     [[nodiscard]] Step at(double along_m) const {
         const Geodetic place = way_(along_m);
@@ -32,10 +33,14 @@ class Crossings {
 
   private:
     [[nodiscard]] bool outside(const std::array<Step, 3>& piece) const;
-    // Where a parabola through the values at a piece's begin, middle and end is a whole number.
+    // Where a parabola through the values at a piece's begin, middle and end is a whole number; takes each of
+    // those places, of the share of the piece's way, that is_edge() says yes to.
+    template <class IsEdge>
     void search(const std::array<Step, 3>& piece, const std::array<double, 3>& value, double lowest,
-                double highest);
+                double highest, const IsEdge& is_edge);
+    [[nodiscard]] bool splits(const std::array<Step, 3>& piece, double share, Diagonal diagonal) const;
 
+    const TrueSurface& surface_;
     const PostGrid& grid_;
     const Way& way_;
     std::vector<double> found_;
@@ -60,10 +65,14 @@ void Crossings::walk(const Step& from, const Step& to, int depth) {
     if (straight) {
         if (outside(piece)) return;
         const double last_row = grid_.rows() - 1, last_column = grid_.columns() - 1;
-        search(piece, {from.row, middle.row, to.row}, 0.0, last_row);
-        search(piece, {from.column, middle.column, to.column}, 0.0, last_column);
+        const auto always = [](double) { return true; };
+        search(piece, {from.row, middle.row, to.row}, 0.0, last_row, always);
+        search(piece, {from.column, middle.column, to.column}, 0.0, last_column, always);
         search(piece, {from.row - from.column, middle.row - middle.column, to.row - to.column}, -last_column,
-               last_row);
+               last_row, [&](double share) { return splits(piece, share, Diagonal::falls); });
+        if (grid_.split == CellSplit::all_fall) return;
+        search(piece, {from.row + from.column, middle.row + middle.column, to.row + to.column}, 0.0,
+               last_row + last_column, [&](double share) { return splits(piece, share, Diagonal::rises); });
         return;
     }
     if (depth == deepest) {
@@ -74,8 +83,22 @@ void Crossings::walk(const Step& from, const Step& to, int depth) {
     walk(middle, to, depth + 1);
 }
 
+// Whether the cell there is split so. On the rim of cells it does not matter: rows and columns are edges.
+bool Crossings::splits(const std::array<Step, 3>& piece, double share, Diagonal diagonal) const {
+    if (grid_.split == CellSplit::all_fall) return diagonal == Diagonal::falls;
+    if (grid_.rows() < 2 || grid_.columns() < 2) return false;
+    const auto at = [&](double a, double b, double c) {
+        return a + share * (-3.0 * a + 4.0 * b - c + share * 2.0 * (a - 2.0 * b + c));
+    };
+    const double row = std::floor(at(piece[0].row, piece[1].row, piece[2].row));
+    const double column = std::floor(at(piece[0].column, piece[1].column, piece[2].column));
+    return surface_.diagonal_at(static_cast<int>(std::clamp(row, 0.0, grid_.rows() - 2.0)),
+                                static_cast<int>(std::clamp(column, 0.0, grid_.columns() - 2.0))) == diagonal;
+}
+
+template <class IsEdge>
 void Crossings::search(const std::array<Step, 3>& piece, const std::array<double, 3>& value, double lowest,
-                       double highest) {
+                       double highest, const IsEdge& is_edge) {
     const double square = 2.0 * (value[0] - 2.0 * value[1] + value[2]);
     const double slope = -3.0 * value[0] + 4.0 * value[1] - value[2];
     const double length_m = piece[2].along_m - piece[0].along_m;
@@ -91,15 +114,16 @@ void Crossings::search(const std::array<Step, 3>& piece, const std::array<double
         // Without loss. Source: W. H. Press et al., Numerical Recipes, 3rd ed. 2007, eq. 5.6.4.
         const double q = -0.5 * (slope + std::copysign(std::sqrt(discriminant), slope));
         for (const double share : {q != 0.0 ? at_0 / q : -1.0, square != 0.0 ? q / square : -1.0}) {
-            if (share >= 0.0 && share <= 1.0) found_.push_back(piece[0].along_m + share * length_m);
+            if (share >= 0.0 && share <= 1.0 && is_edge(share))
+                found_.push_back(piece[0].along_m + share * length_m);
         }
     }
 }
 
 }  // namespace
 
-std::vector<double> edge_crossings(const PostGrid& grid, const Way& way, double from_m, double to_m) {
-    Crossings crossings(grid, way);
+std::vector<double> edge_crossings(const TrueSurface& surface, const Way& way, double from_m, double to_m) {
+    Crossings crossings(surface, way);
     // So short that a way turns to one side only in it.
     constexpr double longest_m = 5000.0;
     const int pieces = std::max(1, static_cast<int>(std::ceil((to_m - from_m) / longest_m)));
@@ -113,10 +137,10 @@ std::vector<double> edge_crossings(const PostGrid& grid, const Way& way, double 
 }
 
 std::vector<double> edge_crossings(const TrueGround& ground, const Way& way, double from_m, double to_m) {
-    if (ground.grids() == 1) return edge_crossings(ground.surface(0).field().grid, way, from_m, to_m);
+    if (ground.grids() == 1) return edge_crossings(ground.surface(0), way, from_m, to_m);
     std::vector<double> all;
     for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
-        const std::vector<double> its = edge_crossings(ground.surface(grid).field().grid, way, from_m, to_m);
+        const std::vector<double> its = edge_crossings(ground.surface(grid), way, from_m, to_m);
         all.insert(all.end(), its.begin(), its.end());
     }
     std::ranges::sort(all);

@@ -26,9 +26,9 @@ int grid_column(const PostGrid& grid, int column) {
 EyePlane::EyePlane(const TrueSurface& surface, const Lookout& lookout, const PostWindow& window, int threads)
     : window_(window),
       stride_(window.columns + 2),
-      neighbours_{1, stride_ + 1, stride_, -1, -stride_ - 1, -stride_},
       posts_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(window.rows + 2),
              PlanePost{no_number, no_number, no_number, no_number, no_number}),
+      rises_(posts_.size(), 0),
       enu_from_ecef_(glm::transpose(ecef_from_enu(lookout.eye().lat_deg, lookout.eye().lon_deg))),
       bend_per_m_(0.5 * lookout.sight().refraction.curvature_per_m()),
       bulge_per_m_(0.5 / std::sqrt(prime_vertical_radius_m(lookout.eye().lat_deg) *
@@ -78,6 +78,12 @@ void EyePlane::place_row(const TrueSurface& surface, int row) {
         posts_[static_cast<std::size_t>(number(row, column))] = {enu.x, enu.y, seen_m, distance_m,
                                                                  seen_m / distance_m};
     }
+    if (grid.split == CellSplit::all_fall || row + 1 >= window_.rows) return;
+    for (int column = 0; column + 1 < window_.columns; ++column) {
+        const Diagonal diagonal = surface.diagonal_of_many(window_.first_row + row,
+                                                           grid_column(grid, window_.first_column + column));
+        rises_[static_cast<std::size_t>(number(row, column))] = diagonal == Diagonal::rises ? 1 : 0;
+    }
 }
 
 glm::dvec3 EyePlane::normal(int row, int column) const {
@@ -96,9 +102,14 @@ void EyePlane::measure(const PostGrid& grid, int threads) {
                own_rise_m = 0.0;
         for (int column = 0; column < window_.columns; ++column) {
             const std::int64_t here = number(row, column);
-            const PlanePost& a = post(here);
-            for (int i = 0; i < 3; ++i) {
-                const PlanePost& b = post(here + neighbours_[i]);
+            // Eastwards, down the cell's own diagonal, southwards.
+            const std::int64_t across = rises_[static_cast<std::size_t>(here)] != 0 ? here + 1 : here;
+            const std::array<std::array<std::int64_t, 2>, 3> edges{
+                {{here, here + 1},
+                 {across, here + stride_ + (across == here ? 1 : 0)},
+                 {here, here + stride_}}};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const PlanePost &a = post(edges[i][0]), &b = post(edges[i][1]);
                 const double dx = b.x - a.x, dy = b.y - a.y, rise_m = std::abs(b.z - a.z);
                 const double length2 = dx * dx + dy * dy;
                 // Not of what has no place or no height: a comparison with no number is false.

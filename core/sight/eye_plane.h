@@ -1,6 +1,8 @@
 // The ground around an eye, as it is seen: posts over the plane that is level there. Within core.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
@@ -37,7 +39,42 @@ class EyePlane {
     [[nodiscard]] std::int64_t number(int row, int column) const { return (row + 1) * stride_ + column + 1; }
     [[nodiscard]] std::int64_t stride() const { return stride_; }
     // The neighbours of a post, turning one way; each two that follow each other, and it, are a triangle.
-    [[nodiscard]] const std::int64_t* neighbours() const { return neighbours_; }
+    struct Neighbours {
+        std::array<std::int64_t, 8> numbers;
+        int count;  // 4 to 8
+    };
+    [[nodiscard]] Neighbours neighbours(std::int64_t number) const {
+        const auto rises = [&](std::int64_t cell) { return rises_[static_cast<std::size_t>(cell)] != 0; };
+        Neighbours around{{}, 0};
+        const auto add = [&](std::int64_t step) {
+            around.numbers[static_cast<std::size_t>(around.count++)] = number + step;
+        };
+        add(1);
+        if (!rises(number)) add(stride_ + 1);
+        add(stride_);
+        if (rises(number - 1)) add(stride_ - 1);
+        add(-1);
+        if (!rises(number - stride_ - 1)) add(-stride_ - 1);
+        add(-stride_);
+        if (rises(number - stride_)) add(1 - stride_);
+        return around;
+    }
+    // The third post of the triangle on the other side of the edge of two, seen from the third on this side.
+    [[nodiscard]] std::int64_t beyond(std::int64_t one, std::int64_t other, std::int64_t before) const {
+        const std::int64_t low = std::min(one, other), high = std::max(one, other);
+        const auto rises = [&](std::int64_t cell) { return rises_[static_cast<std::size_t>(cell)] != 0; };
+        if (high - low == 1) {  // along a row
+            const bool south = before < low;
+            if (south) return rises(low) ? low + stride_ : high + stride_;
+            return rises(low - stride_) ? high - stride_ : low - stride_;
+        }
+        if (high - low == stride_) {  // along a column
+            const bool east = before == low - 1 || before == high - 1;
+            if (east) return rises(low) ? low + 1 : high + 1;
+            return rises(low - 1) ? high - 1 : low - 1;
+        }
+        return one + other - before;  // a diagonal: across the cell
+    }
 
     // No edge is longer, in the plane.
     [[nodiscard]] double longest_edge_m() const { return longest_edge_m_; }
@@ -68,8 +105,8 @@ class EyePlane {
 
     PostWindow window_;
     std::int64_t stride_;
-    std::int64_t neighbours_[6];
     std::vector<PlanePost> posts_;
+    std::vector<char> rises_;  // of the cell south-east of each; those that the window has not wholly fall
     glm::dmat3 enu_from_ecef_;
     glm::dvec3 eye_enu_{};                // of the eye's ECEF place
     std::shared_ptr<const GridNet> net_;  // where posts lie on one, instead of rows_ and columns_

@@ -152,14 +152,17 @@ void Sweep::sort_posts() {
 void Sweep::add_edges(std::int64_t number, HorizonSector& sector) const {
     const PlanePost& post = plane_.post(number);
     const double own2 = along(post, post);
-    const std::int64_t* const next = plane_.neighbours();
-    for (int i = 0; i < 6; ++i) {
-        const std::int64_t other = number + next[i];
+    const EyePlane::Neighbours next = plane_.neighbours(number);
+    for (int i = 0; i < next.count; ++i) {
+        const auto neighbour = [&](int of) {
+            return next.numbers[static_cast<std::size_t>(of % next.count)];
+        };
+        const std::int64_t other = neighbour(i);
         const PlanePost& its = plane_.post(other);
         const double its2 = along(its, its);
         if (!(its2 < own2 || (its2 == own2 && other < number))) continue;
-        const bool before = std::isnan(plane_.post(number + next[(i + 5) % 6]).z);
-        const bool after = std::isnan(plane_.post(number + next[(i + 1) % 6]).z);
+        const bool before = std::isnan(plane_.post(neighbour(i + next.count - 1)).z);
+        const bool after = std::isnan(plane_.post(neighbour(i + 1)).z);
         // An edge of no triangle is no ground.
         if (!(before && after)) sector.add_edge(number, other, before != after);
     }
@@ -169,12 +172,13 @@ void Sweep::add_edges(std::int64_t number, HorizonSector& sector) const {
 // nearer than `until_m`. False where the net ends on the way, or a line of sight runs along an edge.
 bool Sweep::walk(std::int64_t from, const PlanePost& target, double until_m, Horizon& horizon) const {
     const double length2 = along(target, target), length_m = target.distance_m;
-    const std::int64_t* const next = plane_.neighbours();
+    const EyePlane::Neighbours next = plane_.neighbours(from);
     std::int64_t before = from, left = -1, right = -1;
     double of_left = 0.0, of_right = 0.0;  // each the other's turn from the line: a weight
-    double turn_one = 0.0, turn_two = turn(target, plane_.post(from + next[0]));
-    for (int i = 0; i < 6; ++i) {
-        const std::int64_t one = from + next[i], two = from + next[(i + 1) % 6];
+    double turn_one = 0.0, turn_two = turn(target, plane_.post(next.numbers[0]));
+    for (int i = 0; i < next.count; ++i) {
+        const std::int64_t one = next.numbers[static_cast<std::size_t>(i)],
+                           two = next.numbers[static_cast<std::size_t>((i + 1) % next.count)];
         turn_one = turn_two;
         turn_two = turn(target, plane_.post(two));
         if (!(turn_one * turn_two <= 0.0)) continue;
@@ -197,7 +201,7 @@ bool Sweep::walk(std::int64_t from, const PlanePost& target, double until_m, Hor
         const double distance_m =
             (along(a, target) * of_right + along(b, target) * of_left) / (sum * length_m);
         if (distance_m <= 0.0) return true;
-        const std::int64_t after = left + right - before;
+        const std::int64_t after = plane_.beyond(left, right, before);
         const PlanePost& third = plane_.post(after);
         const double height_m = (a.z * of_right + b.z * of_left) / sum + plane_.bulge_m(a, b, of_left / sum);
         const bool none_before = std::isnan(plane_.post(before).z), none_after = std::isnan(third.z);

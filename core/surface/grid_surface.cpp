@@ -17,9 +17,15 @@ constexpr double on_edge_posts = 1.0e-7;
 }  // namespace
 
 GridSurface::GridSurface(const DrawnHeights& heights, const GridWindow& window)
-    : heights_(heights), window_(window) {
+    : heights_(heights), window_(window), rises_(heights.steps.size(), 0) {
     assert(window.first_row % static_cast<int>(gpu::meshlet_quads) == 0);
     assert(window.first_column % static_cast<int>(gpu::meshlet_quads) == 0);
+    for (int row = 0; heights.diagonals && row < heights.rows - 1; ++row) {
+        for (int column = 0; column < heights.columns - 1; ++column)
+            rises_[static_cast<std::size_t>(row) * static_cast<std::size_t>(heights.columns) +
+                   static_cast<std::size_t>(column)] =
+                heights.diagonal(0, row, column) == Diagonal::rises ? 1 : 0;
+    }
 }
 
 bool GridSurface::is_window() const {
@@ -44,12 +50,15 @@ SurfaceVertex GridSurface::vertex(VertexNumber number) const {
             window_.first_column + static_cast<std::int32_t>(number % columns), heights_.steps[number]};
 }
 
-// side 0: south-west of the diagonal, 1: north-east of it. Clockwise on the map.
+// side 0: that with the cell's western edge, 1: that with its eastern one. Clockwise on the map.
 VertexTriangle GridSurface::triangle_of(int row, int column, int side) const {
     const auto columns = static_cast<VertexNumber>(heights_.columns);
     const VertexNumber north_west =
         static_cast<VertexNumber>(row) * columns + static_cast<VertexNumber>(column);
     const VertexNumber south_east = north_west + columns + 1;
+    if (rises_[north_west] != 0)
+        return side == 0 ? VertexTriangle{north_west, north_west + 1, north_west + columns}
+                         : VertexTriangle{north_west + columns, north_west + 1, south_east};
     if (side == 0) return {north_west, south_east, north_west + columns};
     return {north_west, north_west + 1, south_east};
 }
@@ -102,8 +111,10 @@ double GridSurface::crossing_difference(const SurfaceVertex& from, const Surface
         across = down > 0 ? columns : -columns;
     else if (lines.along == columns)
         across = right > 0 ? 1 : -1;
-    else
+    else if (lines.rises == 0)
         across = right - down > 0 ? 1 : -1;  // a diagonal's post of the same row
+    else
+        across = right + down > 0 ? 1 : -1;
     const std::ptrdiff_t whole_step = across + whole * lines.along;
     const std::int32_t* passed = post(from.row, from.column);
     std::int64_t left = 0;
@@ -114,6 +125,7 @@ double GridSurface::crossing_difference(const SurfaceVertex& from, const Surface
             left -= lines.count;
             passed += lines.along;
         }
+        if (lines.diagonals && left != 0 && rises(passed + lines.cell) != lines.rises) continue;
         double original = *passed;
         if (left != 0)
             original +=
@@ -126,9 +138,13 @@ double GridSurface::crossing_difference(const SurfaceVertex& from, const Surface
 
 double GridSurface::edge_difference(const SurfaceVertex& from, const SurfaceVertex& to, double limit) const {
     const int down = to.row - from.row, right = to.column - from.column;
-    const int rows = std::abs(down), columns = std::abs(right), diagonals = std::abs(right - down);
+    const int rows = std::abs(down), columns = std::abs(right);
+    const int falling = std::abs(right - down), rising = std::abs(right + down);
     if (rows <= 1 && columns <= 1) {
-        if (diagonals != 2) return 0.0;  // an edge of the grid
+        if (rows + columns < 2) return 0.0;  // along a row or a column
+        const bool rises_there =
+            rises(post(std::min(from.row, to.row), std::min(from.column, to.column))) != 0;
+        if (rises_there == (rising == 0)) return 0.0;  // the cell's own diagonal
         const double crossed = static_cast<double>(*post(from.row, to.column)) + *post(to.row, from.column);
         return 0.5 * std::abs(crossed - (static_cast<double>(from.steps) + to.steps));
     }
@@ -136,8 +152,12 @@ double GridSurface::edge_difference(const SurfaceVertex& from, const SurfaceVert
     if (rows > 1) largest = crossing_difference(from, to, {rows, 1}, limit);
     if (columns > 1 && largest <= limit)
         largest = std::max(largest, crossing_difference(from, to, {columns, heights_.columns}, limit));
-    if (diagonals > 1 && largest <= limit)
-        largest = std::max(largest, crossing_difference(from, to, {diagonals, heights_.columns + 1}, limit));
+    if (falling > 1 && largest <= limit)
+        largest = std::max(largest,
+                           crossing_difference(from, to, {falling, heights_.columns + 1, 0, 0, true}, limit));
+    if (heights_.diagonals && rising > 1 && largest <= limit)
+        largest = std::max(largest,
+                           crossing_difference(from, to, {rising, heights_.columns - 1, -1, 1, true}, limit));
     return largest;
 }
 

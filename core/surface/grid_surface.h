@@ -19,7 +19,7 @@ struct GridWindow {
 };
 
 // Vertex number row * columns + column, counted within the heights; places are those in the region. A cell is
-// two triangles, split from its north-west to its south-east post; a triangle with a void post is not there,
+// two triangles (core/terrain/cell_diagonal.h); a triangle with a void post is not there,
 // so that cells with void posts are holes. Leaves are the nodes of level 0: 8 x 8 quads. Reads `heights`
 // where it is.
 class GridSurface final : public OriginalSurface {
@@ -43,6 +43,10 @@ class GridSurface final : public OriginalSurface {
     struct Lines {
         int count;             // crossings, both ends left out: 1 .. count - 1
         std::ptrdiff_t along;  // posts, in memory
+        // Of diagonals: where a cell's north-west post is from the one passed, and whether it must rise.
+        std::ptrdiff_t cell{};
+        char rises{};
+        bool diagonals{};
     };
     [[nodiscard]] VertexTriangle triangle_of(int row, int column, int side) const;
     [[nodiscard]] bool triangle_there(const VertexTriangle& triangle) const;
@@ -54,8 +58,13 @@ class GridSurface final : public OriginalSurface {
         return heights_.row(row - window_.first_row) + (column - window_.first_column);
     }
 
+    [[nodiscard]] char rises(const std::int32_t* north_west) const {
+        return rises_[static_cast<std::size_t>(north_west - heights_.steps.data())];
+    }
+
     const DrawnHeights& heights_;
     GridWindow window_;
+    std::vector<char> rises_;  // of the cell south-east of each post
 };
 
 }  // namespace oro

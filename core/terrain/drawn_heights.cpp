@@ -82,6 +82,7 @@ DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int th
             }
         }
     });
+    heights.diagonals = CellDiagonals::of(field, threads);
     if (!heights.steps.empty())
         heights.highest_steps = *std::max_element(heights.steps.begin(), heights.steps.end());
     return heights;

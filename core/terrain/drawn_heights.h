@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
+#include "core/terrain/cell_diagonals.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {
@@ -26,13 +27,19 @@ struct DrawnHeights {
     int columns{};
     std::vector<std::int32_t> steps;  // void_height_steps where there is none
     std::int32_t highest_steps{void_height_steps};
+    std::shared_ptr<const CellDiagonals> diagonals{};  // null: all fall
 
     [[nodiscard]] const std::int32_t* row(int number) const {
         return steps.data() + static_cast<std::size_t>(number) * static_cast<std::size_t>(columns);
     }
     [[nodiscard]] std::int32_t at(int row_number, int column) const { return row(row_number)[column]; }
+    // Of a cell of a level, by the level's own rows and columns.
+    [[nodiscard]] Diagonal diagonal(int level, int row_number, int column) const {
+        return diagonals ? diagonals->at(level, row_number, column) : Diagonal::falls;
+    }
 };
-// 4 bytes a post; the work is shared between `threads` (at least 1), with one result for any number.
+// 4 bytes a post, and what diagonals take; the work is shared between `threads` (at least 1), with one result
+// for any number.
 DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int threads);
 
 // The step nearest to a height, halves upwards.

@@ -17,7 +17,8 @@ std::optional<double> ground_h_m(const HeightField& field, double lat_deg, doubl
                field.undulation.at_m(row_lat_deg(field.grid, row),
                                      canonical_lon_deg(field.grid, row, canonical));
     };
-    return h_on_grid_m(field.grid, post_h_m, lat_deg, lon_deg);
+    const auto diagonal_at = [&](int row, int column) { return cell_diagonal(field, row, column); };
+    return h_on_grid_m(field.grid, post_h_m, diagonal_at, lat_deg, lon_deg);
 }
 
 }  // namespace oro

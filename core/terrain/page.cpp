@@ -141,6 +141,7 @@ void PageBuilder::place_origin() {
 
 void PageBuilder::fill_block() {
     set_spacing(grid_, summary_, block_);
+    std::ranges::copy(heights_.rises, std::begin(block_.rises));
     std::copy(heights_.steps.begin(), heights_.steps.end(), std::begin(block_.heights));
 }
 

@@ -55,11 +55,13 @@ struct PageSummary {
 struct PageHeights {
     std::array<std::int32_t, gpu::page_heights>
         steps;  // drawn, see drawn_heights.h; void_height_steps where none
+    std::array<std::uint32_t, gpu::page_diagonal_words> rises{};  // as in the page's block
 };
 PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, PageIndex index);
 
 // The same posts as the source gives them: H in metres, void_height_m where there is none. Posts that are one
-// point (a meridian's two columns, a pole) have the H that is drawn for all of them.
+// point (a meridian's two columns, a pole) have the H that is drawn for all of them. Where a region that goes
+// round the Earth ends within the page, one more column, which only diagonals are decided by.
 struct PageElevations {
     std::array<float, gpu::page_heights> H_m;
 };

@@ -11,6 +11,51 @@ namespace {
 
 constexpr int posts = static_cast<int>(gpu::page_posts);
 constexpr int stride = static_cast<int>(gpu::height_stride);
+constexpr int quads = static_cast<int>(gpu::page_quads), side = static_cast<int>(gpu::meshlets_per_side),
+              meshlet_quads = static_cast<int>(gpu::meshlet_quads);
+
+using PageDiagonals = std::array<std::uint32_t, gpu::page_diagonal_words>;
+
+// Puts the bits of eight cells of a row of a page's where the block has them.
+void put_eight(PageDiagonals& rises, int row, int column, std::uint8_t eight) {
+    const int meshlet = row / meshlet_quads * side + column / meshlet_quads,
+              cell = row % meshlet_quads * meshlet_quads;
+    rises[static_cast<std::size_t>(2 * meshlet + cell / 32)] |= static_cast<std::uint32_t>(eight)
+                                                                << (cell % 32);
+}
+
+// Those of the whole region.
+PageDiagonals diagonals_of(const CellDiagonals& all, PageIndex index) {
+    PageDiagonals rises{};
+    const int first_row = index.row * quads, first_column = index.column * quads;
+    for (int row = 0; row < std::min(quads, all.rows(index.level) - first_row); ++row) {
+        for (int column = 0; column < std::min(quads, all.columns(index.level) - first_column);
+             column += meshlet_quads)
+            put_eight(rises, row, column, all.eight(index.level, first_row + row, first_column + column));
+    }
+    return rises;
+}
+
+// Decided by the page's own posts: the same, for these go as far as those that decide.
+PageDiagonals diagonals_of(const PostGrid& grid, const PageElevations& elevations, PageIndex index) {
+    PageDiagonals rises{};
+    if (grid.split == CellSplit::all_fall) return rises;
+    const LevelGrid level = level_grid(grid, index.level);
+    const int cells = std::min(quads, level.column.quads - index.column * quads);
+    DiagonalRows rows(cells);
+    std::array<std::uint8_t, quads / 8> bits{};
+    for (int row = -1; row <= std::min(posts, level.row.quads - index.row * quads + 1); ++row) {
+        const std::span<std::int32_t> steps = rows.next();
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            steps[i] = decisive_steps(elevations.H_m[static_cast<std::size_t>((row + 1) * stride) + i]);
+        rows.take();
+        if (row < 2) continue;
+        rows.decide(std::span(bits).first(static_cast<std::size_t>((cells + 7) / 8)));
+        for (int column = 0; column < cells; column += 8)
+            put_eight(rises, row - 2, column, bits[static_cast<std::size_t>(column / 8)]);
+    }
+    return rises;
+}
 
 }  // namespace
 
@@ -24,6 +69,7 @@ PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, Page
     for_each_post(PagePosts(grid, index), [&](std::size_t i, const std::optional<PageIndex>& post) {
         page.steps[i] = post ? heights.at(post->row, post->column) : void_height_steps;
     });
+    if (heights.diagonals) page.rises = diagonals_of(*heights.diagonals, index);
     return page;
 }
 
@@ -33,6 +79,18 @@ PageElevations page_elevations(const HeightField& field, PageIndex index) {
         page.H_m[i] = post ? field.H_at_post_m(post->row, canonical_column(field, post->row, post->column))
                            : void_height_m;
     });
+    // The post after a last column that is the first one.
+    const LevelGrid level = level_grid(field.grid, index.level);
+    const int after = level.column.quads + 1 - index.column * quads;
+    if (field.grid.split == CellSplit::all_fall || !field.grid.goes_round() || after >= posts) return page;
+    const int column = level.column.region_post(1);
+    for (int i = -1; i <= posts; ++i) {
+        const int level_row = index.row * quads + i;
+        if (level_row < 0 || level_row > level.row.quads) continue;
+        const int row = level.row.region_post(level_row);
+        page.H_m[static_cast<std::size_t>((i + 1) * stride + after + 1)] =
+            field.H_at_post_m(row, canonical_column(field, row, column));
+    }
     return page;
 }
 
@@ -44,6 +102,7 @@ PageHeights heights_on_net(const PostGrid& grid, const UndulationField& undulati
     const bool has_N = !undulation.N_m.empty();
     const PagePosts page_posts(grid, index);
     PageHeights page;
+    page.rises = diagonals_of(grid, elevations, index);
     std::array<glm::dvec3, gpu::height_stride> normals;
     for (int row = -1; row <= posts; ++row) {
         std::optional<PageIndex>
@@ -79,6 +138,7 @@ PageHeights page_heights(const PostGrid& grid, const UndulationField& undulation
     const bool has_N = !undulation.N_m.empty();
     const PagePosts page_posts(grid, index);
     PageHeights page;
+    page.rises = diagonals_of(grid, elevations, index);
     for (int row = -1; row <= posts; ++row) {
         UndulationField::Between N_row{};
         for (int column = -1; column <= posts; ++column) {

@@ -5,8 +5,12 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/terrain/cell_diagonal.h"
 
 namespace oro {
+
+const CellSplit usual_split = CellSplit::all_fall;
+
 namespace {
 
 // Rounding of an angle may put a place on the edge this many posts beyond it (some 0.1 mm).
@@ -36,6 +40,14 @@ std::optional<double> H_in_cell_m(const HeightField& field, int row, int column,
     const float north_west = field.H_at_post_m(row, column);
     const float south_east = field.H_at_post_m(row + 1, column + 1);
     if (is_void(north_west) || is_void(south_east)) return std::nullopt;
+    if (cell_diagonal(field, row, column) == Diagonal::rises) {
+        const bool west = west_of_diagonal(Diagonal::rises, u, v) >= 0.0;
+        const CellPlane plane = cell_plane(Diagonal::rises, west, static_cast<double>(north_west),
+                                           static_cast<double>(field.H_at_post_m(row, column + 1)),
+                                           static_cast<double>(field.H_at_post_m(row + 1, column)),
+                                           static_cast<double>(south_east));
+        return plane.at_corner + u * plane.change_down + v * plane.change_right;
+    }
     const double a = north_west;
     const double c = south_east;
     // On the diagonal both triangles give the same; one of them is enough.

@@ -33,6 +33,13 @@ struct GridAxis {
     }
 };
 
+// What splits the cells of a region, on all levels, into two triangles each: one diagonal for all, from the
+// north-west to the south-east post, as older region files have it; or for each cell the one that its posts
+// decide for (core/terrain/cell_diagonal.h).
+enum class CellSplit : unsigned char { all_fall, by_posts };
+// How regions are split that do not say otherwise.
+extern const CellSplit usual_split;
+
 // Rows run from north to south, columns from west to east. Longitudes may run past 180 where a region crosses
 // the antimeridian (first column in [-180, 180)); a region is at most 360 degrees wide, and one that wide has
 // the same meridian in its first and last column.
@@ -42,6 +49,7 @@ struct PostGrid {
     GridAxis lat;
     GridAxis lon;
     std::shared_ptr<const GridNet> net{};  // null: posts lie on latitudes and longitudes
+    CellSplit split{usual_split};
 
     [[nodiscard]] int rows() const { return lat.count; }
     [[nodiscard]] int columns() const { return lon.count; }
@@ -117,8 +125,8 @@ class PostSource {
 };
 
 // The true surface of a scene: orthometric heights H on a post grid, and the undulation N that lifts them
-// onto the ellipsoid (h = H + N). Each cell is two triangles, split by the diagonal from its north-west to
-// its south-east post; between posts H is linear over those triangles in geodetic coordinates.
+// onto the ellipsoid (h = H + N). Each cell is two triangles, split by a diagonal
+// (core/terrain/cell_diagonal.h); between posts H is linear over those triangles in geodetic coordinates.
 struct HeightField {
     PostGrid grid;
     std::vector<float> H_m;  // row by row, rows() * columns(); void_height_m where there is none

@@ -76,17 +76,16 @@ class Oracle::Search {
     // A piece of the line that is all but straight in rows and columns, and a parabola in height: its places
     // at shares 0, 1/2 and 1.
     using Piece = std::array<RayPoint, 3>;
-    // A triangle's plane in (row, column), h = h_m + down_m * row + right_m * column, both from the cell's
-    // corner.
+    // A triangle's plane in (row, column), both from the cell's corner.
     struct Triangle {
         int row;
         int column;
-        bool south_west;
-        double h_m;
-        double down_m;
-        double right_m;
+        Diagonal diagonal;
+        bool west;
+        CellPlane plane_m;
         [[nodiscard]] double above_m(const RayPoint& point) const {
-            return point.h_m - h_m - down_m * (point.row - row) - right_m * (point.column - column);
+            return point.h_m - plane_m.at_corner - plane_m.change_down * (point.row - row) -
+                   plane_m.change_right * (point.column - column);
         }
         [[nodiscard]] bool holds(const RayPoint& point, double slack) const;
     };
@@ -279,18 +278,24 @@ void Oracle::Search::search_cell(int row, int column, const Piece& piece) {
     const auto north_west = surface_.post_h_m(row, column),
                south_east = surface_.post_h_m(row + 1, column + 1);
     if (!north_west || !south_east) return;
-    if (const auto south_west = surface_.post_h_m(row + 1, column))
-        search_triangle(
-            {row, column, true, *north_west, *south_west - *north_west, *south_east - *south_west}, piece);
-    if (const auto north_east = surface_.post_h_m(row, column + 1))
-        search_triangle(
-            {row, column, false, *north_west, *south_east - *north_east, *north_east - *north_west}, piece);
+    const Diagonal diagonal = surface_.diagonal_at(row, column);
+    const auto south_west = surface_.post_h_m(row + 1, column),
+               north_east = surface_.post_h_m(row, column + 1);
+    if (diagonal == Diagonal::rises && !(south_west && north_east)) return;
+    for (const bool west : {true, false}) {
+        if (!(west ? south_west : north_east)) continue;
+        search_triangle({row, column, diagonal, west,
+                         cell_plane(diagonal, west, *north_west, north_east.value_or(0.0),
+                                    south_west.value_or(0.0), *south_east)},
+                        piece);
+    }
 }
 
 bool Oracle::Search::Triangle::holds(const RayPoint& point, double slack) const {
     const double down = point.row - row, right = point.column - column;
     if (down < -slack || right < -slack || down > 1.0 + slack || right > 1.0 + slack) return false;
-    return south_west ? down >= right - slack : right >= down - slack;
+    const double across = west_of_diagonal(diagonal, down, right);
+    return west ? across >= -slack : across <= slack;
 }
 
 // Roots of the parabola through the piece's three heights above the triangle's plane, nearest first.
@@ -344,8 +349,8 @@ bool Oracle::Search::take_root(const Triangle& triangle, const Piece& piece, dou
         return false;
     if (!scenery_.ground.shows(scenery_.grid, here.point.lat_deg, here.point.lon_deg)) return false;
     nearest_m_ = t_m;
-    hit_ = SightHit{here.point,          t_m,        triangle.row, triangle.column,
-                    triangle.south_west, rise > 0.0, above_m,      scenery_.grid};
+    hit_ = SightHit{here.point,    t_m,        triangle.row, triangle.column,
+                    triangle.west, rise > 0.0, above_m,      scenery_.grid};
     return true;
 }
 

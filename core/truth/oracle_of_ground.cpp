@@ -83,7 +83,8 @@ SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m) const {
     const PostNumber post = posts.post_at(hit.point.lat_deg, hit.point.lon_deg);
     hit.row = std::clamp(static_cast<int>(std::floor(post.row)), 0, posts.rows() - 2);
     hit.column = std::clamp(static_cast<int>(std::floor(post.column)), 0, posts.columns() - 2);
-    hit.south_west = post.row - hit.row >= post.column - hit.column;
+    const Diagonal diagonal = ground_.surface(hit.grid).diagonal_at(hit.row, hit.column);
+    hit.west = west_of_diagonal(diagonal, post.row - hit.row, post.column - hit.column) >= 0.0;
     return hit;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/parallel.h"
+#include "core/terrain/cell_diagonals.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/post_spacing.h"
 #include "core/terrain/triangle_heights.h"
@@ -36,7 +37,13 @@ struct TrueSurface::Chunk {
         float highest{-std::numeric_limits<float>::infinity()};
     };
     std::array<std::vector<FloatLayer>, chunk_level + 1> levels;
+    std::vector<std::uint8_t> rises;  // of its cells, row by row, eight a byte; empty where all fall
 
+    // By the grid's row and column.
+    [[nodiscard]] Diagonal diagonal_at(int row, int column) const {
+        const auto cell = static_cast<std::size_t>(row % chunk_cells * chunk_cells + column % chunk_cells);
+        return (rises[cell / 8] >> (cell % 8) & 1) != 0 ? Diagonal::rises : Diagonal::falls;
+    }
     static FloatLayer around(const Layer& layer) {
         if (layer.empty()) return {};
         constexpr float far = std::numeric_limits<float>::infinity();
@@ -54,8 +61,9 @@ struct TrueSurface::Chunk {
     }
 };
 
-TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int threads)
-    : field_(field), exaggeration_(exaggeration) {
+TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int threads,
+                         const std::vector<char>* left_out)
+    : field_(field), exaggeration_(exaggeration), left_out_(left_out) {
     const PostGrid& grid = field.grid;
     if (grid.net && !field.N_of_posts_m.empty()) {
         const auto [lowest, highest] =
@@ -123,12 +131,14 @@ std::optional<double> TrueSurface::post_h_m(int row, int column) const {
 
 std::optional<double> TrueSurface::h_m(double lat_deg, double lon_deg) const {
     return h_on_grid_m(
-        field_.grid, [this](int row, int column) { return post_h_m(row, column); }, lat_deg, lon_deg);
+        field_.grid, [this](int row, int column) { return post_h_m(row, column); },
+        [this](int row, int column) { return diagonal_at(row, column); }, lat_deg, lon_deg);
 }
 
 std::optional<double> TrueSurface::h_at_m(double row, double column) const {
     return h_at_row_column_m(
-        field_.grid, [this](int r, int c) { return post_h_m(r, c); }, row, column);
+        field_.grid, [this](int r, int c) { return post_h_m(r, c); },
+        [this](int r, int c) { return diagonal_at(r, c); }, row, column);
 }
 
 std::optional<TrueSurface::Slope> TrueSurface::slope_at(double row, double column) const {
@@ -136,12 +146,16 @@ std::optional<TrueSurface::Slope> TrueSurface::slope_at(double row, double colum
     if (grid.rows() < 2 || grid.columns() < 2) return std::nullopt;
     const int north = std::clamp(static_cast<int>(std::floor(row)), 0, grid.rows() - 2);
     const int west = std::clamp(static_cast<int>(std::floor(column)), 0, grid.columns() - 2);
-    const bool south_west = row - north >= column - west;
-    const auto north_west = post_h_m(north, west), south_east = post_h_m(north + 1, west + 1);
-    const auto corner = south_west ? post_h_m(north + 1, west) : post_h_m(north, west + 1);
-    if (!north_west || !south_east || !corner) return std::nullopt;
-    const double down_m = south_west ? *corner - *north_west : *south_east - *corner;
-    const double right_m = south_west ? *south_east - *corner : *corner - *north_west;
+    const Diagonal diagonal = diagonal_at(north, west);
+    const bool is_west = west_of_diagonal(diagonal, row - north, column - west) >= 0.0;
+    std::array<std::array<double, 2>, 2> h_m{};
+    for (const auto& [down, right] : cell_corners(diagonal, is_west)) {
+        const auto post_m = post_h_m(north + down, west + right);
+        if (!post_m) return std::nullopt;
+        h_m[static_cast<std::size_t>(down)][static_cast<std::size_t>(right)] = *post_m;
+    }
+    const auto [unused, down_m, right_m] =
+        cell_plane(diagonal, is_west, h_m[0][0], h_m[0][1], h_m[1][0], h_m[1][1]);
     if (grid.net) {
         const GridNet::Lie lie = grid.net->lie_at(row, column);
         const double down = down_m / lie.row_m, right = right_m / lie.column_m;
@@ -227,6 +241,7 @@ void TrueSurface::measure_above(int threads) {
 TrueSurface::Chunk* TrueSurface::new_chunk(int chunk_row, int chunk_column) const {
     const PostGrid& grid = field_.grid;
     auto* chunk = new Chunk;
+    decide_diagonals(chunk_row, chunk_column, *chunk);
     constexpr int side = 1 << chunk_level;
     for (int i = 0; i < side * side; ++i) {
         const int first_row = chunk_row * chunk_cells + i / side * block_cells;
@@ -255,10 +270,46 @@ TrueSurface::Chunk* TrueSurface::new_chunk(int chunk_row, int chunk_column) cons
     return chunk;
 }
 
+// Of the chunk's cells, by the posts around them.
+void TrueSurface::decide_diagonals(int chunk_row, int chunk_column, Chunk& chunk) const {
+    const PostGrid& grid = field_.grid;
+    if (grid.split == CellSplit::all_fall) return;
+    const int first_row = chunk_row * chunk_cells, first_column = chunk_column * chunk_cells;
+    constexpr std::size_t row_bytes = chunk_cells / 8;
+    chunk.rises.assign(chunk_cells * row_bytes, 0);
+    DiagonalRows rows(chunk_cells);
+    for (int row = first_row - 1; row <= std::min(first_row + chunk_cells, grid.rows() - 1) + 1; ++row) {
+        const std::span<std::int32_t> steps = rows.next();
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            steps[i] = decisive_steps_at(field_, row, first_column - 1 + static_cast<int>(i), left_out_);
+        rows.take();
+        const int cell_row = row - 2 - first_row;
+        if (cell_row < 0 || cell_row >= chunk_cells) continue;
+        rows.decide(
+            std::span(chunk.rises).subspan(static_cast<std::size_t>(cell_row) * row_bytes, row_bytes));
+    }
+}
+
+std::atomic<TrueSurface::Chunk*>& TrueSurface::slot_of(int row, int column) const {
+    const auto across = static_cast<std::size_t>(blocks(chunk_level).second);
+    return chunks_[static_cast<std::size_t>(row) * across + static_cast<std::size_t>(column)];
+}
+
+Diagonal TrueSurface::diagonal_at(int row, int column) const {
+    if (field_.grid.split == CellSplit::all_fall) return Diagonal::falls;
+    // As the chunk knows it, where one looked at it before.
+    const Chunk* const known =
+        slot_of(row / chunk_cells, column / chunk_cells).load(std::memory_order_acquire);
+    return known == nullptr ? cell_diagonal(field_, row, column, left_out_) : known->diagonal_at(row, column);
+}
+
+Diagonal TrueSurface::diagonal_of_many(int row, int column) const {
+    if (field_.grid.split == CellSplit::all_fall) return Diagonal::falls;
+    return chunk(row / chunk_cells, column / chunk_cells).diagonal_at(row, column);
+}
+
 const TrueSurface::Chunk& TrueSurface::chunk(int row, int column) const {
-    const int across = blocks(chunk_level).second;
-    std::atomic<Chunk*>& slot = chunks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across) +
-                                        static_cast<std::size_t>(column)];
+    std::atomic<Chunk*>& slot = slot_of(row, column);
     if (const Chunk* const there = slot.load(std::memory_order_acquire)) return *there;
     Chunk* const made = new_chunk(row, column);
     Chunk* none = nullptr;

@@ -11,19 +11,22 @@
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
+#include "core/terrain/cell_diagonal.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {
 
 // The full-resolution surface of a height field: each post at (latitude, longitude, H * exaggeration + N) on
-// WGS84, each cell two triangles split from its north-west to its south-east post, h linear over each in
-// latitude and longitude (so a triangle is as curved as the ellipsoid). Safe to ask from several threads.
+// WGS84, each cell two triangles (core/terrain/cell_diagonal.h), h linear over each in latitude and longitude
+// (so a triangle is as curved as the ellipsoid). Safe to ask from several threads.
 class TrueSurface {
   public:
     // `field` outlives the surface. Reads every post once where they are in memory, shared between `threads`;
-    // posts of a file are read when they are asked for. Keeps 0.7 byte for each post that was looked at, on a
-    // net 1.5 bytes more.
-    TrueSurface(const HeightField& field, double exaggeration, int threads);
+    // posts of a file are read when they are asked for. Keeps 0.8 byte for each post that was looked at, on a
+    // net 1.5 bytes more. left_out: by post, 1 where another grid covers what this one has, so that it
+    // decides no diagonal (geo/together/cut_out.h); outlives the surface.
+    TrueSurface(const HeightField& field, double exaggeration, int threads,
+                const std::vector<char>* left_out = nullptr);
     ~TrueSurface();
     TrueSurface(const TrueSurface&) = delete;
     TrueSurface& operator=(const TrueSurface&) = delete;
@@ -43,6 +46,11 @@ class TrueSurface {
         [[nodiscard]] double steepness() const { return std::hypot(north, east); }
     };
     [[nodiscard]] std::optional<Slope> slope_at(double row, double column) const;
+
+    // Of a cell, by its north-west post.
+    [[nodiscard]] Diagonal diagonal_at(int row, int column) const;
+    // The same for who asks for most cells of a part: looks at 128 x 128 of them at once.
+    [[nodiscard]] Diagonal diagonal_of_many(int row, int column) const;
 
     // Height above the ellipsoid of a post; nothing where it is void. Posts that are one point (a meridian's
     // two columns, a pole) have one height.
@@ -82,12 +90,15 @@ class TrueSurface {
     struct Chunk;  // what is known of 128 x 128 cells, once they were looked at
     [[nodiscard]] const Chunk& chunk(int row, int column) const;
     [[nodiscard]] Chunk* new_chunk(int row, int column) const;
+    void decide_diagonals(int row, int column, Chunk& chunk) const;
+    [[nodiscard]] std::atomic<Chunk*>& slot_of(int row, int column) const;
     [[nodiscard]] Layer scanned_layer(int chunk_row, int chunk_column) const;
     void measure_above(int threads);
     void place_corners(int threads);
 
     const HeightField& field_;
     double exaggeration_;
+    const std::vector<char>* left_out_;
     int levels_{0};
     Layer N_range_m_{0.0, 0.0};
     Corners corners_;

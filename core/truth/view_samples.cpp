@@ -49,7 +49,7 @@ class ViewSampler {
                           slope ? slope->steepness() : 0.0,
                           hit->row,
                           hit->column,
-                          hit->south_west,
+                          hit->west,
                           even,
                           0.0,
                           hit->grid,

@@ -18,7 +18,7 @@ struct ViewSample {
     double slope;  // of its triangle, metres a metre
     int row;       // of its cell
     int column;
-    bool south_west;        // of the cell's triangles
+    bool west;              // of the cell's triangles
     bool even;              // one of those spread evenly over the picture: medians are taken of these alone
     double beside_px{0.0};  // 0: seen at a pixel's centre; else how far it lies from one that is, on the
                             // picture: behind an edge, or in a gap that no centre looks through

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/terrain/cell_diagonal.h"
 #include "core/terrain/triangle_heights.h"
 
 namespace oro {
@@ -112,6 +113,27 @@ bool ResamplingError::in_region(const LatLon& place) const {
     return column >= -rim_slack_posts && column <= grid_->columns() - 1 + rim_slack_posts;
 }
 
+// Of a cell; nothing while posts that decide may still come.
+std::optional<Diagonal> ResamplingError::diagonal_at(int row, int column, bool is_whole) const {
+    if (grid_->split == CellSplit::all_fall) return Diagonal::falls;
+    const int rows = grid_->rows(), columns = grid_->columns(), turn = grid_->goes_round() ? columns - 1 : 0;
+    bool may_come = false;
+    const Diagonal diagonal = diagonal_of(
+        [&](int r, int c) {
+            c = c < 0 ? c + turn : c >= columns ? c - turn : c;
+            if (r < 0 || r >= rows || c < 0 || c >= columns) return no_decisive_steps;
+            const float H_m = (*H_m_)[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
+                                      static_cast<std::size_t>(c)];
+            // The rows at poles, and the first and last meridian round the Earth, are not yet as they will
+            // be.
+            may_come = may_come || is_void(H_m) || r == 0 || r == rows - 1 || c == 0 || c == columns - 1;
+            return decisive_steps(H_m);
+        },
+        row, column);
+    if (may_come && !is_whole) return std::nullopt;
+    return diagonal;
+}
+
 // What the surface has at a place, as far as it is laid, or in the end.
 ResamplingError::Shown ResamplingError::shown_at(const LatLon& place, bool is_whole) const {
     const int rows = grid_->rows(), columns = grid_->columns();
@@ -133,9 +155,17 @@ ResamplingError::Shown ResamplingError::shown_at(const LatLon& place, bool is_wh
         int row, column;
         double share;
     };
-    const std::array corners{
+    const std::optional<Diagonal> diagonal = diagonal_at(row, column, is_whole);
+    if (!diagonal) return {Ground::open, 0.0};
+    std::array corners{
         Corner{row, column, 1.0 - std::max(down, right)}, Corner{row + 1, column + 1, std::min(down, right)},
         Corner{down >= right ? row + 1 : row, down >= right ? column : column + 1, std::abs(down - right)}};
+    if (*diagonal == Diagonal::rises) {
+        const bool west = down + right <= 1.0;
+        corners = {Corner{row + 1, column, west ? down : 1.0 - right},
+                   Corner{row, column + 1, west ? right : 1.0 - down},
+                   Corner{west ? row : row + 1, west ? column : column + 1, std::abs(1.0 - down - right)}};
+    }
     // A post on a post of the region needs no other.
     constexpr double no_share = 1e-9;
     Shown shown{Ground::own, 0.0};

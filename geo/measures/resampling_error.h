@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/terrain/cell_diagonal.h"
 #include "core/terrain/post_grid.h"
 #include "geo/measures/post_places.h"
 #include "geo/posts/source_sampling.h"
@@ -80,6 +81,7 @@ class ResamplingError {
     ResamplingError(const Source& source, const PostGrid& grid, const std::vector<float>& H_m,
                     PostPlaces places);
     [[nodiscard]] Shown shown_at(const LatLon& place, bool is_whole) const;
+    [[nodiscard]] std::optional<Diagonal> diagonal_at(int row, int column, bool is_whole) const;
     [[nodiscard]] bool in_region(const LatLon& place) const;
     [[nodiscard]] bool is_own(int row, int column) const;
     void take_beyond();

@@ -1,5 +1,6 @@
 #include "geo/together/region_ground.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -85,7 +86,14 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
             lifted.N_of_posts_m = one->N_of_posts_left_out_m;
             field = &lifted;
         }
-        grids.push_back({&made->surfaces_.emplace_back(*field, exaggeration, thread_count()), one->rank});
+        // Cells beside what is cut out are split as they are drawn, without it.
+        const std::size_t number = grids.size();
+        const std::vector<char>* left_out = nullptr;
+        if (number < cuts.grids.size() &&
+            std::ranges::find(cuts.grids[number].left_out, 1) != cuts.grids[number].left_out.end())
+            left_out = &made->left_out_.emplace_back(cuts.grids[number].left_out);
+        grids.push_back(
+            {&made->surfaces_.emplace_back(*field, exaggeration, thread_count(), left_out), one->rank});
     }
     auto pieces = std::make_shared<std::vector<GroundPiece>>();
     for (std::size_t i = 0; i < cuts.grids.size(); ++i) {

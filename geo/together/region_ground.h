@@ -37,7 +37,8 @@ class RegionGround {
   private:
     RegionGround() = default;
     std::vector<const Region*> regions_;
-    std::deque<HeightField> fields_;  // where they are not the regions' own
+    std::deque<HeightField> fields_;          // where they are not the regions' own
+    std::deque<std::vector<char>> left_out_;  // of grids that are cut
     std::deque<TrueSurface> surfaces_;
     std::optional<TrueGround> ground_;
 };

@@ -27,6 +27,7 @@ struct CasterCell {
     ivec2 from;
     ivec2 to;
     ivec4 heights;  // north-west, north-east, south-west, south-east
+    bool rises;     // from its south-west to its north-east post
 };
 CasterCell caster_cell(PageBlocks block, uint level, ivec2 post) {
     uvec2 number = uvec2(post) >> level;
@@ -36,16 +37,26 @@ CasterCell caster_cell(PageBlocks block, uint level, ivec2 post) {
     uint place = ((number.x & 127u) + 1u) * height_stride + (number.y & 127u) + 1u;
     cell.heights = ivec4(stored_height(block, place), stored_height(block, place + 1u), stored_height(block, place + height_stride),
                          stored_height(block, place + height_stride + 1u));
+    cell.rises = rises_at(block, number & 127u);
     return cell;
 }
 
 const float no_ground_m = -1.0e9;
 
+// How far a place in a cell, of 1, is on the side of its western triangle.
+float west_of_diagonal(CasterCell cell, vec2 share) { return cell.rises ? 1.0 - share.x - share.y : share.x - share.y; }
+
 // Metres above a height (in steps) of a cell's triangle at a place in it, of 1; no_ground_m where it has none.
-float above_base(CasterCell cell, vec2 share, bool south_west, int base) {
-    int corner = south_west ? cell.heights.z : cell.heights.y;
+float above_base(CasterCell cell, vec2 share, bool west, int base) {
+    if (cell.rises) {
+        // All four are there. From the north-west post, or from the south-east one.
+        ivec3 rising = (west ? cell.heights.xzy : cell.heights.wyz) - base;
+        vec2 along = west ? share : 1.0 - share;
+        return height_step_m * (float(rising.x) + along.x * float(rising.y - rising.x) + along.y * float(rising.z - rising.x));
+    }
+    int corner = west ? cell.heights.z : cell.heights.y;
     if (cell.heights.x == void_height || cell.heights.w == void_height || corner == void_height) return no_ground_m;
     float north_west = float(cell.heights.x - base), south_east = float(cell.heights.w - base), other = float(corner - base);
-    float along_first = south_west ? share.x : share.y, along_second = south_west ? share.y : share.x;
+    float along_first = west ? share.x : share.y, along_second = west ? share.y : share.x;
     return height_step_m * (north_west + along_first * (other - north_west) + along_second * (south_east - other));
 }

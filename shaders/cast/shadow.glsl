@@ -163,11 +163,11 @@ struct CastSearch {
     float step_to_m;
 };
 
-void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, bool south_west, inout CastSearch search) {
+void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, bool west, inout CastSearch search) {
     if (t_m <= 0.0) return;
     vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
     vec2 share = clamp((at - as_floats(cell.from - search.post)) / as_floats(cell.to - cell.from), 0.0, 1.0);
-    float ground_m = above_base(cell, share, south_west, search.base);
+    float ground_m = above_base(cell, share, west, search.base);
     if (ground_m == no_ground_m) return;
     search.last_m = t_m;
     search.last_ground_m = ground_m;
@@ -176,10 +176,10 @@ void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, boo
 }
 
 // Begins a node of another level than the one before it.
-void meet_level(CastPiece piece, CasterCell cell, float t_m, float to_m, bool south_west, inout CastSearch search) {
+void meet_level(CastPiece piece, CasterCell cell, float t_m, float to_m, bool west, inout CastSearch search) {
     vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
     vec2 share = clamp((at - as_floats(cell.from - search.post)) / as_floats(cell.to - cell.from), 0.0, 1.0);
-    float ground_m = above_base(cell, share, south_west, search.base);
+    float ground_m = above_base(cell, share, west, search.base);
     if (ground_m == no_ground_m) return;
     search.step_m = ground_m - search.last_ground_m;
     search.step_from_m = t_m;
@@ -211,10 +211,10 @@ void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, fl
         if (!low_enough) {
             // Where it crosses the diagonal.
             vec2 size = high - low, here = (piece.at + (t_m - piece.from_m) * piece.per_m - low) / size, step = piece.per_m / size;
-            float apart = here.x - here.y, change = step.x - step.y;
+            float apart = west_of_diagonal(cell, here), change = cell.rises ? -step.x - step.y : step.x - step.y;
             float diagonal_m = change == 0.0 ? -1.0 : t_m - apart / change;
             bool crosses = diagonal_m > t_m && diagonal_m < out_m;
-            bool before = crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * change > 0.0;  // in the south-western triangle
+            bool before = crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * change > 0.0;  // in the western triangle
             if (meets) meet_level(piece, cell, t_m, to_m, before, search);
             meets = false;
             look_at_cell(line, piece, cell, t_m, before, search);
@@ -285,29 +285,30 @@ float disc_share(float above_rad) {
 }
 
 // How much faster a cell's triangle rises towards the sun than the line does, metres a metre.
-float rise_over(SunLine line, CastPiece piece, CasterCell cell, bool south_west) {
-    int corner = south_west ? cell.heights.z : cell.heights.y;
-    if (cell.heights.x == void_height || cell.heights.w == void_height || corner == void_height) return 0.0;
-    vec2 steps = vec2(corner - cell.heights.x, cell.heights.w - corner);  // along the triangle's two sides
-    vec2 rise = height_step_m * (south_west ? steps : steps.yx) / as_floats(cell.to - cell.from);  // southwards, eastwards, a post
+float rise_over(SunLine line, CastPiece piece, CasterCell cell, bool west) {
+    ivec4 h = cell.heights;
+    if (h.x == void_height || h.w == void_height || (west ? h.z : h.y) == void_height) return 0.0;
+    // Along the triangle's own sides: southwards, eastwards.
+    vec2 steps = vec2(west ? h.z - h.x : h.w - h.y, west != cell.rises ? h.w - h.z : h.y - h.x);
+    vec2 rise = height_step_m * steps / as_floats(cell.to - cell.from);  // a post
     return dot(rise, piece.per_m) - line.a1.z * line.per_m;
 }
 
 // Metres by which a line begins above its triangle where that, or the next towards the sun, is turned away from the sun, but posts are so
 // large that the ground is shaded smoothly: there the shaded slope tells how much light it gets, and an edge of triangles must not.
 // Nothing where slopes are not shaded at all.
-float smooth_lift_m(SunLine line, CastPiece piece, CasterCell cell, uint level, CastPoint point, bool south_west) {
+float smooth_lift_m(SunLine line, CastPiece piece, CasterCell cell, uint level, CastPoint point, bool west) {
     vec2 size = as_floats(cell.to - cell.from), low = vec2(cell.from - point.post);
     float cell_m = size.x * CASTERS.row_rad * 6371000.0, cell_px = cell_m * FRAME.pixels_per_tangent / point.distance_m;
     if (FRAME.style.relief < 0.5 || cell_px <= 8.0) return 0.0;
-    float over = rise_over(line, piece, cell, south_west), out_m = max(way_out_of(piece, low, low + size), 0.0);
+    float over = rise_over(line, piece, cell, west), out_m = max(way_out_of(piece, low, low + size), 0.0);
     vec2 next = piece.at + (out_m + 0.05 * cell_m) * piece.per_m;
     ivec2 post = clamp(point.post + ivec2(floor(next)), ivec2(0), ivec2(FRAME.last_row, FRAME.last_column) - 1);
     uint page = caster_page(level, post);
     if (page != no_page) {
         CasterCell beyond = caster_cell(PageBlocks(CasterPages(CASTERS.pages).at[page].block), level, post);
         vec2 share = (next - vec2(beyond.from - point.post)) / vec2(beyond.to - beyond.from);
-        over = max(over, rise_over(line, piece, beyond, share.x >= share.y));
+        over = max(over, rise_over(line, piece, beyond, west_of_diagonal(beyond, share) >= 0.0));
     }
     float smoothly = smoothstep(8.0, 24.0, cell_px) * (1.0 - smoothstep(0.25, 0.5, over));
     return smoothly * 2.0 * max(over, 0.0) * (out_m + 0.7 * cell_m);
@@ -323,7 +324,7 @@ float sun_over_terrain(CastPoint point) {
     if (!caster_at(point.post, error_m, level, node)) return 1.0;
     CasterCell cell = caster_cell(PageBlocks(node.block), level, point.post);
     vec2 share = clamp((as_floats(point.post - cell.from) + point.beyond) / as_floats(cell.to - cell.from), 0.0, 1.0);
-    float base_m = above_base(cell, share, share.x >= share.y, 0);
+    float base_m = above_base(cell, share, west_of_diagonal(cell, share) >= 0.0, 0);
     if (base_m == no_ground_m) return 1.0;
     at.h_m = base_m;
     CastSearch search = CastSearch(point.post, int(round(base_m / height_step_m)), 0.02, 1.1 * sun_radius_rad, 0.0, 0.0, level, 0.0, 0.0, 1.0);
@@ -332,7 +333,7 @@ float sun_over_terrain(CastPoint point) {
     piece.from_m = 0.0;
     piece.at = point.beyond;
     piece.per_m = line.a1.xy * line.per_m;
-    search.lift_m += smooth_lift_m(line, piece, cell, level, point, share.x >= share.y);
+    search.lift_m += smooth_lift_m(line, piece, cell, level, point, west_of_diagonal(cell, share) >= 0.0);
     for (int i = 0; i < 500 && piece.from_m < line.length_m; ++i) {
         piece.to_m = min(piece.from_m + cast_piece_m, line.length_m);
         vec2 end = point.beyond + along(line, piece.to_m).xy;

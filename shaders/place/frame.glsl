@@ -70,19 +70,20 @@ uvec2 first_post(uint meshlet) {
     return uvec2(meshlet / meshlets_per_side, meshlet % meshlets_per_side) * meshlet_quads;
 }
 
-// The three posts of a meshlet's triangle as (row, column) within the meshlet. Cells are split from their north-west to their
-// south-east post; both triangles run counter-clockwise seen from above.
-void triangle_posts(uint triangle, out uvec2 a, out uvec2 b, out uvec2 c) {
-    uint cell = triangle >> 1u;
-    uvec2 nw = uvec2(cell / meshlet_quads, cell % meshlet_quads);
-    a = nw;
-    if ((triangle & 1u) == 0u) {
-        b = nw + uvec2(1u, 0u);
-        c = nw + uvec2(1u, 1u);
-    } else {
-        b = nw + uvec2(1u, 1u);
-        c = nw + uvec2(0u, 1u);
-    }
+// Whether a quad of a page (row, column) is split from its south-west to its north-east post. What is drawn asks triangle_posts().
+bool rises_at(PageBlocks block, uvec2 quad) {
+    uint meshlet = quad.x / meshlet_quads * meshlets_per_side + quad.y / meshlet_quads;
+    uint bit = quad.x % meshlet_quads * meshlet_quads + quad.y % meshlet_quads;
+    return (block.at[0].rises[meshlet * 2u + bit / 32u] >> (bit % 32u) & 1u) != 0u;
+}
+
+// The posts of one of a quad's two triangles (0: that with its western edge) as (row, column), counter-clockwise seen from above;
+// as core/terrain/cell_diagonal.h has them.
+void quad_posts(uvec2 nw, bool rises, uint odd, out uvec2 a, out uvec2 b, out uvec2 c) {
+    uvec2 sw = nw + uvec2(1u, 0u), se = nw + uvec2(1u, 1u), ne = nw + uvec2(0u, 1u);
+    a = rises && odd != 0u ? sw : nw;
+    b = odd == 0u ? sw : se;
+    c = rises || odd != 0u ? ne : se;
 }
 
 // Posts of a page as row << 8 | column: are they on both sides of the meridian where the flat Earth is cut? Between them it would

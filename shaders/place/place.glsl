@@ -120,12 +120,24 @@ vec4 project(vec3 view) {
     return clip;
 }
 
+// Quads of a meshlet: 8, or fewer where the region ends.
+uvec2 quads_of(FramePage page, uint meshlet) {
+    uvec2 last = uvec2(FRAME.last_row, FRAME.last_column) + (1u << page.level) - 1u;
+    return min((last >> page.level) - (uvec2(page.first_row, page.first_column) >> page.level) - first_post(meshlet), uvec2(meshlet_quads));
+}
+
 // The post of a meshlet's vertex (row, column within the meshlet) in its page, after stitching.
 uvec2 vertex_post(FramePage page, uint meshlet, uvec2 vertex, uint edges) {
     uvec2 corner = first_post(meshlet);
     if (edges == 0u) return corner + vertex;
-    // Quads of the meshlet: 8, or fewer where the region ends.
-    uvec2 last = uvec2(FRAME.last_row, FRAME.last_column) + (1u << page.level) - 1u;
-    uvec2 quads = min((last >> page.level) - (uvec2(page.first_row, page.first_column) >> page.level) - corner, uvec2(meshlet_quads));
-    return corner + stitched_post(vertex, quads, edges);
+    return corner + stitched_post(vertex, quads_of(page, meshlet), edges);
+}
+
+// The three posts of a drawn meshlet's triangle as (row, column) within the meshlet, before stitching.
+void triangle_posts(FramePage page, uint meshlet, uint triangle, uint edges, out uvec2 a, out uvec2 b, out uvec2 c) {
+    uint cell = triangle >> 1u;
+    uvec2 nw = uvec2(cell / meshlet_quads, cell % meshlet_quads);
+    bool rises = (PageBlocks(page.block).at[0].rises[meshlet * 2u + cell / 32u] >> (cell % 32u) & 1u) != 0u;
+    if (rises && edges != 0u) rises = drawn_rising(rises, nw, quads_of(page, meshlet), edges);
+    quad_posts(nw, rises, triangle & 1u, a, b, c);
 }

@@ -18,9 +18,9 @@ shared uint drawn_count;
 uint post_number(uvec2 post) { return post.x * meshlet_posts + post.y; }
 
 // False for a triangle that is not drawn: with a void corner, that stitching has left without an area, or cut.
-bool corners(uint frame_page, uint triangle, out vec4 a, out vec4 b, out vec4 c) {
+bool corners(uint frame_page, uint meshlet, uint triangle, uint edges, out vec4 a, out vec4 b, out vec4 c) {
     uvec2 pa, pb, pc;
-    triangle_posts(triangle, pa, pb, pc);
+    triangle_posts(frame_pages().at[frame_page], meshlet, triangle, edges, pa, pb, pc);
     a = posts[post_number(pa)];
     b = posts[post_number(pb)];
     c = posts[post_number(pc)];
@@ -29,9 +29,9 @@ bool corners(uint frame_page, uint triangle, out vec4 a, out vec4 b, out vec4 c)
 }
 
 // What one invocation does with its triangle.
-void draw_triangle(uint frame_page, uint meshlet, uint triangle) {
+void draw_triangle(uint frame_page, uint meshlet, uint triangle, uint edges) {
     vec4 a, b, c;
-    if (!corners(frame_page, triangle, a, b, c)) return;
+    if (!corners(frame_page, meshlet, triangle, edges, a, b, c)) return;
     atomicAdd(drawn_count, 1u);
     if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
     uint id = triangle_id(frame_page, meshlet, triangle);
@@ -68,7 +68,7 @@ void main() {
         if (there && posts[lane].w == 0.0) posts[lane].w = -1.0e-30;
     }
     barrier();
-    draw_triangle(frame_page, meshlet, lane);
+    draw_triangle(frame_page, meshlet, lane, listed >> 28);
     barrier();
     if (lane == 0u) atomicAdd(Counts(FRAME.counts).at.triangles_drawn, drawn_count);
 }

@@ -53,7 +53,7 @@ void main() {
     PageBlocks block = PageBlocks(page.block);
     uint edges = edges_of(own / meshlet_triangles);
     uvec2 posts[3];
-    triangle_posts(triangle, posts[0], posts[1], posts[2]);
+    triangle_posts(page, meshlet, triangle, edges, posts[0], posts[1], posts[2]);
     for (int i = 0; i < 3; ++i) {
         uvec2 post = vertex_post(page, meshlet, posts[i], edges);
         corners[i] = project(place_in_view(page, post, post_height(block, post)));

@@ -8,7 +8,7 @@ struct Rim {
 };
 const int rim_triangles = 16;  // that are followed
 
-// A triangle of a page's grid: two in each cell, as triangle_posts has them.
+// A triangle of a page's grid: two in each cell, as quad_posts has them.
 struct GridTriangle {
     ivec2 cell;  // row, column
     uint odd;
@@ -32,14 +32,18 @@ uint corners_px(FramePage page, uvec2 posts[3], vec2 origin, out vec2 corners[3]
     return corners_here;
 }
 
+// Of a quad that another page may have: as if it fell.
+bool rises_in(FramePage page, ivec2 cell) {
+    return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(page_quads))) && rises_at(PageBlocks(page.block), uvec2(cell));
+}
+
 uint corners_of_grid_px(FramePage page, GridTriangle triangle, vec2 origin, out vec2 corners[3]) {
     ivec2 in_region = ivec2(page.first_row, page.first_column) + (triangle.cell << page.level);
     if (any(lessThan(in_region, ivec2(0))) || any(greaterThanEqual(in_region, ivec2(FRAME.last_row, FRAME.last_column))))
         return corners_none;
     if (any(lessThan(triangle.cell, ivec2(0))) || any(greaterThanEqual(triangle.cell, ivec2(page_quads)))) return corners_unknown;
     uvec2 posts[3];
-    triangle_posts(triangle.odd, posts[0], posts[1], posts[2]);
-    for (int i = 0; i < 3; ++i) posts[i] += uvec2(triangle.cell);
+    quad_posts(uvec2(triangle.cell), rises_in(page, triangle.cell), triangle.odd, posts[0], posts[1], posts[2]);
     return corners_px(page, posts, origin, corners);
 }
 
@@ -48,9 +52,15 @@ float crossed(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 float doubled_area_px(vec2 corners[3]) { return crossed(corners[1] - corners[0], corners[2] - corners[0]); }
 
 // The triangle beyond an edge, which goes from corner `edge` to the next.
-GridTriangle beyond(GridTriangle triangle, int edge) {
-    const ivec2 steps[6] = {ivec2(0, -1), ivec2(1, 0), ivec2(0), ivec2(0), ivec2(0, 1), ivec2(-1, 0)};
-    return GridTriangle(triangle.cell + steps[triangle.odd * 3u + uint(edge)], 1u - triangle.odd);
+GridTriangle beyond(FramePage page, GridTriangle triangle, int edge) {
+    // Of cells that fall, the western and the eastern triangle, then of those that rise.
+    const ivec2 steps[12] = {ivec2(0, -1), ivec2(1, 0), ivec2(0),    ivec2(0),    ivec2(0, 1), ivec2(-1, 0),
+                             ivec2(0, -1), ivec2(0),    ivec2(-1, 0), ivec2(1, 0), ivec2(0, 1), ivec2(0)};
+    ivec2 to = steps[(rises_in(page, triangle.cell) ? 6u : 0u) + triangle.odd * 3u + uint(edge)];
+    // What is beyond a northern edge has it as its southern one.
+    uint odd = 1u - triangle.odd;
+    if (to.x != 0) odd = rises_in(page, triangle.cell + to) == (to.x < 0) ? 1u : 0u;
+    return GridTriangle(triangle.cell + to, odd);
 }
 
 // The edge by which the way from the origin along `towards` leaves a triangle, if it does within a pixel; else -1. side: the sign of
@@ -92,7 +102,8 @@ uint first_of_rim(uint id, vec2 middle, out FramePage page, out GridTriangle tri
     page = frame_pages().at[descend(page_number(id), page, post, length(share_a * at[0] + shares.x * at[1] + shares.y * at[2]))];
     ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 in_cell = post - vec2(cell);
-    triangle = GridTriangle(cell, in_cell.x >= in_cell.y ? 0u : 1u);
+    bool west = rises_in(page, cell) ? in_cell.x + in_cell.y <= 1.0 : in_cell.x >= in_cell.y;
+    triangle = GridTriangle(cell, west ? 0u : 1u);
     return corners_of_grid_px(page, triangle, middle, corners);
 }
 #else
@@ -100,7 +111,7 @@ uint first_of_rim(uint id, vec2 middle, out FramePage page, out GridTriangle tri
     uint node = id / meshlet_triangles, meshlet = node % meshlets_per_page, in_node = id % meshlet_triangles;
     page = frame_pages().at[node / meshlets_per_page];
     uvec2 posts[3], cell = first_post(meshlet) + uvec2((in_node >> 1u) / meshlet_quads, (in_node >> 1u) % meshlet_quads);
-    triangle_posts(in_node, posts[0], posts[1], posts[2]);
+    triangle_posts(page, meshlet, in_node, edges_of(node), posts[0], posts[1], posts[2]);
     for (int i = 0; i < 3; ++i) posts[i] = vertex_post(page, meshlet, posts[i], edges_of(node));
     triangle = GridTriangle(ivec2(cell), id & 1u);
     return corners_px(page, posts, middle, corners);
@@ -122,7 +133,7 @@ bool finds_rim(uint id, vec2 middle, vec2 towards, out Rim rim) {
         // A pixel's middle on a rim may show either of its two triangles: both tell the same.
         int edge = edge_at_middle(corners);
         if (edge < 0) return false;
-        triangle = beyond(triangle, edge);
+        triangle = beyond(page, triangle, edge);
         told = corners_of_grid_px(page, triangle, middle, corners);
         area = doubled_area_px(corners);
     }
@@ -130,7 +141,7 @@ bool finds_rim(uint id, vec2 middle, vec2 towards, out Rim rim) {
         int edge = edge_out(corners, side, towards);
         if (edge < 0) return false;
         vec2 at = corners[edge], along = side * (corners[(edge + 1) % 3] - at);
-        triangle = beyond(triangle, edge);
+        triangle = beyond(page, triangle, edge);
         told = corners_of_grid_px(page, triangle, middle, corners);
         area = doubled_area_px(corners);
         if (told == corners_none || (told == corners_here && area * side < 0.0)) {

@@ -172,7 +172,7 @@ FramePage corners_of(uint id, out uvec2 posts[3], out float heights_m[3], out ve
     FramePage page = frame_pages().at[id / (meshlet_triangles * meshlets_per_page)];
     PageBlocks block = PageBlocks(page.block);
     uint edges = edges_of(id / meshlet_triangles);
-    triangle_posts(id % meshlet_triangles, posts[0], posts[1], posts[2]);
+    triangle_posts(page, meshlet, id % meshlet_triangles, edges, posts[0], posts[1], posts[2]);
     for (int i = 0; i < 3; ++i) {
         posts[i] = vertex_post(page, meshlet, posts[i], edges);
         int height = post_height(block, posts[i]);

@@ -247,7 +247,7 @@ TEST(BenchBlocks, AreWholeAndWithinTheirError) {
     const test::Region region(test::patchy_field(420, 375));
     std::vector<std::size_t> of_error;
     for (const double error_m : {0.0, 2.0, 10.0, 40.0}) {
-        const BlockMesh blocks = block_mesh(region.pyramid, error_m);
+        const BlockMesh blocks = block_mesh(region.pyramid, region.heights, error_m);
         ASSERT_NO_FATAL_FAILURE(expect_whole(blocks.triangles, 420, 375)) << error_m;
         const MeshCheck check = check_mesh(region.heights, blocks.triangles, error_m);
         EXPECT_EQ(check.posts_beyond + check.posts_uncovered, 0U) << error_m;
@@ -257,7 +257,7 @@ TEST(BenchBlocks, AreWholeAndWithinTheirError) {
     EXPECT_EQ(of_error[0], 2U * 419U * 374U);
     for (std::size_t i = 1; i < of_error.size(); ++i) EXPECT_LT(of_error[i], of_error[i - 1]);
     // All the same level: the last, one page, 419 / 4 x 374 / 4 quads, rounded up.
-    const BlockMesh coarsest = block_mesh(region.pyramid, 1.0e6);
+    const BlockMesh coarsest = block_mesh(region.pyramid, region.heights, 1.0e6);
     EXPECT_EQ(coarsest.nodes, (std::vector<std::size_t>{0, 0, 14U * 12U}));
     EXPECT_EQ(coarsest.triangles.size(), 2U * 105U * 94U);
 }

@@ -31,6 +31,7 @@ HeightField marked_plain(double lat_deg, double lon_deg, double post_m) {
     HeightField field;
     const double half = posts / 2;
     const double north = std::min(std::round(lat_deg * rows_per_deg + half), 90.0 * rows_per_deg);
+    field.grid.split = CellSplit::all_fall;  // so that six triangles are around each post
     field.grid.lat = {rows_per_deg, north / rows_per_deg, 0, -1, posts};
     field.grid.lon = {columns_per_deg, std::round(lon_deg * columns_per_deg - half) / columns_per_deg, 0, +1,
                       posts};

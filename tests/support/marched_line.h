@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/terrain/post_grid.h"
+#include "tests/support/cell_rule.h"
 
 namespace oro::test {
 
@@ -56,7 +57,7 @@ class MarchedLine {
             const double share = static_cast<double>(i) / steps;
             const Numbers here = numbers(share);
             if (i < steps) least_m = std::min(least_m, clearance_m(share));
-            for (int axis = 0; axis < 3; ++axis) {
+            for (int axis = 0; axis < 4; ++axis) {
                 if (std::floor(before[axis]) != std::floor(here[axis]))
                     least_m = std::min(
                         least_m, clearance_m(crossing(axis, static_cast<double>(i - 1) / steps, share)));
@@ -67,7 +68,7 @@ class MarchedLine {
     }
 
   private:
-    using Numbers = std::array<double, 3>;  // row, column, their difference
+    using Numbers = std::array<double, 4>;  // row, column, their difference and sum
 
     static const GeographicLib::Geocentric& earth() { return GeographicLib::Geocentric::WGS84(); }
     static Point3 ecef(const Place& place) {
@@ -95,7 +96,7 @@ class MarchedLine {
         const double width_deg = (grid.columns() - 1) / grid.lon.posts_per_deg;
         if (east_deg < -1e-9 && width_deg > 180.0) east_deg += 360.0;
         const double column = east_deg * grid.lon.posts_per_deg;
-        return {row, column, row - column};
+        return {row, column, row - column, row + column};
     }
     [[nodiscard]] Numbers numbers(double share) const { return numbers(at(share)); }
     // Where one of the numbers passes a whole one: on its far side by less than 1e-12 of the way.
@@ -118,7 +119,7 @@ class MarchedLine {
         const auto ground_m = ground_h_m(place);
         return ground_m ? place.h_m - *ground_m : std::numeric_limits<double>::infinity();
     }
-    // The surface's definition, once more: two triangles a cell, split from north-west to south-east.
+    // The surface's definition, once more: two triangles a cell.
     [[nodiscard]] std::optional<double> ground_h_m(const Place& place) const {
         const PostGrid& grid = field_.grid;
         const Numbers number = numbers(place);
@@ -133,6 +134,11 @@ class MarchedLine {
             return field_.h_at_post_m(r, c);
         };
         const auto a = post(row, column), d = post(row + 1, column + 1);
+        if (rises_by_rule(field_, row, column)) {
+            const auto b = post(row, column + 1), c = post(row + 1, column);
+            return down + right <= 1.0 ? *a + down * (*c - *a) + right * (*b - *a)
+                                       : *d + (1.0 - down) * (*b - *d) + (1.0 - right) * (*c - *d);
+        }
         const auto other = down >= right ? post(row + 1, column) : post(row, column + 1);
         if (!a || !d || !other) return std::nullopt;
         return down >= right ? *a + down * (*other - *a) + right * (*d - *other)

@@ -148,9 +148,9 @@ TEST(RegionFile, SaysWhatIsDamagedAndWhere) {
     write_whole(path);
     const std::uint64_t records = 256 + 17 + 24;
     EXPECT_TRUE(says(refusal_with_flip(path, 0, 0), "is no region file"));
-    EXPECT_TRUE(says(refusal_with_flip(path, 8, 1),
-                     "is of version 3 of the region format (byte 8), this "
-                     "program reads versions 1 and 2"));
+    EXPECT_TRUE(says(refusal_with_flip(path, 8, 3),
+                     "of the region format (byte 8), this program reads versions "
+                     "1 to 4"));
     EXPECT_TRUE(says(refusal_with_flip(path, 33, 0), "is damaged at byte 0: the header has checksum"));
     EXPECT_TRUE(says(refusal_with_flip(path, 260, 0), "is damaged at byte 256: the description"));
     EXPECT_TRUE(says(refusal_with_flip(path, 280, 0), "is damaged at byte 273: the undulation"));

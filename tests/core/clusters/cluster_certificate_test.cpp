@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/core/clusters/cluster_terrain.h"
+#include "tests/support/cell_rule.h"
 #include "tests/support/net_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -53,9 +54,13 @@ class Check {
                 static_cast<VertexNumber>((cell_row + down) * columns + cell_column + right));
         };
         const bool south_west = row - cell_row >= column - cell_column;
-        const FlatTriangle3 original(terrain_.bounds, south_west
-                                                          ? std::array{post(0, 0), post(1, 1), post(1, 0)}
-                                                          : std::array{post(0, 0), post(0, 1), post(1, 1)});
+        const bool north_west = row - cell_row + column - cell_column <= 1.0;
+        std::array corners = south_west ? std::array{post(0, 0), post(1, 1), post(1, 0)}
+                                        : std::array{post(0, 0), post(0, 1), post(1, 1)};
+        if (test::rises_by_rule(terrain_.field, cell_row, cell_column))
+            corners = north_west ? std::array{post(0, 0), post(0, 1), post(1, 0)}
+                                 : std::array{post(0, 1), post(1, 1), post(1, 0)};
+        const FlatTriangle3 original(terrain_.bounds, corners);
         const double off_m = glm::distance(original.at(row, column), drawn.at(row, column));
         ++asked_;
         if (off_m > error_m) ++beyond_;
@@ -81,6 +86,10 @@ class Check {
                                         (line - (a.column - a.row)) / (right - down)}) {
                     if (at > 0.0 && at < 1.0) ask(drawn, a.row + at * down, a.column + at * right, error_m);
                 }
+            }
+            for (int line = top + west; line <= bottom + east; ++line) {
+                const double at = (line - (a.row + a.column)) / (down + right);
+                if (at > 0.0 && at < 1.0) ask(drawn, a.row + at * down, a.column + at * right, error_m);
             }
         }
         std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -44,7 +44,8 @@ struct ClusterTerrain {
             if (steps == void_height_steps) return std::nullopt;
             return steps;
         };
-        return h_at_row_column_m(field.grid, post, row, column);
+        const auto diagonal_at = [&](int r, int c) { return heights.diagonal(0, r, c); };
+        return h_at_row_column_m(field.grid, post, diagonal_at, row, column);
     }
 };
 

@@ -18,6 +18,8 @@ DrawnHeights part_of(const DrawnHeights& heights, int first_row, int first_colum
         part.steps.insert(part.steps.end(), heights.row(row) + first_column,
                           heights.row(row) + first_column + columns);
     part.highest_steps = heights.highest_steps;
+    if (heights.diagonals)
+        part.diagonals = heights.diagonals->part(first_row, first_column, rows - 1, columns - 1);
     return part;
 }
 

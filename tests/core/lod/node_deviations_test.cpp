@@ -1,5 +1,5 @@
-// The errors of nodes against brute force: every place of a lattice four times as fine as the posts, in every
-// way of stitching.
+// The errors of nodes against brute force: every place of lattices three and four times as fine as the posts,
+// in every way of stitching.
 #include "core/lod/node_deviations.h"
 
 #include <gtest/gtest.h>
@@ -42,8 +42,9 @@ struct Brute {
     double worst_m{0.0};
     bool same_area{true};
 };
-// Every place of a lattice at quarters of a post's spacing, asked just inside of each triangle. The areas are
-// the same when all drawn places are truly there and the sums agree.
+// Every place of lattices at quarters and at thirds of a post's spacing (new edges go one quad down and two
+// to the right, and so cross diagonals at these), asked just inside of each triangle. The areas are the same
+// when all drawn places are truly there and the sums agree.
 Brute brute_force(const DrawnHeights& heights, const LevelGrid& grid, int node_row, int node_column,
                   std::uint32_t edges) {
     Brute brute;
@@ -54,13 +55,18 @@ Brute brute_force(const DrawnHeights& heights, const LevelGrid& grid, int node_r
             0.5 * std::abs((b.row - a.row) * (c.column - a.column) - (c.row - a.row) * (b.column - a.column));
         const double middle_row = (a.row + b.row + c.row) / 3.0;
         const double middle_column = (a.column + b.column + c.column) / 3.0;
-        for (int i = 4 * std::min({a.row, b.row, c.row}); i <= 4 * std::max({a.row, b.row, c.row}); ++i) {
-            for (int j = 4 * std::min({a.column, b.column, c.column});
-                 j <= 4 * std::max({a.column, b.column, c.column}); ++j) {
-                const auto shares = test::shares_at(triangle, 0.25 * i, 0.25 * j);
+        const int north = std::min({a.row, b.row, c.row}), south = std::max({a.row, b.row, c.row});
+        const int west = std::min({a.column, b.column, c.column}),
+                  east = std::max({a.column, b.column, c.column});
+        for (const int parts : {3, 4}) {
+            for (int i = 0; i < (parts * (south - north) + 1) * (parts * (east - west) + 1); ++i) {
+                const int across = parts * (east - west) + 1;
+                const double y = north + static_cast<double>(i / across) / parts,
+                             x = west + static_cast<double>(i % across) / parts;
+                const auto shares = test::shares_at(triangle, y, x);
                 if (*std::min_element(shares.begin(), shares.end()) < -1.0e-12) continue;
-                const double row = 0.25 * i + 1e-6 * (middle_row - 0.25 * i);
-                const double column = 0.25 * j + 1e-6 * (middle_column - 0.25 * j);
+                const double row = y + 1e-6 * (middle_row - y);
+                const double column = x + 1e-6 * (middle_column - x);
                 const auto finest = test::finest_triangle(heights, row, column);
                 brute.same_area = brute.same_area && finest.has_value();
                 if (!finest) continue;

@@ -22,8 +22,8 @@ struct RegionPost {
 };
 using PostTriangle = std::array<RegionPost, 3>;
 
-// Triangles of a node that have an area and no void post, each cell split from its north-west to its
-// south-east post.
+// Triangles of a node that have an area and no void post, each cell split as its level says; but the last one
+// of a node falls where both its southern and its eastern edge are stitched.
 inline std::vector<PostTriangle> drawn_triangles(const DrawnHeights& heights, const LevelGrid& grid,
                                                  int node_row, int node_column, std::uint32_t edges) {
     const glm::uvec2 quads(static_cast<unsigned>(grid.row.quads_of_node(node_row)),
@@ -31,10 +31,14 @@ inline std::vector<PostTriangle> drawn_triangles(const DrawnHeights& heights, co
     std::vector<PostTriangle> triangles;
     for (unsigned row = 0; row < quads.x; ++row) {
         for (unsigned column = 0; column < quads.y; ++column) {
-            const glm::uvec2 nw(row, column), se(row + 1, column + 1);
-            for (const glm::uvec2 third : {glm::uvec2(row + 1, column), glm::uvec2(row, column + 1)}) {
-                const std::array corners =
-                    third.x > row ? std::array{nw, third, se} : std::array{nw, se, third};
+            const glm::uvec2 nw(row, column), se(row + 1, column + 1), sw(row + 1, column),
+                ne(row, column + 1);
+            bool rises = heights.diagonal(grid.level(), node_row * 8 + static_cast<int>(row),
+                                          node_column * 8 + static_cast<int>(column)) == Diagonal::rises;
+            if ((edges & gpu::edge_south) != 0 && (edges & gpu::edge_east) != 0 && se == quads) rises = false;
+            for (const std::array<glm::uvec2, 3>& corners :
+                 {rises ? std::array{nw, sw, ne} : std::array{nw, sw, se},
+                  rises ? std::array{ne, sw, se} : std::array{nw, se, ne}}) {
                 PostTriangle triangle;
                 bool drawn = true;
                 for (std::size_t i = 0; i < 3; ++i) {
@@ -70,9 +74,11 @@ inline std::array<double, 3> shares_at(const PostTriangle& triangle, double row,
 inline std::optional<PostTriangle> finest_triangle(const DrawnHeights& heights, double row, double column) {
     const int r = std::min(static_cast<int>(row), heights.rows - 2);
     const int c = std::min(static_cast<int>(column), heights.columns - 2);
-    const PostTriangle triangle = row - r >= column - c
-                                      ? PostTriangle{RegionPost{r, c}, {r + 1, c}, {r + 1, c + 1}}
-                                      : PostTriangle{RegionPost{r, c}, {r + 1, c + 1}, {r, c + 1}};
+    const bool rises = heights.diagonal(0, r, c) == Diagonal::rises;
+    const RegionPost nw{r, c}, ne{r, c + 1}, sw{r + 1, c}, se{r + 1, c + 1};
+    PostTriangle triangle = row - r >= column - c ? PostTriangle{nw, sw, se} : PostTriangle{nw, se, ne};
+    if (rises)
+        triangle = (row - r) + (column - c) <= 1.0 ? PostTriangle{nw, sw, ne} : PostTriangle{ne, sw, se};
     for (const RegionPost& post : triangle) {
         if (heights.at(post.row, post.column) == void_height_steps) return std::nullopt;
     }

@@ -232,7 +232,7 @@ TEST(Oracle, TellsTheCellAndTheTriangle) {
         ASSERT_TRUE(hit);
         EXPECT_EQ(hit->row, 5);
         EXPECT_EQ(hit->column, 9);
-        EXPECT_EQ(hit->south_west, south_west);
+        EXPECT_EQ(hit->west, south_west);
         EXPECT_NEAR(hit->distance_m, 400.0, 1e-8);
     }
 }

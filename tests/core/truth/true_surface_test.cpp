@@ -290,7 +290,7 @@ TEST(TrueSurface, PostsOfAFileAreTheSameSurface) {
         ASSERT_NEAR(one->distance_m, two->distance_m, 1.0e-9) << i;
         ASSERT_EQ(one->row, two->row) << i;
         ASSERT_EQ(one->column, two->column) << i;
-        ASSERT_EQ(one->south_west, two->south_west) << i;
+        ASSERT_EQ(one->west, two->west) << i;
     }
     std::printf("%d of 2000 lines meet ground\n", hits);
     EXPECT_GT(hits, 1000);

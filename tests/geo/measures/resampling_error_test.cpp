@@ -11,6 +11,7 @@
 #include "geo/measures/region_resampling.h"
 #include "geo/sources/raster_library.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/cell_rule.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -18,8 +19,7 @@ namespace {
 
 using namespace test;
 
-// H of the surface at a place, from the region's posts alone: two flat triangles a cell, split from the
-// north-west to the south-east.
+// H of the surface at a place, from the region's posts alone: two flat triangles a cell.
 std::optional<double> on_triangles(const HeightField& field, double lat_deg, double lon_deg) {
     const PostGrid& grid = field.grid;
     const double y = (grid.north_deg() - lat_deg) * grid.lat.posts_per_deg;
@@ -28,6 +28,12 @@ std::optional<double> on_triangles(const HeightField& field, double lat_deg, dou
     if (row < 0 || column < 0 || row + 1 >= grid.rows() || column + 1 >= grid.columns()) return std::nullopt;
     const double v = y - row, u = x - column;
     const float nw = field.H_at_post_m(row, column), se = field.H_at_post_m(row + 1, column + 1);
+    if (rises_by_rule(field, row, column)) {
+        const auto a = static_cast<double>(nw), d = static_cast<double>(se),
+                   b = static_cast<double>(field.H_at_post_m(row, column + 1)),
+                   c = static_cast<double>(field.H_at_post_m(row + 1, column));
+        return u + v <= 1.0 ? a + u * (b - a) + v * (c - a) : d + (1.0 - u) * (c - d) + (1.0 - v) * (b - d);
+    }
     const float other = u > v ? field.H_at_post_m(row, column + 1) : field.H_at_post_m(row + 1, column);
     if (is_void(nw) || is_void(se) || is_void(other)) return std::nullopt;
     const auto a = static_cast<double>(nw), b = static_cast<double>(other), c = static_cast<double>(se);
