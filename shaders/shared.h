@@ -112,7 +112,7 @@ struct PageBlock {
     // normal, in 1023rds of its radius, 10 bits each.
     uint boxes[256];
     // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its north-west to its
-    // south-east (core/terrain/cell_diagonal.h). Two words a meshlet, row by row, the first the lowest bit.
+    // south-east (core/cells/cell_diagonal.h). Two words a meshlet, row by row, the first the lowest bit.
     uint rises[512];
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/terrain/cell_diagonal.h"
+#include "core/cells/cell_diagonal.h"
 
 namespace oro {
 

@@ -250,9 +250,6 @@ TEST(Page, ElevationsAreThoseOfTheCanonicalPost) {
     EXPECT_EQ(H_m(east, 5, 60), field.H_at_post_m(5, 0)) << "the last meridian is the first";
     EXPECT_EQ(H_m(east, 20, 60), field.H_at_post_m(20, 828)) << "but where that has nothing";
     EXPECT_EQ(H_m(east, 22, 60), void_height_m);
-    const bool by_posts = field.grid.split == CellSplit::by_posts;
-    EXPECT_EQ(H_m(east, 5, 61), by_posts ? field.H_at_post_m(5, 1) : void_height_m)
-        << "one more, which only diagonals are decided by";
     EXPECT_EQ(H_m(east, 5, 62), void_height_m);
     EXPECT_EQ(H_m(north_west, 5, -1), field.H_at_post_m(5, 827));
 }
