@@ -9,7 +9,7 @@
 
 namespace oro {
 
-const CellSplit usual_split = CellSplit::all_fall;
+const CellSplit usual_split = CellSplit::by_posts;
 
 namespace {
 
