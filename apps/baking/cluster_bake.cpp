@@ -49,7 +49,7 @@ Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions&
     grid.overwrite = true;
     ClusterBakeReport report;
     ORO_CHECK(check_path_of_grid(grid.path));
-    if (is_baked_grid(grid.path, grid.fingerprint, grid.description)) {
+    if (is_baked_grid(grid.path, grid.fingerprint, grid.description, region.field.grid.split)) {
         ORO_TRY(const RegionFile file, RegionFile::open(grid.path));
         report.region = {file.order().count(), file.order().count(), file.outline().triangles};
     } else {
@@ -60,8 +60,8 @@ Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions&
     }
     const auto building = Clock::now();
     told(0.0, "building clusters");
-    if (!are_baked_clusters(clusters_path, how.fingerprint))
-        ORO_CHECK(build(region, clusters_path, how.fingerprint));
+    const std::uint64_t fingerprint = surface_fingerprint(how.fingerprint, region.field.grid.split);
+    if (!are_baked_clusters(clusters_path, fingerprint)) ORO_CHECK(build(region, clusters_path, fingerprint));
     report.build_s = seconds_since(building);
     {
         ORO_TRY(const ClusterFile file, ClusterFile::open(clusters_path));

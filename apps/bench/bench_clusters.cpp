@@ -107,7 +107,9 @@ Result<void> print_bytes(const std::string& region, const PostCounts& posts, con
 Result<void> write_out(const std::string& out, const RegionFile& file, const PostCounts& posts,
                        const ClusterGraph& graph, int threads) {
     const std::string clusters_path = out + ".clusters";
-    ORO_CHECK(write_cluster_graph(clusters_path, graph, posts, file.fingerprint(), true, threads));
+    ORO_CHECK(write_cluster_graph(clusters_path, graph, posts,
+                                  surface_fingerprint(file.fingerprint(), file.outline().grid.split), true,
+                                  threads));
     ORO_TRY(OpenFile whole, OpenFile::open(out, OpenFile::Use::write));
     std::uint64_t at = 0;
     const auto append = [&](const std::vector<std::byte>& bytes) {

@@ -162,7 +162,7 @@ void add(BakeReport& sum, const BakeReport& part) {
 // One grid of several into a file of its own, which is there when a bake was broken off after it.
 Result<BakeReport> bake_grid(const Region& region, const BakeOptions& how, const BakeProgress& progress) {
     ORO_CHECK(check_path_of_grid(how.path));
-    if (is_baked_grid(how.path, how.fingerprint, how.description)) {
+    if (is_baked_grid(how.path, how.fingerprint, how.description, region.field.grid.split)) {
         ORO_TRY(const RegionFile file, RegionFile::open(how.path));
         return BakeReport{file.order().count(), file.order().count(), file.outline().triangles};
     }

@@ -8,6 +8,7 @@
 #include "core/baked/region_format.h"
 #include "core/base/checksum.h"
 #include "core/base/little_endian.h"
+#include "core/surface/grid_surface.h"
 
 namespace oro {
 namespace {
@@ -90,8 +91,8 @@ Result<BakedFile> open_baked_file(const std::string& path) {
     ORO_TRY(ClusterFile clusters, ClusterFile::open(std::move(second)));
     const PostGrid& grid = region.outline().grid;
     const ClusterOutline& outline = clusters.outline();
-    if (outline.fingerprint != region.fingerprint() || outline.posts.rows != grid.rows() ||
-        outline.posts.columns != grid.columns())
+    if (outline.fingerprint != surface_fingerprint(region.fingerprint(), grid.split) ||
+        outline.posts.rows != grid.rows() || outline.posts.columns != grid.columns())
         return file.damaged(parts.clusters_offset, "its clusters are of another region");
     return BakedFile{std::make_shared<const RegionFile>(std::move(region)),
                      std::make_shared<const ClusterFile>(std::move(clusters))};

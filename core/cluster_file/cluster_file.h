@@ -17,7 +17,7 @@ namespace oro {
 
 // What a file says of the whole graph.
 struct ClusterOutline {
-    // Tells the heights that the graph was built over from any other.
+    // Tells what the graph was built over from anything else (surface_fingerprint()).
     std::uint64_t fingerprint{};
     PostCounts posts;
     std::uint32_t leaves{};  // clusters of the original; their triangles are the grid's, and not in the file

@@ -184,8 +184,8 @@ Result<std::unique_ptr<RegionClusters>> clusters_of_file(std::shared_ptr<const C
                                                          std::uint64_t fingerprint, const HeightField& field,
                                                          const HorizonOccluder& occluder) {
     const ClusterOutline& outline = file->outline();
-    if (outline.fingerprint != fingerprint || outline.posts.rows != field.grid.rows() ||
-        outline.posts.columns != field.grid.columns())
+    if (outline.fingerprint != surface_fingerprint(fingerprint, field.grid.split) ||
+        outline.posts.rows != field.grid.rows() || outline.posts.columns != field.grid.columns())
         return Error{ErrorKind::failed, file->path(), "has clusters of another region's posts"};
     std::vector<ClusterGroup> groups;
     for (std::uint32_t i = 0; i < outline.groups; ++i) {

@@ -3,6 +3,7 @@
 
 #include "core/surface/original_surface.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/post_grid.h"
 
 namespace oro {
 
@@ -17,6 +18,10 @@ struct GridWindow {
     // The first and the last column are one meridian: their posts stay, so that both sides have the same.
     bool goes_round{};
 };
+
+// What tells the surface of some posts from any other: `posts` is their own fingerprint. The same posts make
+// another surface where their cells are split otherwise.
+[[nodiscard]] std::uint64_t surface_fingerprint(std::uint64_t posts, CellSplit split);
 
 // Vertex number row * columns + column, counted within the heights; places are those in the region. A cell is
 // two triangles (core/cells/cell_diagonal.h); a triangle with a void post is not there,

@@ -28,10 +28,11 @@ Result<void> check_path_of_grid(const std::string& grid_path) {
     return RegionFileWriter::check(grid_path, true);
 }
 
-bool is_baked_grid(const std::string& grid_path, std::uint64_t fingerprint, const std::string& description) {
+bool is_baked_grid(const std::string& grid_path, std::uint64_t fingerprint, const std::string& description,
+                   CellSplit split) {
     const Result<RegionFile> file = RegionFile::open(grid_path);
     return file.ok() && file->fingerprint() == fingerprint && file->outline().description == description &&
-           file->verify().ok();
+           file->outline().grid.split == split && file->verify().ok();
 }
 
 Result<void> join_grids(const std::string& path, bool overwrite, const std::vector<std::uint32_t>& ranks) {

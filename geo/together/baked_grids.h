@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/terrain/post_grid.h"
 
 namespace oro {
 
@@ -17,7 +18,9 @@ std::string path_of_grid(const std::string& path, std::size_t number);
 Result<void> check_path_of_grid(const std::string& grid_path);
 
 // Whether a grid's file is whole and what is to be baked: then it need not be baked again. Reads all of it.
-bool is_baked_grid(const std::string& grid_path, std::uint64_t fingerprint, const std::string& description);
+// split: of the cells that are to be baked; an earlier program split them otherwise.
+bool is_baked_grid(const std::string& grid_path, std::uint64_t fingerprint, const std::string& description,
+                   CellSplit split);
 
 // Puts the grids' files together as `path`, which appears whole or not at all, and removes them. ranks: as
 // Region::rank, of each. Errors: those of reading and writing.

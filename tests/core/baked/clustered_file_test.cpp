@@ -26,9 +26,12 @@ class ClusteredFile : public ::testing::Test {
         const auto baked = bake_region(terrain_.field, how);
         ASSERT_TRUE(baked.ok()) << baked.error().line();
         ASSERT_TRUE(write_cluster_graph(folder_ / "clusters", terrain_.graph, test::posts_of(terrain_),
-                                        test::cluster_fingerprint, true)
+                                        fingerprint_of(CellSplit::by_posts), true)
                         .ok());
         put(path_, test::bytes_of(folder_ / "region.oro"), test::bytes_of(folder_ / "clusters"));
+    }
+    static std::uint64_t fingerprint_of(CellSplit split) {
+        return surface_fingerprint(test::cluster_fingerprint, split);
     }
     static void put(const fs::path& path, const std::string& region, const std::string& clusters) {
         const std::vector<std::byte> header = clustered_header(region.size(), clusters.size());
@@ -111,6 +114,17 @@ TEST_F(ClusteredFile, ClustersOfAnotherRegionAreRefused) {
                                     test::cluster_fingerprint + 1, true)
                     .ok());
     put(path_, test::bytes_of(folder_ / "region.oro"), test::bytes_of(folder_ / "others"));
+    EXPECT_NE(refusal(path_).find("its clusters are of another region"), std::string::npos) << refusal(path_);
+}
+
+// The same posts, whose cells are split otherwise than the region's: its errors would be those of other
+// triangles.
+TEST_F(ClusteredFile, ClustersOfOtherDiagonalsAreRefused) {
+    ASSERT_EQ(terrain_.field.grid.split, CellSplit::by_posts);
+    ASSERT_TRUE(write_cluster_graph(folder_ / "older", terrain_.graph, test::posts_of(terrain_),
+                                    fingerprint_of(CellSplit::all_fall), true)
+                    .ok());
+    put(path_, test::bytes_of(folder_ / "region.oro"), test::bytes_of(folder_ / "older"));
     EXPECT_NE(refusal(path_).find("its clusters are of another region"), std::string::npos) << refusal(path_);
 }
 
