@@ -16,7 +16,9 @@ struct ClusterBlock {
 struct DrawnCluster {
     uvec2 block;  // device address of its ClusterBlock
     uint page;    // number in the frame of the finest page that covers all of it: shading begins there
-    uint counts;  // triangles, vertices << 8
+    uint counts;  // triangles, vertices << 8, level of the graph << 16
+    uint number;  // in the graph
+    uint group;   // in the graph: that which made it; of one of the original's, that which uses it
 };
 // The clusters of a frame.
 struct ClusterTable {

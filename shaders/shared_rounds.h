@@ -21,6 +21,8 @@ ORO_CONST uint show_visible = 1u;  // whether the last round has drawn a pixel's
 ORO_CONST uint show_levels = 2u;
 ORO_CONST uint show_meshlets = 3u;
 ORO_CONST uint show_triangles = 4u;
+ORO_CONST uint show_clusters = 5u;  // by their numbers in the graph, so that they keep their colours
+ORO_CONST uint show_groups = 6u;    // of clusters
 // The pyramid of the farthest depths: a level has a value for each square of 4, 8, 16, 32 and 64 pixels, row
 // by row, and the levels follow each other.
 ORO_CONST uint pyramid_finest = 2u;  // 2^2 = 4 pixels

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <glm/geometric.hpp>
+#include <tuple>
 #include <utility>
 
 #include "core/cluster_frame/group_rule.h"
@@ -17,9 +18,10 @@ enum class Asked : char { no, hidden, stands, gives_way };
 class Cut {
   public:
     Cut(RegionClusters& clusters, const Camera& camera, const Tile& tile, double tau_px,
-        const WorldModel& model, const HorizonOccluder& occluder, const HeightQuantization& coding)
+        const WorldModel& model, const HorizonOccluder& occluder, const HeightQuantization& coding,
+        std::optional<std::uint32_t> level)
         : clusters_(clusters),
-          rule_(camera, tau_px, model.air),
+          rule_(camera, tau_px, model.air, level),
           planes_(frustum_planes_view(projection_of_tile(camera, tile))),
           asked_(clusters.groups().size(), Asked::no) {
         const ModelView view(camera, model, coding);
@@ -29,7 +31,7 @@ class Cut {
     }
 
     Result<ClusterChoice> choose() {
-        meet(clusters_.roots());
+        meet(clusters_.roots(), no_group);
         // Wave by wave, so that what must be read is read together.
         std::vector<std::uint32_t> wave;
         while (!open_.empty()) {
@@ -38,23 +40,29 @@ class Cut {
             ORO_CHECK(clusters_.read(wave));
             for (const std::uint32_t group : wave) {
                 ORO_TRY(const std::span<const std::uint32_t> members, clusters_.members(group));
-                meet(members);
+                meet(members, group);
             }
         }
         ORO_CHECK(clusters_.reach_all(cut_));
-        for (const std::uint32_t cluster : cut_) ORO_CHECK(draw(cluster));
+        for (std::size_t i = 0; i < cut_.size(); ++i) ORO_CHECK(draw(cut_[i], groups_[i]));
         std::ranges::sort(found_);
-        for (const auto& [distance_m, cluster] : found_) choice_.clusters.push_back(cluster);
+        for (const auto& [distance_m, cluster, group] : found_) {
+            choice_.clusters.push_back(cluster);
+            choice_.groups.push_back(group);
+        }
         return std::move(choice_);
     }
 
   private:
-    // Clusters that no group stands for: each is of the cut, or what it was made of is met in its turn.
-    void meet(std::span<const std::uint32_t> clusters) {
+    // Clusters that no group stands for: each is of the cut, or what it was made of is met in its turn. user:
+    // the group that they come from.
+    void meet(std::span<const std::uint32_t> clusters, std::uint32_t user) {
         for (const std::uint32_t cluster : clusters) {
             const std::uint32_t maker = clusters_.maker(cluster);
             if (maker != no_group && asked_[maker] == Asked::no) ask(maker);
-            if (maker == no_group || asked_[maker] == Asked::stands) cut_.push_back(cluster);
+            if (maker != no_group && asked_[maker] != Asked::stands) continue;
+            cut_.push_back(cluster);
+            groups_.push_back(maker == no_group ? user : maker);
         }
     }
 
@@ -74,7 +82,7 @@ class Cut {
         }
     }
 
-    Result<void> draw(std::uint32_t cluster) {
+    Result<void> draw(std::uint32_t cluster, std::uint32_t group) {
         ORO_TRY(const ClusterReach* const reach, clusters_.reach(cluster));
         const GroupRule::SeenSphere seen = rule_.seen(reach->centre, reach->radius_m);
         if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
@@ -86,7 +94,7 @@ class Cut {
             ++choice_.beyond_horizon;
             return {};
         }
-        found_.emplace_back(std::max(0.0, glm::length(seen.centre_m) - seen.radius_m), cluster);
+        found_.emplace_back(std::max(0.0, glm::length(seen.centre_m) - seen.radius_m), cluster, group);
         return {};
     }
 
@@ -96,8 +104,9 @@ class Cut {
     SeenHorizon horizon_;
     std::vector<Asked> asked_;  // of each group
     std::vector<std::uint32_t> open_;
-    std::vector<std::uint32_t> cut_;  // of what may be seen
-    std::vector<std::pair<double, std::uint32_t>> found_;
+    std::vector<std::uint32_t> cut_;     // of what may be seen,
+    std::vector<std::uint32_t> groups_;  // and their groups
+    std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> found_;
     ClusterChoice choice_;
 };
 
@@ -105,9 +114,9 @@ class Cut {
 
 Result<ClusterChoice> choose_clusters(RegionClusters& clusters, const Camera& camera, const Tile& tile,
                                       double tau_px, const WorldModel& model, const HorizonOccluder& occluder,
-                                      const HeightQuantization& coding) {
+                                      const HeightQuantization& coding, std::optional<std::uint32_t> level) {
     assert(model.earth == Earth::ellipsoid);
-    return Cut(clusters, camera, tile, tau_px, model, occluder, coding).choose();
+    return Cut(clusters, camera, tile, tau_px, model, occluder, coding, level).choose();
 }
 
 }  // namespace oro

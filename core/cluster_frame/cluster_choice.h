@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/cluster_frame/region_clusters.h"
@@ -14,6 +15,7 @@ namespace oro {
 
 struct ClusterChoice {
     std::vector<std::uint32_t> clusters;  // nearest first
+    std::vector<std::uint32_t> groups;    // of each: that which made it; of a leaf, that which uses it
     std::size_t groups_opened{};          // those that do not stand, and may be seen
     std::size_t beyond_frustum{};         // groups and clusters of the cut,
     std::size_t beyond_horizon{};         // clusters
@@ -21,10 +23,11 @@ struct ClusterChoice {
 
 // The cut of GroupRule, found from the coarsest clusters down. A group that does not stand gives way to the
 // clusters that it uses; where its sphere cannot be seen, nothing below it is looked at. So the cost is that
-// of the groups above the cut, in view. Frustum and horizon are conservative. model: on the ellipsoid.
-// Errors: damage.
+// of the groups above the cut, in view. Frustum and horizon are conservative. model: on the ellipsoid. level:
+// in the place of tau_px (GroupRule). Errors: damage.
 Result<ClusterChoice> choose_clusters(RegionClusters& clusters, const Camera& camera, const Tile& tile,
                                       double tau_px, const WorldModel& model, const HorizonOccluder& occluder,
-                                      const HeightQuantization& coding);
+                                      const HeightQuantization& coding,
+                                      std::optional<std::uint32_t> level = {});
 
 }  // namespace oro

@@ -53,7 +53,9 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
         plan.clusters.drawn.push_back(
             {{static_cast<gpu::uint>(cluster.address), static_cast<gpu::uint>(cluster.address >> 32U)},
              page,
-             cluster.counts});
+             cluster.counts,
+             cluster.number,
+             cluster.group});
     }
     plan.constants.clusters.on = 1;
     plan.constants.clusters.count = static_cast<gpu::uint>(plan.clusters.drawn.size());

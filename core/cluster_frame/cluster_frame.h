@@ -13,6 +13,7 @@ namespace oro {
 struct ResidentCluster {
     std::uint64_t address;
     std::uint32_t counts;                                         // DrawnCluster::counts
+    std::uint32_t number, group;                                  // likewise
     std::int32_t first_row, last_row, first_column, last_column;  // posts that it reaches over
 };
 

@@ -9,8 +9,9 @@
 
 namespace oro {
 
-GroupRule::GroupRule(const Camera& camera, double tau_px, const Air& air)
-    : curvature_per_m_(Refraction(camera.eye, air).curvature_per_m()),
+GroupRule::GroupRule(const Camera& camera, double tau_px, const Air& air, std::optional<std::uint32_t> level)
+    : level_(level),
+      curvature_per_m_(Refraction(camera.eye, air).curvature_per_m()),
       view_from_ecef_(camera.view_from_ecef()),
       eye_(camera.eye_ecef()),
       up_view_(view_from_ecef_ * ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg)[2]) {
@@ -53,6 +54,7 @@ double GroupRule::error_px(const ClusterGroup& group) const {
 }
 
 bool GroupRule::stands(const ClusterGroup& group) const {
+    if (level_) return group.level <= *level_;
     return error_px(group) <= tau_px_ * (1.0 - 1.0e-7 * group.level);
 }
 

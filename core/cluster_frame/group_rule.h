@@ -1,7 +1,9 @@
-// Whether a group stands in a view for what it was made of: the rule of every cut by pixels.
+// Whether a group stands in a view for what it was made of: the rule of every cut.
 #pragma once
 
+#include <cstdint>
 #include <glm/mat3x3.hpp>
+#include <optional>
 
 #include "core/clusters/cluster_graph.h"
 #include "core/earth/camera.h"
@@ -14,10 +16,14 @@ namespace oro {
 // (core/earth/model_view.h, whose spheres grow alike). As errors and spheres grow from a group to those
 // above, so does the bound; rounding is kept out by letting tau shrink by a ten-millionth from a level to the
 // next. So where a group stands all below it stand, whatever order they are asked in.
+//
+// With a level the cut is the same from everywhere (discrete): all groups up to that level stand, none above.
+// Then nothing is promised in pixels.
 class GroupRule {
   public:
     // tau_px: at least 0.
-    GroupRule(const Camera& camera, double tau_px, const Air& air = {});
+    GroupRule(const Camera& camera, double tau_px, const Air& air = {},
+              std::optional<std::uint32_t> level = {});
 
     [[nodiscard]] bool stands(const ClusterGroup& group) const;
     // The bound itself, pixels; infinite where nothing can be promised.
@@ -35,6 +41,7 @@ class GroupRule {
     double pixels_per_tangent_;
     double corner_tangent_;
     double tau_px_;
+    std::optional<std::uint32_t> level_;
     double curvature_per_m_;
     glm::dmat3 view_from_ecef_;
     Ecef eye_;

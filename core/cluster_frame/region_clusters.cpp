@@ -91,6 +91,11 @@ Result<std::span<const VertexTriangle>> RegionClusters::triangles(std::uint32_t 
     return std::span<const VertexTriangle>(whole->triangles).subspan(made.first_triangle, made.triangles);
 }
 
+Result<std::uint32_t> RegionClusters::triangle_count(std::uint32_t cluster) {
+    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster));
+    return static_cast<std::uint32_t>(all.size());
+}
+
 ClusterReach RegionClusters::reach_of(std::span<const VertexTriangle> all) const {
     std::vector<glm::dvec3> places_m;
     ClusterReach reach{{}, 0.0, {}, grid_.rows(), 0, grid_.columns(), 0};
@@ -177,7 +182,7 @@ Result<std::uint32_t> RegionClusters::fill(std::uint32_t cluster, const HeightQu
     // Clockwise on the map in the graph, the other way round as pages' triangles are.
     for (std::size_t i = 0; i < all.size(); ++i)
         block.corners[i] = place(all[i][0]) | place(all[i][2]) << 8U | place(all[i][1]) << 16U;
-    return static_cast<std::uint32_t>(all.size() | vertices.size() << 8U);
+    return static_cast<std::uint32_t>(all.size() | vertices.size() << 8U) | level_of(cluster) << 16U;
 }
 
 Result<std::unique_ptr<RegionClusters>> clusters_of_file(std::shared_ptr<const ClusterFile> file,

@@ -46,6 +46,10 @@ class RegionClusters {
     [[nodiscard]] std::span<const std::uint32_t> roots() const { return roots_; }
     // The group that made a cluster; no_group: a leaf.
     [[nodiscard]] std::uint32_t maker(std::uint32_t cluster) const { return makers_[cluster]; }
+    // Its level in the graph: 0, the original's.
+    [[nodiscard]] std::uint32_t level_of(std::uint32_t cluster) const {
+        return maker(cluster) == no_group ? 0 : groups_[maker(cluster)].level;
+    }
     // Reads groups, and the reach of clusters, that nobody has asked for yet, by several threads. Errors:
     // damage.
     Result<void> read(std::span<const std::uint32_t> groups);
@@ -53,6 +57,8 @@ class RegionClusters {
     // Clusters that a group uses. Errors: damage.
     Result<std::span<const std::uint32_t>> members(std::uint32_t group);
     Result<const ClusterReach*> reach(std::uint32_t cluster);
+    // Errors: damage.
+    Result<std::uint32_t> triangle_count(std::uint32_t cluster);
     // What the GPU gets of a cluster, with heights coded so; gives DrawnCluster::counts. Errors: damage.
     Result<std::uint32_t> fill(std::uint32_t cluster, const HeightQuantization& coding,
                                gpu::ClusterBlock& block);

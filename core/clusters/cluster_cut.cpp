@@ -24,6 +24,13 @@ std::vector<std::uint32_t> cut_by_metres(const ClusterGraph& graph, double error
     return cut_of(graph, stands);
 }
 
+std::vector<std::uint32_t> cut_by_level(const ClusterGraph& graph, std::uint32_t level) {
+    std::vector<char> stands(graph.groups.size());
+    std::transform(graph.groups.begin(), graph.groups.end(), stands.begin(),
+                   [&](const ClusterGroup& group) { return group.level <= level ? 1 : 0; });
+    return cut_of(graph, stands);
+}
+
 std::vector<std::uint32_t> cut_by_pixels(const ClusterGraph& graph, const Camera& camera, double tau_px) {
     const GroupRule rule(camera, tau_px);
     std::vector<char> stands(graph.groups.size());

@@ -18,6 +18,9 @@ namespace oro {
 // more. At 0 the original itself is drawn where no group is exact.
 [[nodiscard]] std::vector<std::uint32_t> cut_by_metres(const ClusterGraph& graph, double error_m);
 
+// All clusters of one level of the graph (discrete): 0, the original's; above the last, the coarsest.
+[[nodiscard]] std::vector<std::uint32_t> cut_by_level(const ClusterGraph& graph, std::uint32_t level);
+
 // For a view: no place that can be seen is farther than tau_px, at least 0, from where the original would put
 // it (core/cluster_frame/group_rule.h). Nothing is left out
 // because it cannot be seen.

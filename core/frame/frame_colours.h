@@ -7,6 +7,8 @@ namespace oro {
 
 // sRGB, 0 to 1.
 gpu::vec3 colour_of_level(gpu::uint level);
+// Of a level of a cluster graph.
+gpu::vec3 colour_of_cluster_level(gpu::uint level);
 // Of a meshlet that the frame's last round drew, or one before it.
 gpu::vec3 colour_of_round(bool before_last);
 // Of a meshlet or a triangle by its number.

@@ -25,7 +25,7 @@ Result<void> ClusterScene::add_to(FramePlan& plan, const Camera& camera, const T
                                   const WorldModel& model, const HorizonOccluder& occluder,
                                   const HeightQuantization& coding) {
     ORO_TRY(const ClusterChoice choice,
-            choose_clusters(*clusters_, camera, tile, tau_px, model, occluder, coding));
+            choose_clusters(*clusters_, camera, tile, tau_px, model, occluder, coding, level_));
     ORO_TRY(const std::vector<ClusterStore::Held> held,
             store_.hold(choice.clusters, [&](std::uint32_t cluster, gpu::ClusterBlock& block) {
                 return clusters_->fill(cluster, coding, block);
@@ -34,8 +34,8 @@ Result<void> ClusterScene::add_to(FramePlan& plan, const Camera& camera, const T
     resident.reserve(held.size());
     for (std::size_t i = 0; i < held.size(); ++i) {
         ORO_TRY(const ClusterReach* const reach, clusters_->reach(choice.clusters[i]));
-        resident.push_back({held[i].address, held[i].counts, reach->first_row, reach->last_row,
-                            reach->first_column, reach->last_column});
+        resident.push_back({held[i].address, held[i].counts, choice.clusters[i], choice.groups[i],
+                            reach->first_row, reach->last_row, reach->first_column, reach->last_column});
     }
     draw_clusters(clusters_->grid(), resident, camera, plan);
     plan.clusters.groups_opened = choice.groups_opened;

@@ -1,11 +1,7 @@
 // The clusters that a frame draws, and where their vertices are. Needs frame.glsl and place.glsl.
+#include "shaders/clusters/drawn.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ClusterBlocks { ClusterBlock at; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer DrawnClusters { DrawnCluster at[]; };
-
-DrawnCluster drawn_cluster(uint number) { return DrawnClusters(FRAME.clusters.drawn).at[number]; }
-uint triangles_of_cluster(DrawnCluster drawn) { return drawn.counts & 255u; }
-uint vertices_of_cluster(DrawnCluster drawn) { return drawn.counts >> 8; }
 
 // The vertices of a triangle.
 uvec3 corners_in_cluster(ClusterBlocks block, uint triangle) {

@@ -1,8 +1,9 @@
 #version 460
-// Colours pixels by what draws them, in the place of the ground's own colours (FrameConstants.show): which round, level, meshlet or
-// triangle. The table of level colours and those of the rounds are also core's, for legends (core/frame/frame_colours.h).
+// Colours pixels by what draws them, in the place of the ground's own colours (FrameConstants.show): which round, level, meshlet,
+// triangle, cluster or group. The table of level colours and those of the rounds are also core's, for legends (core/frame/frame_colours.h).
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
+#include "shaders/clusters/drawn.glsl"
 #include "shaders/shade/show_colours.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -12,6 +13,24 @@ layout(binding = 2, rgba8) uniform writeonly image2D picture;
 
 bool was_drawn_before(uint node) {
     return (Words(FRAME.drawn).at[node / 32u] >> (node % 32u) & 1u) != 0u;
+}
+
+vec3 colour_on_pages(uint triangle, uint node) {
+    // Meshlets are told apart by a little light.
+    float light = 0.85 + 0.15 * shown_by_hash(node).x;
+    if (FRAME.show == show_levels) return light * shown_level(frame_pages().at[node / meshlets_per_page].level);
+    if (FRAME.show == show_visible) return light * shown_round(FRAME.occlusion == 0u || was_drawn_before(node));
+    return shown_by_hash(FRAME.show == show_triangles ? triangle : node);
+}
+
+// Numbers are the graph's, so that colours stay while the eye moves.
+vec3 colour_on_clusters(uint triangle, uint node) {
+    DrawnCluster drawn = drawn_cluster(node);
+    float light = 0.85 + 0.15 * shown_by_hash(drawn.number).x;
+    if (FRAME.show == show_levels) return light * shown_cluster_level(level_of_cluster(drawn));
+    if (FRAME.show == show_groups) return light * shown_by_hash(drawn.group);
+    uint number = drawn.number;
+    return shown_by_hash(FRAME.show == show_triangles ? number * cluster_triangles + triangle % cluster_triangles : number);
 }
 
 void main() {
@@ -24,11 +43,6 @@ void main() {
         imageStore(picture, pixel, vec4(0.0));
         return;
     }
-    uint triangle = triangle_of_id(id), node = triangle / meshlet_triangles, page = node / meshlets_per_page;
-    vec3 colour = shown_by_hash(FRAME.show == show_triangles ? triangle : node);
-    if (FRAME.show == show_levels) colour = shown_level(frame_pages().at[page].level);
-    if (FRAME.show == show_visible) colour = shown_round(FRAME.occlusion == 0u || was_drawn_before(node));
-    // Meshlets are told apart by a little light.
-    if (FRAME.show == show_levels || FRAME.show == show_visible) colour *= 0.85 + 0.15 * shown_by_hash(node).x;
-    imageStore(picture, pixel, vec4(colour, 1.0));
+    uint triangle = triangle_of_id(id), node = triangle / meshlet_triangles;
+    imageStore(picture, pixel, vec4(FRAME.clusters.on != 0u ? colour_on_clusters(triangle, node) : colour_on_pages(triangle, node), 1.0));
 }

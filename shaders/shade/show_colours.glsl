@@ -13,6 +13,12 @@ ORO_FUNCTION vec3 shown_level(uint level) {
     return vec3(0.60f, 0.60f, 0.62f);
 }
 
+// Of a cluster graph, which has some 25 of them: those eight, then the same darker, and darker again.
+ORO_FUNCTION vec3 shown_cluster_level(uint level) {
+    uint turn = level < 24u ? level / 8u : 3u;
+    return (1.0f - 0.24f * float(turn)) * shown_level(level);
+}
+
 // Whether the rounds before the last one had drawn it.
 ORO_FUNCTION vec3 shown_round(bool before) { return before ? vec3(0.36f, 0.64f, 0.40f) : vec3(0.96f, 0.57f, 0.18f); }
 

@@ -341,6 +341,8 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(DrawnCluster, block),
         ORO_MEMBER(DrawnCluster, page),
         ORO_MEMBER(DrawnCluster, counts),
+        ORO_MEMBER(DrawnCluster, number),
+        ORO_MEMBER(DrawnCluster, group),
     };
 #undef ORO_MEMBER
     return table;

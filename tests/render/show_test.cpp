@@ -1,11 +1,14 @@
 // Pictures that explain a frame: each pixel has the colour of what draws it.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "core/frame/frame_colours.h"
 #include "core/terrain/ground.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
+#include "tests/support/cluster_scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/rough_terrain.h"
 
@@ -23,15 +26,28 @@ gpu::vec3 expected_colour(gpu::uint show, std::uint32_t id, const FramePlan& pla
     return light * colour_of_level(plan.pages[node / gpu::meshlets_per_page].level);
 }
 
-TEST_P(ShownParts, HaveTheColoursOfTheirNumbersAndLevels) {
-    constexpr std::uint32_t side_px = 96;
-    const HeightField field = test::rough_field(47.0, 8.0, 500, 500);
-    auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {std::uint64_t{64} << 20U, 0});
-    ASSERT_TRUE(scene.ok()) << scene.error().line();
+constexpr std::uint32_t side_px = 96;
+
+Camera camera_over(const HeightField& field) {
     Camera camera;
     camera.eye = {46.75, 8.2, *ground_h_m(field, 46.75, 8.2) + 300.0};
     camera.attitude = {40.0, -5.0, 0.0};
     camera.width_px = camera.height_px = side_px;
+    return camera;
+}
+
+// Whether a pixel has that colour, as nearly as a byte tells it.
+bool is_colour(const gpu::vec3& colour, const std::uint8_t* pixel) {
+    for (int c = 0; c < 3; ++c)
+        if (std::abs(255.0F * colour[c] - static_cast<float>(pixel[c])) > 1.0F) return false;
+    return true;
+}
+
+TEST_P(ShownParts, HaveTheColoursOfTheirNumbersAndLevels) {
+    const HeightField field = test::rough_field(47.0, 8.0, 500, 500);
+    auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {std::uint64_t{64} << 20U, 0});
+    ASSERT_TRUE(scene.ok()) << scene.error().line();
+    const Camera camera = camera_over(field);
     for (const gpu::uint show :
          {gpu::show_visible, gpu::show_levels, gpu::show_meshlets, gpu::show_triangles}) {
         FrameRendererOptions options;
@@ -52,10 +68,7 @@ TEST_P(ShownParts, HaveTheColoursOfTheirNumbersAndLevels) {
             ++ground;
             orange += rgba[4 * i] > rgba[4 * i + 1];
             if (show == gpu::show_visible) continue;
-            const gpu::vec3 expected = expected_colour(show, ids[i], *plan);
-            for (int c = 0; c < 3; ++c)
-                wrong += std::abs(255.0F * expected[c] -
-                                  static_cast<float>(rgba[4 * i + static_cast<std::size_t>(c)])) > 1.0F;
+            wrong += is_colour(expected_colour(show, ids[i], *plan), &rgba[4 * i]) ? 0 : 1;
         }
         EXPECT_GT(ground, ids.size() / 4);
         EXPECT_EQ(wrong, 0U) << "show " << show;
@@ -64,6 +77,86 @@ TEST_P(ShownParts, HaveTheColoursOfTheirNumbersAndLevels) {
             EXPECT_GT(orange, 0U);
             EXPECT_LT(orange, ground);
         }
+    }
+}
+
+// Of a pixel's triangle where clusters are drawn: by numbers of the graph.
+gpu::vec3 expected_on_clusters(gpu::uint show, std::uint32_t id, const FramePlan& plan) {
+    const std::uint32_t triangle = (id - 1) % gpu::cluster_triangles;
+    const gpu::DrawnCluster& drawn = plan.clusters.drawn[(id - 1) / gpu::cluster_triangles];
+    const float light = 0.85F + 0.15F * colour_of_number(drawn.number).x;
+    if (show == gpu::show_levels) return light * colour_of_cluster_level(drawn.counts >> 16U);
+    if (show == gpu::show_groups) return light * colour_of_number(drawn.group);
+    if (show == gpu::show_triangles)
+        return colour_of_number(drawn.number * gpu::cluster_triangles + triangle);
+    return colour_of_number(drawn.number);
+}
+
+TEST_P(ShownParts, OfClustersHaveTheColoursOfTheGraph) {
+    const test::ClusterTerrain terrain(test::rough_field(47.0, 8.0, 260, 310));
+    auto scene = Scene::create(*gpu_, pages_in_memory(terrain.field, 1.0, 2), {std::uint64_t{64} << 20U, 0});
+    ASSERT_TRUE(scene.ok()) << scene.error().line();
+    test::draw_by_clusters(*gpu_, terrain, *scene);
+    Camera camera;
+    camera.eye = {46.85, 8.12, *ground_h_m(terrain.field, 46.85, 8.12) + 900.0};
+    camera.attitude = {40.0, -12.0, 0.0};
+    camera.width_px = camera.height_px = side_px;
+    std::set<gpu::uint> levels;
+    for (const gpu::uint show :
+         {gpu::show_levels, gpu::show_meshlets, gpu::show_triangles, gpu::show_clusters, gpu::show_groups}) {
+        FrameRendererOptions options;
+        options.extent = {side_px, side_px};
+        options.path = GetParam();
+        options.show = show;
+        auto renderer = FrameRenderer::create(*gpu_, options);
+        ASSERT_TRUE(renderer.ok()) << renderer.error().line();
+        auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 2.0);
+        ASSERT_TRUE(plan.ok()) << plan.error().line();
+        ASSERT_TRUE(renderer->draw(*plan, {}).ok());
+        const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
+        const std::vector<std::uint8_t> rgba = *renderer->read_picture(side_px, side_px);
+        std::size_t ground = 0, wrong = 0;
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            if (ids[i] == 0) continue;
+            ++ground;
+            wrong += is_colour(expected_on_clusters(show, ids[i], *plan), &rgba[4 * i]) ? 0 : 1;
+            levels.insert(plan->clusters.drawn[(ids[i] - 1) / gpu::cluster_triangles].counts >> 16U);
+        }
+        EXPECT_GT(ground, ids.size() / 4);
+        EXPECT_EQ(wrong, 0U) << "show " << show;
+    }
+    EXPECT_GT(levels.size(), 2U);
+}
+
+// Of one level, whatever the eye: what the plan says is what is drawn, without a hole.
+TEST_P(ShownParts, ALevelOfClustersIsDrawnAlone) {
+    const test::ClusterTerrain terrain(test::rough_field(47.0, 8.0, 260, 310));
+    auto scene = Scene::create(*gpu_, pages_in_memory(terrain.field, 1.0, 2), {std::uint64_t{64} << 20U, 0});
+    ASSERT_TRUE(scene.ok()) << scene.error().line();
+    Camera camera;
+    camera.eye = {46.89, 8.13, 12000.0};
+    camera.attitude.pitch_deg = -90.0;
+    camera.vertical_fov_deg = 30.0;
+    camera.width_px = camera.height_px = side_px;
+    std::uint64_t last = ~std::uint64_t{0};
+    for (const std::uint32_t level : {0U, 2U, 6U, 80U}) {
+        test::draw_by_clusters(*gpu_, terrain, *scene, std::uint64_t{64} << 20U, level);
+        FrameRendererOptions options;
+        options.extent = {side_px, side_px};
+        options.path = GetParam();
+        auto renderer = FrameRenderer::create(*gpu_, options);
+        ASSERT_TRUE(renderer.ok()) << renderer.error().line();
+        auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
+        ASSERT_TRUE(plan.ok()) << plan.error().line();
+        const auto drawn = renderer->draw(*plan, {});
+        ASSERT_TRUE(drawn.ok()) << drawn.error().line();
+        const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
+        EXPECT_EQ(std::ranges::count(ids, 0U), 0) << "level " << level;
+        for (const gpu::DrawnCluster& cluster : plan->clusters.drawn)
+            EXPECT_EQ(cluster.counts >> 16U,
+                      std::min(level, static_cast<std::uint32_t>(terrain.graph.levels.size())));
+        EXPECT_LT(drawn->counts.triangles_drawn, last);
+        last = drawn->counts.triangles_drawn;
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <utility>
 
 #include "core/cluster_frame/region_clusters.h"
@@ -14,11 +15,13 @@ namespace oro::test {
 
 // terrain: outlives what is drawn.
 inline void draw_by_clusters(const Gpu& gpu, const ClusterTerrain& terrain, Scene& scene,
-                             std::uint64_t bytes = std::uint64_t{64} << 20U) {
+                             std::uint64_t bytes = std::uint64_t{64} << 20U,
+                             std::optional<std::uint32_t> level = {}) {
     auto clusters = clusters_of_graph(terrain.graph, terrain.field, scene.pages().facts().shape.occluder);
     ASSERT_TRUE(clusters.ok()) << clusters.error().line();
     auto made = ClusterScene::create(gpu, std::move(clusters).value(), bytes);
     ASSERT_TRUE(made.ok()) << made.error().line();
+    if (level) made->keep_to_level(*level);
     scene.draw_clusters(std::move(made).value());
 }
 

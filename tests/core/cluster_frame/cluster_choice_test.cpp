@@ -25,9 +25,9 @@ class ClusterChoices : public ::testing::Test {
         return std::move(made).value();
     }
     ClusterChoice choose(RegionClusters& clusters, const Camera& camera, double tau_px,
-                         const WorldModel& model = {}) {
+                         const WorldModel& model = {}, std::optional<std::uint32_t> level = {}) {
         auto choice = choose_clusters(clusters, camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
-                                      tau_px, model, occluder_, {});
+                                      tau_px, model, occluder_, {}, level);
         EXPECT_TRUE(choice.ok()) << choice.error().line();
         return std::move(choice).value();
     }
@@ -75,6 +75,32 @@ TEST_F(ClusterChoices, IsTheCutButForWhatCannotBeSeen) {
     std::printf("seed %u: 60 cameras, %zu clusters drawn, %zu left out\n", seed, drawn, left_out);
     EXPECT_GT(drawn, 1000U);
     EXPECT_GT(left_out, 1000U);
+}
+
+// By level it is the discrete cut, in whatever view; and each cluster is told with its group.
+TEST_F(ClusterChoices, OfALevelAreAllOfIt) {
+    const auto region = clusters();
+    Camera camera;
+    camera.width_px = camera.height_px = 100;
+    camera.eye = {46.9, 8.13, 200000.0};
+    camera.attitude.pitch_deg = -90.0;
+    for (const std::uint32_t level : {0U, 1U, 3U, 8U, 80U}) {
+        const ClusterChoice choice = choose(*region, camera, 1.0, {}, level);
+        const std::set<std::uint32_t> chosen(choice.clusters.begin(), choice.clusters.end());
+        const auto cut = cut_by_level(terrain_.graph, level);
+        EXPECT_EQ(chosen, std::set<std::uint32_t>(cut.begin(), cut.end())) << level;
+        ASSERT_EQ(choice.groups.size(), choice.clusters.size());
+        for (std::size_t i = 0; i < choice.groups.size(); ++i) {
+            const Cluster& cluster = terrain_.graph.clusters[choice.clusters[i]];
+            EXPECT_EQ(choice.groups[i], level == 0 ? cluster.used_by : cluster.made_by);
+        }
+    }
+    std::mt19937_64 random(304);
+    for (int i = 0; i < 20; ++i) {
+        const ClusterChoice choice =
+            choose(*region, test::random_camera(random, terrain_.field), 1.0, {}, 5U);
+        for (const std::uint32_t cluster : choice.clusters) EXPECT_EQ(region->level_of(cluster), 5U);
+    }
 }
 
 // Where a group stands all below it stand, to the last bit of rounding, also where light bends.

@@ -74,6 +74,31 @@ TEST(ClusterCutCover, RoughGroundIsCoveredOnceByAnyCut) {
     EXPECT_GT(terrain.graph.levels.size(), 10U);
 }
 
+// Discrete cuts: all clusters of a level, and no other.
+TEST(ClusterCutCover, EachLevelCoversAllOnce) {
+    for (const bool holes : {false, true}) {
+        const ClusterTerrain terrain(holes ? holed_field(120, 150, 4) : rough_field(47.0, 8.0, 201, 173));
+        const Whole whole = whole_of(terrain.surface);
+        const auto levels = static_cast<std::uint32_t>(terrain.graph.levels.size());
+        std::size_t last = 0, clusters = 0;
+        for (std::uint32_t level = 0; level <= levels; ++level) {
+            SCOPED_TRACE(level);
+            const auto cut = cut_by_level(terrain.graph, level);
+            expect_cover(terrain, whole, cut);
+            for (const std::uint32_t cluster : cut) {
+                const std::uint32_t maker = terrain.graph.clusters[cluster].made_by;
+                EXPECT_EQ(maker == no_group ? 0U : terrain.graph.groups[maker].level, level);
+            }
+            const std::size_t triangles = triangles_of_cut(terrain.graph, cut);
+            EXPECT_TRUE(level == 0 || triangles <= last);
+            last = triangles;
+            clusters += cut.size();
+        }
+        EXPECT_EQ(clusters, terrain.graph.clusters.size());
+        EXPECT_EQ(cut_by_level(terrain.graph, levels + 7), cut_by_level(terrain.graph, levels));
+    }
+}
+
 TEST(ClusterCutCover, SoIsGroundWithHoles) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const ClusterTerrain terrain(holed_field(120, 150, seed));
