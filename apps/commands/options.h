@@ -43,7 +43,7 @@ struct ViewOptions {
     std::optional<std::string> sky_openness;
     std::optional<std::string> labels;
     std::optional<std::string> edges;  // smooth, steps
-    std::optional<std::string> show;   // visible, levels, meshlets, triangles
+    std::optional<std::string> show;   // visible, levels, meshlets, triangles, clusters, groups
     bool legend{false};                // a strip below the picture
     bool takes_maps{false};            // not an option: whether a view that is a map may be opened
     std::optional<double> exaggeration;

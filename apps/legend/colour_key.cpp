@@ -35,10 +35,16 @@ StripColour coded(const gpu::vec3& colour) {
 }
 
 // What a picture shows of its own making.
-ColourKey key_of_show(Show show, const Region& region) {
+ColourKey key_of_show(Show show, bool clusters, const Region& region) {
     ColourKey key;
     key.shape = KeyShape::names;
-    if (show == Show::visible) {
+    if (show == Show::levels && clusters) {
+        key.title = "Levels of the cluster graph: 0 has every triangle";
+        const std::size_t levels = 1 + region.clusters->outline().levels.size();
+        for (std::size_t level = 0; level < levels; ++level)
+            key.names.push_back(
+                {coded(colour_of_cluster_level(static_cast<gpu::uint>(level))), std::to_string(level)});
+    } else if (show == Show::visible) {
         key.title = "Drawn by";
         key.names = {{coded(colour_of_round(true)), "a round before the last"},
                      {coded(colour_of_round(false)), "the last: what those left open"}};
@@ -50,8 +56,11 @@ ColourKey key_of_show(Show show, const Region& region) {
             key.names.push_back(
                 {coded(colour_of_level(static_cast<gpu::uint>(level))), std::to_string(1 << level)});
     } else {
-        const bool meshlets = show == Show::meshlets;
-        key.title = meshlets ? "Each meshlet in a colour of its own" : "Each triangle in a colour of its own";
+        const char* const what = show == Show::groups      ? "group of clusters"
+                                 : show == Show::triangles ? "triangle"
+                                 : clusters                ? "cluster"
+                                                           : "meshlet";
+        key.title = "Each " + std::string(what) + " in a colour of its own";
         for (gpu::uint i = 0; i < 6; ++i) key.names.push_back({coded(colour_of_number(i)), ""});
     }
     return key;
@@ -80,7 +89,7 @@ StripColour ColourKey::colour(double value) const {
 }
 
 ColourKey colour_key(const View& view, const Region& region, const Style& style) {
-    if (view.show) return key_of_show(*view.show, region);
+    if (view.show) return key_of_show(*view.show, view.mesh == "clusters", region);
     const gpu::FrameStyle& frame = style.frame;
     ColourKey key;
     key.stops.assign(frame.tints, frame.tints + frame.tint_count);

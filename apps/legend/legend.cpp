@@ -141,16 +141,21 @@ class LegendPage {
         return {};
     }
 
-    // Squares of the colours, each with its name.
+    // Squares of the colours, each with its name; on a second line where there are many.
     Result<void> draw_names(Strip& strip, glm::dvec2 at) const {
-        const double side = 1.1 * em_, top = at.y + 1.55 * em_;
+        const double side = 1.1 * em_;
+        double top = at.y + 1.55 * em_;
         ORO_CHECK(strip.write(face_, key_.title, {at.x, at.y + 0.85 * em_}, 0.9 * em_, quiet));
         double x = at.x;
         for (const ColourKey::Named& named : key_.names) {
+            ORO_TRY(const double wide, face_.width_px(named.name, 0.9 * em_));
+            if (x > at.x && x + 1.4 * em_ + wide > width_px_ - margin_) {
+                x = at.x;
+                top += 1.6 * em_;
+            }
             strip.fill({x - 1.0, top - 1.0}, {side + 2.0, side + 2.0}, quiet);
             strip.fill({x, top}, {side, side}, named.colour);
             ORO_CHECK(strip.write(face_, named.name, {x + 1.4 * em_, top + 0.85 * em_}, 0.9 * em_, ink));
-            ORO_TRY(const double wide, face_.width_px(named.name, 0.9 * em_));
             x += 2.2 * em_ + wide;
         }
         return {};

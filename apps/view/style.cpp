@@ -153,6 +153,10 @@ gpu::uint shown_by(Show show) {
             return gpu::show_levels;
         case Show::meshlets:
             return gpu::show_meshlets;
+        case Show::clusters:
+            return gpu::show_clusters;
+        case Show::groups:
+            return gpu::show_groups;
         case Show::triangles:
             break;
     }
