@@ -59,7 +59,23 @@ void measure(Verification& done, const TruePicture& truth) {
     done.slack_px = done.errors.slack_px;
 }
 
-std::string verification_text(const Verification& verification, double tau_px, const UnseenGround& unseen) {
+namespace {
+
+std::string allowed_line(const Verification& verification, const View& view) {
+    char line[160];
+    if (view.mesh_level)
+        std::snprintf(line, sizeof line, "Allowed: a level of clusters (--mesh-level %d) promises nothing\n",
+                      *view.mesh_level);
+    else
+        std::snprintf(line, sizeof line, "Allowed: %.3g px (--tau %g, and %.2g px that drawing rounds off)\n",
+                      view.tau_px + verification.slack_px, view.tau_px, verification.slack_px);
+    return line;
+}
+
+}  // namespace
+
+std::string verification_text(const Verification& verification, const View& view,
+                              const UnseenGround& unseen) {
     const GroundErrors& ground = verification.errors.ground;
     const SeenErrors& seen = verification.errors.seen;
     const SkylineError& skyline = verification.errors.skyline;
@@ -87,11 +103,7 @@ std::string verification_text(const Verification& verification, double tau_px, c
             table_line("  surface, m", ground.summary_surface_m) +
             table_line("  surface, px", ground.summary_surface_px) +
             table_line("  seen, px", seen.summary_px) + table_line("  skyline, px", skyline.summary_px);
-    std::snprintf(line, sizeof line,
-                  "99 %%: 99 of 100 are off by no more than this.\n"
-                  "Allowed: %.3g px (--tau %g, and %.2g px that drawing rounds off)\n",
-                  tau_px + verification.slack_px, tau_px, verification.slack_px);
-    text += line;
+    text += "99 %: 99 of 100 are off by no more than this.\n" + allowed_line(verification, view);
     if (unseen.columns_beyond > 0) text += "Where the data end: " + unseen_sentence(unseen) + "\n";
     return text;
 }

@@ -28,8 +28,9 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
 // The measuring alone, of a picture that is drawn. `truth`: of the same camera.
 void measure(Verification& done, const TruePicture& truth);
 
-// For people: a table of some lines, each with its line end, and what the data cannot tell.
-std::string verification_text(const Verification& verification, double tau_px, const UnseenGround& unseen);
+// For people: a table of some lines, each with its line end, and what the data cannot tell. view: that was
+// drawn.
+std::string verification_text(const Verification& verification, const View& view, const UnseenGround& unseen);
 nlohmann::ordered_json verification_json(const Verification& verification);
 
 // What is in an error picture, where it is not a colour of the scale.

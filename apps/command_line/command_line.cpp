@@ -103,7 +103,7 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
             "How much the air bends light (a surveyor's coefficient of refraction), the same at all heights, "
             "-1 to 0.9: 0 is not at all, 0.13 is usual by day. Not with --air.");
     hide(command, {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--show",
-                   "--tolerance", "--mesh"});
+                   "--tolerance", "--mesh", "--mesh-level"});
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors");
@@ -173,12 +173,11 @@ void add_plan(CLI::App& app, PlanOptions& options) {
         ->description(
             "How far off the picture may be, 0.001 to 1000, e.g. 1px (default 1px). Errors are judged by "
             "it.");
-    hide(command, {"--style",        "--drape",   "--drape-opacity",  "--names",
-                   "--names-field",  "--overlay", "--overlay-colour", "--overlay-width",
-                   "--overlay-fill", "--sun",     "--sun-time",       "--visibility",
-                   "--sea",          "--rim",     "--shadows",        "--sky-openness",
-                   "--labels",       "--edges",   "--samples",        "--pipeline",
-                   "--show",         "--mesh"});
+    hide(command, {"--style",        "--drape",          "--drape-opacity", "--names",        "--names-field",
+                   "--overlay",      "--overlay-colour", "--overlay-width", "--overlay-fill", "--sun",
+                   "--sun-time",     "--visibility",     "--sea",           "--rim",          "--shadows",
+                   "--sky-openness", "--labels",         "--edges",         "--samples",      "--pipeline",
+                   "--show",         "--mesh",           "--mesh-level"});
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
@@ -206,7 +205,8 @@ void add_trade(CLI::App& app, TradeOptions& options) {
     hide(command, {"--names",        "--names-field", "--overlay", "--overlay-colour", "--overlay-width",
                    "--overlay-fill", "--tau",         "--earth",   "--refraction",     "--air",
                    "--precision",    "--geoid",       "--heights", "--accuracy",       "--tolerance",
-                   "--labels",       "--edges",       "--samples", "--show",           "--mesh"});
+                   "--labels",       "--edges",       "--samples", "--show",           "--mesh",
+                   "--mesh-level"});
     add_memory_options(command, options.memory);
     add_quiet(command, options.quiet, "the table and errors");
     set_help(command,

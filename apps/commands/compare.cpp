@@ -37,6 +37,8 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     if (!options.out.empty()) json["error_picture"] = options.out;
     json["size_px"] = json_list(view.camera.width_px, view.camera.height_px);
     json["tau_px"] = view.tau_px;
+    json["mesh_level"] = nullptr;
+    if (view.mesh_level) json["mesh_level"] = *view.mesh_level;
     json["pipeline"] = name_of(path);
     json["device"] = json_object("name", gpu.report().name, "driver", gpu.report().driver);
     json["data_checked"] = view.told->prints && view.told->prints->posts && view.prints->posts;
@@ -112,9 +114,10 @@ Result<void> run_compare(const CompareOptions& options) {
             region_pages(region, cuts.grids.front(), view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(const bool clusters, draws_clusters(region, view));
-    ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
-                                               {view.exaggeration, memory_of_pages(view, options.memory),
-                                                view.heights, asks_for_means(style.frame), clusters}));
+    ORO_TRY(RegionScene whole,
+            scene_of_region(*gpu, region, cuts, std::move(pages),
+                            {view.exaggeration, memory_of_pages(view, options.memory), view.heights,
+                             asks_for_means(style.frame), clusters, view.mesh_level}));
     Scene& scene = whole.scene;
     ORO_TRY(const auto ground, RegionGround::of(region, cuts, view.exaggeration));
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
@@ -138,7 +141,7 @@ Result<void> run_compare(const CompareOptions& options) {
     if (pixels && !options.quiet && is_drawn_one(*pixels)) std::fputs(pixels_text(*pixels).c_str(), stderr);
     // What was asked for: as a table, or with -q as JSON alone.
     if (!options.quiet || !options.json)
-        std::fputs((verification_text(verification, view.tau_px, unseen) + resampling_line(region) +
+        std::fputs((verification_text(verification, view, unseen) + resampling_line(region) +
                     light_line(view, region))
                        .c_str(),
                    stderr);

@@ -249,6 +249,11 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
         "--mesh", options.mesh, mesh_words(),
         "What triangles are taken from: clusters, which take the fewest, of a file that was baked with "
         "them, or the grid. auto (default) takes clusters where the view can be drawn by them.");
+    detail.whole_number("--mesh-level", options.mesh_level, static_cast<int>(view_limits::mesh_level.low),
+                        static_cast<int>(view_limits::mesh_level.high), "N",
+                        "Draw the clusters of one level of the graph, wherever the eye is: 0 is the "
+                        "original, beyond the last the coarsest are drawn. Needs a file that was baked with "
+                        "clusters. Not with --tau, which asks for the clusters that a view needs.");
     add_model_options(detail, options);
 }
 

@@ -63,6 +63,7 @@ struct ViewOptions {
     std::optional<std::string> time;
     std::optional<std::string> pipeline;
     std::optional<std::string> mesh;
+    std::optional<int> mesh_level;
     std::optional<double> tau_px;
     std::optional<std::string> earth;
     std::optional<double> refraction_k;

@@ -1,6 +1,7 @@
 // From a region that was read to one that can be drawn.
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -41,7 +42,8 @@ struct SceneRequest {
     MemoryOptions memory;
     HeightStorage heights{HeightStorage::f32};
     bool means{};
-    bool clusters{};  // drawn by the region's clusters (draws_clusters())
+    bool clusters{};                  // drawn by the region's clusters (draws_clusters())
+    std::optional<int> mesh_level{};  // those of one level of the graph (View)
 };
 // pages: of all grids (pages_of_grids()); or of the region's own alone (region_pages()), then those of others
 // are made. cuts: of all of them (cut_regions()).

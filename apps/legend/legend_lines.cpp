@@ -111,9 +111,10 @@ std::vector<std::string> legend_lines(const View& view, const Region& region, co
             images +=
                 (images.empty() ? "" : ", ") + one_line(std::filesystem::path(file).filename().string());
     if (!images.empty()) lines.push_back("Images: " + images);
-    lines.push_back("Drawn by Orograph " OROGRAPH_VERSION
-                    "; detail that is left out moves nothing by more than " +
-                    text_of("%.3g px", view.tau_px));
+    const std::string detail = view.mesh_level ? "; clusters of level " + std::to_string(*view.mesh_level)
+                                               : "; detail that is left out moves nothing by more than " +
+                                                     text_of("%.3g px", view.tau_px);
+    lines.push_back("Drawn by Orograph " OROGRAPH_VERSION + detail);
     return lines;
 }
 

@@ -83,7 +83,9 @@ struct View {
     std::shared_ptr<const VectorsRead> vectors_read;  // what is in them, from open_view on; null: no files
     std::string pipeline{"auto"};  // or "mesh", "compute": written views name the one that drew them
     std::string mesh{"auto"};      // or "clusters", "grid": what triangles are taken from (apps/drawing)
-    double tau_px{1.0};            // largest error of what is drawn; 0: full resolution
+    // The clusters of this level of the graph alone, instead of those that tau_px asks for.
+    std::optional<int> mesh_level;
+    double tau_px{1.0};  // largest error of what is drawn; 0: full resolution
     WorldModel model;
     bool has_geoid{true};  // false: N is 0 everywhere, heights are above the ellipsoid
     HeightStorage heights{HeightStorage::f32};

@@ -213,6 +213,8 @@ void read_drawing(const nlohmann::json& json, View& view) {
     view.mesh = json.contains("mesh") ? json_string(json, "mesh") : "grid";
     if (view.mesh != "auto" && view.mesh != "clusters" && view.mesh != "grid")
         throw JsonFault{"'mesh' is '" + view.mesh + "', none of auto, clusters, grid"};
+    if (json.contains("mesh_level"))
+        view.mesh_level = static_cast<int>(whole(json, "mesh_level", limits::mesh_level));
 }
 
 // What is shown where ground ends, and in the place of colours.
@@ -339,6 +341,7 @@ std::string view_to_json(const View& view, bool pretty) {
     if (view.edges) json["edges"] = name_of(*view.edges);
     json["pipeline"] = view.pipeline;
     if (view.mesh == "clusters") json["mesh"] = view.mesh;
+    if (view.mesh_level) json["mesh_level"] = *view.mesh_level;
     json["tau_px"] = view.tau_px;
     json["accuracy"] = view.accuracy;
     json.update(models_json(view));

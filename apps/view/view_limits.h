@@ -39,6 +39,7 @@ inline constexpr Limits exaggeration{0.01, 100};
 inline constexpr Limits sun_azimuth_deg{-1e9, 1e9};
 inline constexpr Limits sun_elevation_deg{-90, 90};
 inline constexpr Limits tau_px{0, 1000};
+inline constexpr Limits mesh_level{0, 80};  // no graph has more
 inline constexpr Limits refraction_k{-1, 0.9};
 inline constexpr Limits visibility_km{0.05, 288};  // molecules alone: 288.5
 // The years 0 to 9999, as many as a picture's tags can tell.

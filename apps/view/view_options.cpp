@@ -129,6 +129,25 @@ Result<void> apply_colours(View& view, const ViewOptions& options) {
     return apply_drape(view, options);
 }
 
+// A level of the graph and an error in pixels ask for different clusters: what an option says takes the place
+// of what a view's file has.
+Result<void> apply_mesh(View& view, const ViewOptions& options) {
+    if (options.mesh) view.mesh = *options.mesh;
+    for (const auto& [option, is_given] : {std::pair{"--tau", options.tau_px.has_value()},
+                                           {"--accuracy", options.accuracy.has_value()},
+                                           {"--tolerance", options.tolerance.has_value()},
+                                           {"--mesh grid", options.mesh == "grid"}}) {
+        if (!is_given) continue;
+        if (options.mesh_level) return refused("--mesh-level", "", either_words("--mesh-level", option));
+        view.mesh_level.reset();
+    }
+    if (options.mesh_level) {
+        ORO_TRY(const double level, within("--mesh-level", *options.mesh_level, view_limits::mesh_level));
+        view.mesh_level = static_cast<int>(level);
+    }
+    return {};
+}
+
 // The options that a view from a file can be changed by.
 Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.legend) view.legend = true;
@@ -145,7 +164,7 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     if (view.show && view.samples > 1)
         return refused("--show", "", "is for pictures of one sample, not together with --samples");
     if (options.pipeline) view.pipeline = *options.pipeline;
-    if (options.mesh) view.mesh = *options.mesh;
+    ORO_CHECK(apply_mesh(view, options));
     ORO_CHECK(apply_models(view, options));
     if (options.tau_px) {
         ORO_TRY(view.tau_px, within("--tau", *options.tau_px, view_limits::tau_px));

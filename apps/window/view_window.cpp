@@ -358,9 +358,10 @@ Result<void> run_view(const WindowOptions& options) {
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             first_pages(region, cuts, view, [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(const bool clusters, draws_clusters(region, view));
-    ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
-                                               {view.exaggeration, memory_of_pages(view, options.memory),
-                                                view.heights, asks_for_means(style.frame), clusters}));
+    ORO_TRY(RegionScene whole,
+            scene_of_region(*gpu, region, cuts, std::move(pages),
+                            {view.exaggeration, memory_of_pages(view, options.memory), view.heights,
+                             asks_for_means(style.frame), clusters, view.mesh_level}));
     Scene& scene = whole.scene;
     ORO_CHECK(lay_images(view, options.memory, *gpu, scene, options.quiet));
     bar.clear();

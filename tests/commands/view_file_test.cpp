@@ -29,6 +29,7 @@ oro::View unusual_view() {
     view.labels = true;
     view.edges = oro::Edges::steps;
     view.show = oro::Show::levels;
+    view.mesh_level = 7;
     view.pipeline = "compute";
     view.model = {oro::Earth::sphere, {-0.25}, oro::Precision::naive};
     view.has_geoid = false;
@@ -52,6 +53,7 @@ TEST(ViewFile, EveryFieldComesBack) {
         EXPECT_EQ(read->rim, oro::Rim::none);
         EXPECT_EQ(read->edges, oro::Edges::steps);
         EXPECT_EQ(read->show, oro::Show::levels);
+        EXPECT_EQ(read->mesh_level, 7);
         EXPECT_EQ(read->camera.eye.lat_deg, view.camera.eye.lat_deg);
         EXPECT_EQ(read->model.air, oro::Air{-0.25});
         EXPECT_FALSE(read->has_geoid);

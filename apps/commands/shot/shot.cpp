@@ -120,7 +120,7 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
         say(options.quiet, "wrote " + files.error);
         // What was asked for: as a table, or with -q as JSON alone.
         if (!options.quiet || !options.json)
-            std::fputs((verification_text(*shot.verification, shot.view.tau_px, shot.unseen) +
+            std::fputs((verification_text(*shot.verification, shot.view, shot.unseen) +
                         resampling_line(shot.region) + light_line(shot.view, shot.region))
                            .c_str(),
                        stderr);
@@ -206,10 +206,11 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
     ORO_TRY(const bool clusters, draws_clusters(shot.region, shot.view));
-    ORO_TRY(RegionScene whole,
-            scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
-                            {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
-                             shot.view.heights, asks_for_means(style.frame), clusters}));
+    ORO_TRY(
+        RegionScene whole,
+        scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
+                        {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
+                         shot.view.heights, asks_for_means(style.frame), clusters, shot.view.mesh_level}));
     Scene& scene = whole.scene;
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);

@@ -184,6 +184,8 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     put_regions(shot, json);
     put_counts(shot, json);
     json["tau_px"] = shot.view.tau_px;
+    json["mesh_level"] = nullptr;
+    if (shot.view.mesh_level) json["mesh_level"] = *shot.view.mesh_level;
     json["models"] = models_json(shot.view);
     json["accuracy"] = accuracy_json(shot);
     json["models"]["height_step_m"] = shot.height_step_m;

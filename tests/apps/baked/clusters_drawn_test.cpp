@@ -1,0 +1,77 @@
+// What users see of a region's clusters: levels of the graph, and pictures that explain it.
+#include "tests/apps/baked/clusters_baking.h"
+
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using oro::test::ClustersDrawn;
+using oro::test::expect_refusal;
+using oro::test::joined;
+using oro::test::Outcome;
+using oro::test::run_orograph;
+using oro::test::view_in;
+using oro::test::Words;
+
+// Coarser with each level, the coarsest beyond the last; drawn again from its picture to the same pixels.
+TEST_F(ClustersDrawn, OneLevelOfTheGraph) {
+    const auto triangles = [&](const Words& more) { return shot(more)["triangles"]["drawn"].get<int>(); };
+    const int full = triangles({"--tau", "0"}), none = triangles({"--mesh-level", "0"});
+    EXPECT_EQ(none, full) << "level 0 is the original";
+    int last = none;
+    for (const char* level : {"2", "5", "9"}) {
+        const int drawn = triangles({"--mesh-level", level});
+        EXPECT_LT(drawn, last) << level;
+        EXPECT_GT(drawn, 0);
+        last = drawn;
+    }
+    const json said = shot({"--mesh-level", "80"});
+    EXPECT_LE(said["triangles"]["drawn"], last);
+    EXPECT_EQ(said["mesh_level"], 80);
+    EXPECT_EQ(json::parse(view_in(picture_))["mesh_level"], 80);
+    const fs::path again = folder / "again.png";
+    ASSERT_EQ(run_orograph({"shot", "--view", picture_, "--out", again, "-q"}).exit_code, 0);
+    EXPECT_EQ(json::parse(view_in(again))["fingerprints"]["pixels"],
+              json::parse(view_in(picture_))["fingerprints"]["pixels"]);
+    const Outcome measured = run_orograph({"compare", picture_});
+    EXPECT_EQ(measured.exit_code, 0) << measured.err;
+    EXPECT_NE(measured.err.find("--mesh-level 80) promises nothing"), std::string::npos) << measured.err;
+    // An error in pixels takes its place.
+    ASSERT_EQ(run_orograph({"shot", "--view", picture_, "--tau", "1", "--out", again, "-q", "--overwrite"})
+                  .exit_code,
+              0);
+    EXPECT_FALSE(json::parse(view_in(again)).contains("mesh_level"));
+}
+
+TEST_F(ClustersDrawn, BothWaysDrawTheSameLevel) {
+    const json mesh = shot({"--mesh-level", "4", "--pipeline", "mesh"}),
+               compute = shot({"--mesh-level", "4", "--pipeline", "compute"});
+    EXPECT_EQ(mesh["triangles"]["drawn"], compute["triangles"]["drawn"]);
+    EXPECT_EQ(mesh["meshlets"]["drawn"], compute["meshlets"]["drawn"]);
+}
+
+TEST_F(ClustersDrawn, WhatDoesNotGoTogetherIsRefused) {
+    expect_refusal(refused({"--mesh-level", "3", "--tau", "1"}), 2, {"--mesh-level", "--tau"});
+    expect_refusal(refused({"--mesh-level", "3", "--accuracy", "survey"}), 2, {"--mesh-level", "--accuracy"});
+    expect_refusal(refused({"--mesh-level", "3", "--mesh", "grid"}), 2, {"--mesh-level", "--mesh grid"});
+    expect_refusal(refused({"--mesh-level", "81"}), 2, {"--mesh-level"});
+    expect_refusal(refused({"--mesh-level", "3", "--earth", "flat"}), 2, {"--mesh-level", "ellipsoid"});
+    expect_refusal(refused({"--show", "groups", "--mesh", "grid"}), 2, {"--show groups", "--mesh grid"});
+    const fs::path plain = baked();
+    for (const Words& more : {Words{"--mesh-level", "3"}, Words{"--show", "clusters"}})
+        expect_refusal(
+            run_orograph(joined(joined({"shot", plain, "-q", "--out", folder / "x.png"}, eye()), more)), 2,
+            {more.front(), "the region has no clusters"});
+}
+
+// In a legend each kind says what it is.
+TEST_F(ClustersDrawn, PicturesExplainTheGraph) {
+    for (const char* show : {"clusters", "groups", "levels", "triangles", "meshlets"}) {
+        const json said = shot({"--show", show, "--legend"});
+        EXPECT_EQ(json::parse(view_in(picture_))["mesh"], "clusters") << show;
+        EXPECT_GT(said["triangles"]["drawn"], 0);
+    }
+    shot({"--show", "visible"});
+    EXPECT_FALSE(json::parse(view_in(picture_)).contains("mesh")) << "rounds are of blocks";
+}
+
+}  // namespace
