@@ -39,7 +39,7 @@ struct ClustersOptions {
     bool references{false};
     bool bytes{false};
     std::string path;
-    double tau_px{1.0};
+    std::vector<double> taus_px{1.0};
     std::string out;  // a file of the region with its clusters
 };
 
@@ -280,15 +280,19 @@ Result<void> print_views(const ClustersOptions& options, const RegionFile& file,
                          const GroundBounds& bounds, const ClusterGraph& graph) {
     ORO_TRY(const std::vector<BenchEye> eyes, read_bench_path(options.path, field.undulation, 1920, 1080));
     const LevelPyramid pyramid = build_pyramid(field.grid, file.outline().shape, heights, options.threads);
+    std::printf("in view, 1920 x 1080 px\n%-28s %6s %10s %10s %6s\n", "eye", "tau px", "clusters", "blocks",
+                "times");
     for (const BenchEye& eye : eyes) {
         const InView view(eye.camera);
-        const std::size_t clusters =
-            view.triangles(surface, bounds, graph, cut_by_pixels(graph, eye.camera, options.tau_px));
-        const std::size_t blocks =
-            view.triangles(pyramid, select_nodes(pyramid, eye.camera, view.tile(), options.tau_px));
-        std::printf("%s, 1920 x 1080, tau %g: %zu triangles in clusters, %zu in blocks, %.2f times\n",
-                    eye.name.c_str(), options.tau_px, clusters, blocks,
-                    static_cast<double>(blocks) / static_cast<double>(clusters));
+        for (const double tau_px : options.taus_px) {
+            const std::size_t clusters =
+                view.triangles(surface, bounds, graph, cut_by_pixels(graph, eye.camera, tau_px));
+            const std::size_t blocks =
+                view.triangles(pyramid, select_nodes(pyramid, eye.camera, view.tile(), tau_px));
+            std::printf(
+                "%-28s %6g %10zu %10zu %6.2f\n", eye.name.c_str(), tau_px, clusters, blocks,
+                static_cast<double>(blocks) / static_cast<double>(std::max<std::size_t>(1, clusters)));
+        }
     }
     return {};
 }
@@ -329,7 +333,8 @@ int main(int argc, char** argv) {
     app.add_option("--kept", options.kept_share, "Share of a group's triangles that is kept")
         ->check(CLI::Range(0.1, 0.9));
     app.add_option("--path", options.path, "A file of eyes: count what their views take, too");
-    app.add_option("--tau", options.tau_px, "Largest error in these views, pixels")
+    app.add_option("--tau", options.taus_px, "Largest errors in these views, pixels")
+        ->delimiter(',')
         ->check(CLI::Range(0.0, 1000.0));
     app.add_flag("--references", options.references,
                  "Count blocks, greedy triangulations (TIN) and collapses without groups, too");
