@@ -5,6 +5,7 @@
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
 #include "core/cluster_file/cluster_file.h"
+#include "core/cluster_windows/windowed_graph.h"
 #include "core/clusters/graph_builder.h"
 #include "core/surface/grid_surface.h"
 #include "geo/clusters/clustered_region.h"
@@ -21,15 +22,30 @@ Result<void> check_clusters(const Region& region) {
         return refused("takes one grid of posts, and here are " + std::to_string(1 + region.beside.size()));
     if (region.field.grid.net)
         return refused("takes posts on latitudes and longitudes, and these lie in a CRS of their own");
-    if (region.field.grid.post_count() > most_clustered_posts)
-        return refused("takes regions of up to " + grouped(most_clustered_posts) + " posts, and this has " +
-                       grouped(region.field.grid.post_count()));
+    const PostGrid& grid = region.field.grid;
+    const std::size_t most = grid.goes_round() ? most_posts_in_one_go : most_clustered_posts;
+    if (grid.post_count() > most)
+        return refused("takes regions of up to " + grouped(most) + " posts" +
+                       (grid.goes_round() ? " where they go round the Earth" : "") + ", and this has " +
+                       grouped(grid.post_count()));
     return {};
 }
 
 namespace {
 
-Result<void> build(const Region& region, const std::string& path, std::uint64_t fingerprint) {
+using Told = std::function<void(double, const char*)>;
+
+Result<void> build(const Region& region, const std::string& path, std::uint64_t fingerprint,
+                   const Told& told) {
+    if (region.field.grid.post_count() > most_posts_in_one_go) {
+        WindowedBake how;
+        how.path = path;
+        how.fingerprint = fingerprint;
+        how.overwrite = true;
+        how.threads = thread_count();
+        how.progress = [&](double share) { told(share, "building clusters"); };
+        return bake_in_windows(region.field, how);
+    }
     const DrawnHeights heights = drawn_heights(region.field, 1.0, thread_count());
     const GridSurface surface(heights, {.goes_round = region.field.grid.goes_round()});
     const GridBounds bounds(region.field.grid, heights.highest_steps);
@@ -61,7 +77,8 @@ Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions&
     const auto building = Clock::now();
     told(0.0, "building clusters");
     const std::uint64_t fingerprint = surface_fingerprint(how.fingerprint, region.field.grid.split);
-    if (!are_baked_clusters(clusters_path, fingerprint)) ORO_CHECK(build(region, clusters_path, fingerprint));
+    if (!are_baked_clusters(clusters_path, fingerprint))
+        ORO_CHECK(build(region, clusters_path, fingerprint, told));
     report.build_s = seconds_since(building);
     {
         ORO_TRY(const ClusterFile file, ClusterFile::open(clusters_path));

@@ -9,9 +9,11 @@
 
 namespace oro {
 
-// Posts that are built in one go. 3601 x 3601 of them took 2.5 GB of memory and 123 s of processor time
-// (docs/BENCHMARKS.md, I).
-inline constexpr std::size_t most_clustered_posts = 13'000'000;
+// Posts that are built in one go; regions with more are built window by window (core/cluster_windows), to the
+// same bytes. Also what is done with all of a graph at a time.
+inline constexpr std::size_t most_posts_in_one_go = 8'000'000;
+// Posts that a cluster file can number.
+inline constexpr std::size_t most_clustered_posts = 4'000'000'000;
 
 struct ClusterBakeReport {
     BakeReport region;
@@ -21,7 +23,8 @@ struct ClusterBakeReport {
 };
 
 // Whether a region can be baked with clusters: one grid of posts on latitudes and longitudes, of at most
-// most_clustered_posts. Errors: it cannot, in a line that tells why.
+// most_clustered_posts, or most_posts_in_one_go where it goes round the Earth. Errors: it cannot, in a line
+// that tells why.
 Result<void> check_clusters(const Region& region);
 
 // Bakes the region as bake_region() does, then its graph, and puts both into how.path. What is done already

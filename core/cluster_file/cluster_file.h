@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,12 @@ struct ClusterOutline {
 // writing the same file, a group that no file holds (encode_group).
 Result<void> write_cluster_graph(const std::string& path, const ClusterGraph& graph, const PostCounts& posts,
                                  std::uint64_t fingerprint, bool overwrite, int threads = 1);
+
+// The same of a graph that nobody has whole: `part` gives a group, all but its level and first_member, to any
+// number of threads at once. outline: of all of it, with levels.
+using GiveGroup = std::function<Result<void>(std::uint32_t number, GroupPart& part)>;
+Result<void> write_cluster_groups(const std::string& path, const ClusterOutline& outline,
+                                  const GiveGroup& part, bool overwrite, int threads = 1);
 
 // A cluster file that is read. Opening reads what concerns the whole graph, a few KB; a group's record and
 // payload are read when they are asked for, from any number of threads at once. Every damage is an Error with

@@ -16,9 +16,8 @@ namespace {
 
 using namespace cluster_format;
 
-Header header_of(const ClusterGraph& graph, const PostCounts& posts, std::uint64_t fingerprint) {
-    Header header;
-    ClusterOutline& outline = header.outline;
+ClusterOutline outline_of(const ClusterGraph& graph, const PostCounts& posts, std::uint64_t fingerprint) {
+    ClusterOutline outline;
     outline.fingerprint = fingerprint;
     outline.posts = posts;
     outline.clusters = static_cast<std::uint32_t>(graph.clusters.size());
@@ -30,9 +29,8 @@ Header header_of(const ClusterGraph& graph, const PostCounts& posts, std::uint64
         else
             outline.triangles += cluster.triangles;
     }
-    header.levels = static_cast<std::uint32_t>(graph.levels.size());
-    header.levels_checksum = xxh64(levels_to_bytes(graph.levels));
-    return header;
+    outline.levels = graph.levels;
+    return outline;
 }
 
 // Keeps other writers out for as long as it is open. What a broken-off one left behind is begun anew; what
@@ -52,25 +50,30 @@ Result<OpenFile> begin_partial(const std::string& path) {
 }
 
 // Codes and writes all groups; gives where the last ends.
-Result<std::uint64_t> write_groups(OpenFile& file, const ClusterGraph& graph, const Header& header,
-                                   int threads) {
+Result<std::uint64_t> write_groups(OpenFile& file, const GiveGroup& give, const Header& header, int threads) {
     const ClusterOutline& outline = header.outline;
     const Offsets offsets = offsets_of(header);
     std::uint64_t end = offsets.payloads;
     for (std::uint32_t first = 0; first < outline.groups; first += groups_at_a_time) {
         const std::uint32_t count = std::min(groups_at_a_time, outline.groups - first);
         std::vector<Result<std::vector<std::byte>>> coded(count, std::vector<std::byte>());
+        std::vector<StoredGroup> groups(count);
         in_parallel(static_cast<int>(count), threads, [&](int i) {
-            const GroupPart part = part_of(graph, first + static_cast<std::uint32_t>(i));
-            coded[static_cast<std::size_t>(i)] = encode_group(part, outline.posts, outline.clusters);
+            const auto at = static_cast<std::size_t>(i);
+            GroupPart part;
+            if (const Result<void> given = give(first + static_cast<std::uint32_t>(i), part); !given.ok()) {
+                coded[at] = given.error();
+                return;
+            }
+            coded[at] = encode_group(part, outline.posts, outline.clusters);
+            groups[at].group = part.group;
+            groups[at].triangles = static_cast<std::uint32_t>(part.triangles.size());
         });
         std::vector<std::byte> records, payloads;
         for (std::uint32_t i = 0; i < count; ++i) {
             if (!coded[i].ok()) return coded[i].error();
             const std::vector<std::byte>& payload = *coded[i];
-            StoredGroup stored{graph.groups[first + i]};
-            for (std::uint32_t j = 0; j < stored.group.made; ++j)
-                stored.triangles += graph.clusters[stored.group.first_made + j].triangles;
+            StoredGroup& stored = groups[i];
             stored.payload_offset = end + payloads.size();
             stored.payload_bytes = static_cast<std::uint32_t>(payload.size());
             stored.payload_checksum = xxh64(payload, first + i);
@@ -89,14 +92,24 @@ Result<std::uint64_t> write_groups(OpenFile& file, const ClusterGraph& graph, co
 
 Result<void> write_cluster_graph(const std::string& path, const ClusterGraph& graph, const PostCounts& posts,
                                  std::uint64_t fingerprint, bool overwrite, int threads) {
+    const GiveGroup give = [&](std::uint32_t number, GroupPart& part) -> Result<void> {
+        part = part_of(graph, number);
+        return {};
+    };
+    return write_cluster_groups(path, outline_of(graph, posts, fingerprint), give, overwrite, threads);
+}
+
+Result<void> write_cluster_groups(const std::string& path, const ClusterOutline& outline,
+                                  const GiveGroup& part, bool overwrite, int threads) {
     std::string target = path;
     ORO_TRY(const unsigned old_mode, check_target(target, overwrite));
     ignore_size_limit_signal();
     ORO_TRY(OpenFile file, begin_partial(target + ".partial"));
-    Header header = header_of(graph, posts, fingerprint);
+    Header header{0, outline, static_cast<std::uint32_t>(outline.levels.size()),
+                  xxh64(levels_to_bytes(outline.levels))};
     ORO_CHECK(file.write(0, header_to_bytes(header)));
-    ORO_CHECK(file.write(header_bytes, levels_to_bytes(graph.levels)));
-    ORO_TRY(header.file_bytes, write_groups(file, graph, header, threads));
+    ORO_CHECK(file.write(header_bytes, levels_to_bytes(outline.levels)));
+    ORO_TRY(header.file_bytes, write_groups(file, part, header, threads));
     // A file that its owner had closed to others stays closed to them when it is replaced.
     if (old_mode != 0) (void)fchmod(file.descriptor(), old_mode);
     ORO_CHECK(file.sync());

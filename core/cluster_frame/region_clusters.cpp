@@ -36,16 +36,16 @@ RegionClusters::RegionClusters(const HeightField& field, const HorizonOccluder& 
       heights_(drawn_heights(field, 1.0, thread_count())),
       surface_(heights_, {.goes_round = field.grid.goes_round()}),
       bounds_(grid_, heights_.highest_steps),
-      leaves_(surface_.leaves()) {}
+      leaf_nodes_(surface_.leaf_nodes()) {}
 
 Result<std::unique_ptr<RegionClusters>> RegionClusters::create(const HeightField& field,
                                                                const HorizonOccluder& occluder,
                                                                std::vector<ClusterGroup> groups,
                                                                std::uint32_t leaves, ReadGroup read) {
     std::unique_ptr<RegionClusters> region(new RegionClusters(field, occluder));
-    if (region->leaves_.size() != leaves)
+    if (region->leaf_nodes_.size() != leaves)
         return no_graph("are over " + std::to_string(leaves) + " leaves; the region has " +
-                        std::to_string(region->leaves_.size()));
+                        std::to_string(region->leaf_nodes_.size()));
     region->leaves_count_ = leaves;
     std::uint32_t next = leaves, top = 0, number = 0;
     region->makers_.assign(leaves, no_group);
@@ -83,16 +83,21 @@ Result<std::span<const std::uint32_t>> RegionClusters::members(std::uint32_t gro
     return std::span<const std::uint32_t>(whole->members);
 }
 
-Result<std::span<const VertexTriangle>> RegionClusters::triangles(std::uint32_t cluster) {
+Result<std::span<const VertexTriangle>> RegionClusters::triangles(std::uint32_t cluster,
+                                                                  std::vector<VertexTriangle>& leaf) {
     const std::uint32_t group = maker(cluster);
-    if (group == no_group) return std::span<const VertexTriangle>(leaves_[cluster]);
+    if (group == no_group) {
+        leaf = surface_.leaf(leaf_nodes_[cluster]);
+        return std::span<const VertexTriangle>(leaf);
+    }
     ORO_TRY(const GroupPart* const whole, part(group));
     const Cluster& made = whole->made[cluster - groups_[group].first_made];
     return std::span<const VertexTriangle>(whole->triangles).subspan(made.first_triangle, made.triangles);
 }
 
 Result<std::uint32_t> RegionClusters::triangle_count(std::uint32_t cluster) {
-    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster));
+    std::vector<VertexTriangle> leaf;
+    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster, leaf));
     return static_cast<std::uint32_t>(all.size());
 }
 
@@ -123,7 +128,8 @@ ClusterReach RegionClusters::reach_of(std::span<const VertexTriangle> all) const
 
 Result<const ClusterReach*> RegionClusters::reach(std::uint32_t cluster) {
     if (reaches_[cluster]) return reaches_[cluster].get();
-    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster));
+    std::vector<VertexTriangle> leaf;
+    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster, leaf));
     reaches_[cluster] = std::make_unique<ClusterReach>(reach_of(all));
     return reaches_[cluster].get();
 }
@@ -156,7 +162,8 @@ Result<void> RegionClusters::reach_all(std::span<const std::uint32_t> clusters) 
     ORO_CHECK(read(groups));
     in_parallel(static_cast<int>(missing.size()), thread_count(), [&](int i) {
         const std::uint32_t cluster = missing[static_cast<std::size_t>(i)];
-        const auto all = triangles(cluster);
+        std::vector<VertexTriangle> leaf;
+        const auto all = triangles(cluster, leaf);
         if (all.ok()) reaches_[cluster] = std::make_unique<ClusterReach>(reach_of(*all));
     });
     return {};
@@ -164,7 +171,8 @@ Result<void> RegionClusters::reach_all(std::span<const std::uint32_t> clusters) 
 
 Result<std::uint32_t> RegionClusters::fill(std::uint32_t cluster, const HeightQuantization& coding,
                                            gpu::ClusterBlock& block) {
-    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster));
+    std::vector<VertexTriangle> leaf;
+    ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster, leaf));
     const std::vector<VertexNumber> vertices = vertices_of(all);
     if (all.empty() || all.size() > gpu::cluster_triangles || vertices.size() > gpu::cluster_vertices)
         return no_graph("have one with " + std::to_string(all.size()) + " triangles and " +

@@ -30,7 +30,8 @@ struct ClusterReach {
     std::int32_t first_row, last_row, first_column, last_column;  // posts of the region
 };
 
-// For one thread at a time. Keeps what was asked for: up to some 40 bytes a triangle of the graph.
+// For one thread at a time. Keeps 5 bytes a post, and what was asked for: up to some 40 bytes a triangle of
+// the graph above the leaves.
 class RegionClusters {
   public:
     // groups: of the whole graph, in its order; leaves: number of clusters before theirs, which `field` must
@@ -67,7 +68,9 @@ class RegionClusters {
   private:
     RegionClusters(const HeightField& field, const HorizonOccluder& occluder);
     Result<const GroupPart*> part(std::uint32_t group);
-    Result<std::span<const VertexTriangle>> triangles(std::uint32_t cluster);
+    // A leaf's are put into `leaf`.
+    Result<std::span<const VertexTriangle>> triangles(std::uint32_t cluster,
+                                                      std::vector<VertexTriangle>& leaf);
     [[nodiscard]] ClusterReach reach_of(std::span<const VertexTriangle> triangles) const;
 
     PostGrid grid_;
@@ -75,7 +78,7 @@ class RegionClusters {
     DrawnHeights heights_;
     GridSurface surface_;
     GridBounds bounds_;
-    std::vector<std::vector<VertexTriangle>> leaves_;
+    std::vector<std::uint32_t> leaf_nodes_;  // GridSurface
     std::uint32_t leaves_count_{};
     std::vector<ClusterGroup> groups_;
     std::vector<std::uint32_t> makers_;  // of each cluster

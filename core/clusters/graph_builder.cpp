@@ -178,9 +178,10 @@ void Builder::make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simpli
     });
     const double target = std::floor(options_.kept_share * static_cast<double>(triangles.size()));
     const double floor_m = largest_member_error_m(graph_, graph_.groups[group]);
-    simplifier.simplify(mesh, {.triangles = static_cast<int>(target),
-                               .most_share = most_share * (1.0 - options_.kept_share),
-                               .free_difference = floor_m / height_step_m});
+    if (graph_.groups[group].whole || !options_.whole_alone)
+        simplifier.simplify(mesh, {.triangles = static_cast<int>(target),
+                                   .most_share = most_share * (1.0 - options_.kept_share),
+                                   .free_difference = floor_m / height_step_m});
     made.triangles_in = triangles.size();
     mesh.copy_to(made.triangles);
     made.bounds = group_bounds(surface_, bounds_, graph_, group, made.triangles, mesh.difference(surface_));
@@ -205,6 +206,10 @@ void Builder::add_level() {
     const auto first_group = static_cast<std::uint32_t>(graph_.groups.size());
     add_clusters(shared, report);
     add_groups(assignment.groups(), first_cluster, report);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        graph_.groups[first_group + i].whole = whole[i] != 0;
+        if (options_.tiles) options_.tiles->push_back(assignment.tile(i));
+    }
     std::vector<Made> made(assignment.groups());
     const std::size_t turns = (made.size() + groups_at_a_time - 1) / groups_at_a_time;
     in_parallel(static_cast<int>(turns), options_.threads, [&](int turn) {
@@ -221,7 +226,6 @@ void Builder::add_level() {
         group.error_m = made[i].bounds.error_m;
         group.centre = made[i].bounds.centre;
         group.radius_m = made[i].bounds.radius_m;
-        group.whole = whole[i] != 0;
         const auto in = static_cast<double>(made[i].triangles_in);
         report.stuck_groups += static_cast<double>(made[i].triangles.size()) > stuck_share * in ? 1U : 0U;
         report.largest_group = std::max(report.largest_group, made[i].triangles_in);
@@ -301,9 +305,13 @@ ClusterGraph Builder::build(ClusterGraph begun) {
         begin_with_leaves();
     else
         begin_with(std::move(begun));
-    while (!parts_.empty() && without_progress_ < most_without_progress && any_whole_ &&
-           static_cast<int>(graph_.levels.size()) < options_.last_level &&
-           !(parts_.size() == 1 && triangles_left() <= most_cluster_triangles))
+    // Whether there is more to be made of a window's groups is for the whole region to say.
+    const auto is_coarsest = [&] {
+        return !surface_.is_window() && (without_progress_ >= most_without_progress ||
+                                         (parts_.size() == 1 && triangles_left() <= most_cluster_triangles));
+    };
+    while (!parts_.empty() && any_whole_ && static_cast<int>(graph_.levels.size()) < options_.last_level &&
+           !is_coarsest())
         add_level();
     add_coarsest();
     for (GraphLevel& level : graph_.levels) level.clusters_out = 0;

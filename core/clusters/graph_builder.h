@@ -1,7 +1,10 @@
 // Builds the cluster graph of a surface (docs/CLUSTERS.md).
 #pragma once
 
+#include <vector>
+
 #include "core/clusters/cluster_graph.h"
+#include "core/clusters/group_tiling.h"
 #include "core/surface/ground_bounds.h"
 #include "core/surface/original_surface.h"
 
@@ -11,10 +14,14 @@ struct GraphOptions {
     int threads{1};
     double kept_share{0.65};  // of a group's triangles, in what comes out of it
     int last_level{80};       // stop after it; what it made is then used by none
+    // Of a window: groups that are not whole stay as fine as they come, as nobody takes them from it.
+    bool whole_alone{false};
+    std::vector<GroupTile>* tiles{};  // told the tile of each group that is added
 };
 
 // All levels up to the coarsest: one group, or groups that cannot be made coarser; of a window all that have
-// a group that is whole (docs/CLUSTERS.md, "Regions of any size"). The result does not depend on `threads`.
+// a group that is whole, whether or not these can be made coarser (docs/CLUSTERS.md, "Regions of any size").
+// The result does not depend on `threads`.
 //
 // Each level: triangles go to groups by where they lie (group_assignment.h); what one group has made is split
 // where groups of the next level meet, and into clusters of most_cluster_triangles; each group is made

@@ -60,6 +60,9 @@ class GroupAssignment {
 
     // Groups are numbered by tile, row by row.
     [[nodiscard]] std::size_t groups() const { return groups_; }
+    [[nodiscard]] GroupTile tile(std::size_t group) const {
+        return tiles_.empty() ? GroupTile{} : tiles_[group];
+    }
     // A group's tile, widened.
     [[nodiscard]] PlaneBox around(std::size_t group) const { return tiling_.widened(tiles_[group]); }
     // Of the triangles of a part.

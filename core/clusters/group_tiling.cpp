@@ -36,11 +36,16 @@ GroupTiling::Lines GroupTiling::lines_of(int level, double kept_share, int first
     return lines;
 }
 
-PlaneBox GroupTiling::widened(const GroupTile& tile) const {
+PlaneBox GroupTiling::box_of(const GroupTile& tile) const {
     const std::int64_t row = tile.row * row_.period + row_.shift;
     const std::int64_t column = tile.column * column_.period + column_.shift;
-    return {row - row_.period / 4, row + row_.period + row_.period / 4, column - column_.period / 4,
-            column + column_.period + column_.period / 4};
+    return {row, row + row_.period, column, column + column_.period};
+}
+
+PlaneBox GroupTiling::widened(const GroupTile& tile) const {
+    const PlaneBox box = box_of(tile);
+    return {box.first_row - row_.period / 4, box.last_row + row_.period / 4,
+            box.first_column - column_.period / 4, box.last_column + column_.period / 4};
 }
 
 GroupTiling::GroupTiling(int level, double kept_share)

@@ -49,6 +49,7 @@ class GroupTiling {
                 column_.of(std::int64_t{a.column} + b.column + c.column)};
     }
     [[nodiscard]] GroupTile tile_of(const SurfaceVertex& a) const { return tile_of(a, a, a); }
+    [[nodiscard]] PlaneBox box_of(const GroupTile& tile) const;
     // A tile, and a quarter of its side around it.
     [[nodiscard]] PlaneBox widened(const GroupTile& tile) const;
 

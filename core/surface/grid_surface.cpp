@@ -15,6 +15,7 @@ namespace {
 
 // Posts on an edge may count as within: rounding is far below what lies between a post and an edge beside it.
 constexpr double on_edge_posts = 1.0e-7;
+constexpr int node_side = static_cast<int>(gpu::meshlet_quads);
 
 }  // namespace
 
@@ -76,23 +77,50 @@ bool GridSurface::triangle_there(const VertexTriangle& triangle) const {
                        [&](VertexNumber number) { return heights_.steps[number] != void_height_steps; });
 }
 
-std::vector<std::vector<VertexTriangle>> GridSurface::leaves() const {
-    constexpr int side = static_cast<int>(gpu::meshlet_quads);
-    std::vector<std::vector<VertexTriangle>> leaves;
-    for (int north = 0; north < heights_.rows - 1; north += side) {
-        for (int west = 0; west < heights_.columns - 1; west += side) {
-            std::vector<VertexTriangle> leaf;
-            for (int row = north; row < std::min(north + side, heights_.rows - 1); ++row) {
-                for (int column = west; column < std::min(west + side, heights_.columns - 1); ++column) {
-                    for (const int half : {0, 1}) {
-                        const VertexTriangle triangle = triangle_of(row, column, half);
-                        if (triangle_there(triangle)) leaf.push_back(triangle);
-                    }
-                }
+std::uint32_t GridSurface::nodes_across() const {
+    return static_cast<std::uint32_t>((heights_.columns - 1 + node_side - 1) / node_side);
+}
+
+template <class Take>
+void GridSurface::each_of_leaf(std::uint32_t node, const Take& take) const {
+    const int north = static_cast<int>(node / nodes_across()) * node_side;
+    const int west = static_cast<int>(node % nodes_across()) * node_side;
+    for (int row = north; row < std::min(north + node_side, heights_.rows - 1); ++row) {
+        for (int column = west; column < std::min(west + node_side, heights_.columns - 1); ++column) {
+            for (const int half : {0, 1}) {
+                const VertexTriangle triangle = triangle_of(row, column, half);
+                if (triangle_there(triangle) && !take(triangle)) return;
             }
-            if (!leaf.empty()) leaves.push_back(std::move(leaf));
         }
     }
+}
+
+std::vector<std::uint32_t> GridSurface::leaf_nodes() const {
+    const std::uint32_t down = static_cast<std::uint32_t>((heights_.rows - 1 + node_side - 1) / node_side);
+    std::vector<std::uint32_t> nodes;
+    for (std::uint32_t node = 0; node < down * nodes_across(); ++node) {
+        bool is_there = false;
+        each_of_leaf(node, [&](const VertexTriangle&) {
+            is_there = true;
+            return false;
+        });
+        if (is_there) nodes.push_back(node);
+    }
+    return nodes;
+}
+
+std::vector<VertexTriangle> GridSurface::leaf(std::uint32_t node) const {
+    std::vector<VertexTriangle> triangles;
+    each_of_leaf(node, [&](const VertexTriangle& triangle) {
+        triangles.push_back(triangle);
+        return true;
+    });
+    return triangles;
+}
+
+std::vector<std::vector<VertexTriangle>> GridSurface::leaves() const {
+    std::vector<std::vector<VertexTriangle>> leaves;
+    for (const std::uint32_t node : leaf_nodes()) leaves.push_back(leaf(node));
     return leaves;
 }
 

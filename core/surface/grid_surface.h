@@ -37,6 +37,10 @@ class GridSurface final : public OriginalSurface {
     [[nodiscard]] bool is_window() const override;
     [[nodiscard]] bool must_stay(VertexNumber number) const override;
     [[nodiscard]] std::vector<std::vector<VertexTriangle>> leaves() const override;
+    // Which nodes of level 0 have a triangle, numbered row by row; and the triangles of one. For regions
+    // whose leaves are too many to be kept.
+    [[nodiscard]] std::vector<std::uint32_t> leaf_nodes() const;
+    [[nodiscard]] std::vector<VertexTriangle> leaf(std::uint32_t node) const;
     [[nodiscard]] double edge_difference(const SurfaceVertex& from, const SurfaceVertex& to,
                                          double limit) const override;
     [[nodiscard]] double inner_difference(const SurfaceVertex& a, const SurfaceVertex& b,
@@ -53,6 +57,10 @@ class GridSurface final : public OriginalSurface {
         char rises{};
         bool diagonals{};
     };
+    // Gives each triangle of a node to `take` until it says false.
+    template <class Take>
+    void each_of_leaf(std::uint32_t node, const Take& take) const;
+    [[nodiscard]] std::uint32_t nodes_across() const;
     [[nodiscard]] VertexTriangle triangle_of(int row, int column, int side) const;
     [[nodiscard]] bool triangle_there(const VertexTriangle& triangle) const;
     [[nodiscard]] double crossing_difference(const SurfaceVertex& from, const SurfaceVertex& to,

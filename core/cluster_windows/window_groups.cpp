@@ -1,0 +1,179 @@
+#include "core/cluster_windows/window_groups.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/cluster_windows/window_file.h"
+#include "core/clusters/graph_builder.h"
+#include "core/clusters/group_assignment.h"
+
+namespace oro {
+namespace {
+
+// A built window, and what of it is the window's own.
+class BuiltWindow {
+  public:
+    BuiltWindow(const WindowedRegion& region, const RegionWindow& window, const DrawnHeights& heights)
+        : region_(region), window_(window), surface_(heights, window.window) {
+        graph_ = build_cluster_graph(surface_, region.bounds,
+                                     {.threads = region.threads,
+                                      .kept_share = region.sizes.kept_share,
+                                      .last_level = region.sizes.levels,
+                                      .whole_alone = true,
+                                      .tiles = &tiles_});
+        for (int level = 0; level < region.sizes.levels; ++level)
+            tilings_.emplace_back(level + 1, region.sizes.kept_share);
+    }
+
+    [[nodiscard]] const ClusterGraph& graph() const { return graph_; }
+    [[nodiscard]] const GroupTile& tile(std::uint32_t group) const { return tiles_[group]; }
+
+    // Those of its own; nothing where one of them, or of their users, is not whole.
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> own_groups() const {
+        std::vector<std::uint32_t> own;
+        for (std::uint32_t i = 0; i < graph_.groups.size(); ++i) {
+            const ClusterGroup& group = graph_.groups[i];
+            const SurfaceVertex middle = middle_of(tilings_[group.level - 1], tiles_[i],
+                                                   region_.field.grid.rows(), region_.field.grid.columns());
+            if (!window_.owns(middle.row, middle.column)) continue;
+            own.push_back(i);
+            if (!group.whole) return std::nullopt;
+            for (std::uint32_t j = group.first_made; j < group.first_made + group.made; ++j)
+                if (!is_used_whole(graph_.clusters[j])) return std::nullopt;
+        }
+        return own;
+    }
+
+    [[nodiscard]] std::optional<std::vector<WindowLeaf>> own_leaves() const {
+        std::vector<WindowLeaf> own;
+        for (const Cluster& cluster : graph_.clusters) {
+            if (cluster.made_by != no_group) break;
+            // No triangle has all of its vertices on its leaf's far sides.
+            SurfaceVertex first = surface_.vertex(graph_.triangles_of(cluster).front()[0]);
+            for (const VertexTriangle& triangle : graph_.triangles_of(cluster)) {
+                for (const VertexNumber number : triangle) {
+                    const SurfaceVertex vertex = surface_.vertex(number);
+                    first.row = std::min(first.row, vertex.row);
+                    first.column = std::min(first.column, vertex.column);
+                }
+            }
+            const std::int32_t row = first.row / leaf_side, column = first.column / leaf_side;
+            if (!window_.owns(std::int64_t{row} * leaf_side, std::int64_t{column} * leaf_side)) continue;
+            if (!is_used_whole(cluster)) return std::nullopt;
+            own.push_back({row, column, tiles_[cluster.used_by]});
+        }
+        return own;
+    }
+
+    // As the builder counts them, of the window's own posts.
+    [[nodiscard]] std::vector<WindowLocks> locks() const {
+        std::vector<WindowLocks> counts(static_cast<std::size_t>(region_.sizes.levels));
+        VertexLocks locks(surface_.vertex_count());
+        std::uint32_t group = 0;
+        for (std::size_t level = 0; level < graph_.levels.size(); ++level) {
+            locks.begin_level();
+            for (; group < graph_.groups.size() && graph_.groups[group].level == level + 1; ++group) {
+                for (const std::uint32_t member : graph_.members_of(graph_.groups[group]))
+                    for (const VertexTriangle& triangle : graph_.triangles_of(graph_.clusters[member]))
+                        for (const VertexNumber vertex : triangle) locks.see(vertex, group);
+            }
+            locks.end_level();
+            for (VertexNumber i = 0; i < surface_.vertex_count(); ++i) {
+                if (!locks.is_locked(i)) continue;
+                const SurfaceVertex place = surface_.vertex(i);
+                if (!window_.owns(place.row, place.column)) continue;
+                ++counts[level].locked;
+                counts[level].twice += locks.levels(i) > 1 ? 1U : 0U;
+            }
+        }
+        return counts;
+    }
+
+  private:
+    [[nodiscard]] bool is_used_whole(const Cluster& cluster) const {
+        if (cluster.used_by != no_group) return graph_.groups[cluster.used_by].whole;
+        return cluster.made_by != no_group &&
+               static_cast<int>(graph_.groups[cluster.made_by].level) == region_.sizes.levels;
+    }
+
+    const WindowedRegion& region_;
+    const RegionWindow& window_;
+    GridSurface surface_;
+    ClusterGraph graph_;
+    std::vector<GroupTile> tiles_;
+    std::vector<GroupTiling> tilings_;  // by level
+};
+
+WindowGroup told_of(const BuiltWindow& built, std::uint32_t number) {
+    const ClusterGraph& graph = built.graph();
+    const ClusterGroup& group = graph.groups[number];
+    WindowGroup told{group.level,  built.tile(number), group.made, 0, 0, group.error_m,
+                     group.centre, group.radius_m,     0,          0, 0};
+    for (const std::uint32_t member : graph.members_of(group))
+        told.triangles_in += graph.clusters[member].triangles;
+    for (std::uint32_t i = group.first_made; i < group.first_made + group.made; ++i)
+        told.triangles_out += graph.clusters[i].triangles;
+    return told;
+}
+
+}  // namespace
+
+DrawnHeights heights_of(const WindowedRegion& region, const RegionWindow& window) {
+    DrawnHeights heights;
+    heights.rows = window.rows;
+    heights.columns = window.columns;
+    const auto columns = static_cast<std::size_t>(window.columns);
+    heights.steps.resize(static_cast<std::size_t>(window.rows) * columns);
+    in_parallel(window.rows, region.threads, [&](int row) {
+        for (int column = 0; column < window.columns; ++column) {
+            const int r = window.window.first_row + row, c = window.window.first_column + column;
+            heights.steps[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] =
+                is_void(region.field.H_at_post_m(r, c)) ? void_height_steps
+                                                        : height_steps(drawn_h_m(region.field, r, c, 1.0));
+        }
+    });
+    if (!heights.steps.empty()) heights.highest_steps = *std::ranges::max_element(heights.steps);
+    if (region.diagonals)
+        heights.diagonals = region.diagonals->part(window.window.first_row, window.window.first_column,
+                                                   window.rows - 1, window.columns - 1);
+    return heights;
+}
+
+Result<bool> build_window(const WindowedRegion& region, const RegionWindow& window, std::uint64_t plan,
+                          const std::string& path) {
+    const DrawnHeights heights = heights_of(region, window);
+    const BuiltWindow built(region, window, heights);
+    const auto groups = built.own_groups();
+    auto leaves = built.own_leaves();
+    if (!groups || !leaves) return false;
+    WindowIndex index{plan,
+                      {window.rows, window.columns},
+                      window.window.first_row,
+                      window.window.first_column,
+                      std::move(*leaves),
+                      {},
+                      built.locks()};
+    const ClusterGraph& graph = built.graph();
+    std::vector<Result<std::vector<std::byte>>> blocks(groups->size(), std::vector<std::byte>());
+    in_parallel(static_cast<int>(groups->size()), region.threads, [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        const GroupPart part = part_of(graph, (*groups)[at]);
+        std::vector<GroupTile> users;
+        for (const Cluster& cluster : part.made)
+            if (cluster.used_by != no_group) users.push_back(built.tile(cluster.used_by));
+        blocks[at] = window_block(part, users, index.posts);
+    });
+    std::vector<std::vector<std::byte>> coded;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (!blocks[i].ok()) return blocks[i].error();
+        coded.push_back(std::move(blocks[i]).value());
+        index.groups.push_back(told_of(built, (*groups)[i]));
+    }
+    ORO_CHECK(write_window(path, std::move(index), coded));
+    return true;
+}
+
+}  // namespace oro

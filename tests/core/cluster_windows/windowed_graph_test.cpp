@@ -1,0 +1,107 @@
+// A region baked window by window: the bytes of one go, whatever the windows, and after any break.
+#include "core/cluster_windows/windowed_graph.h"
+
+#include <cstdio>
+
+#include "tests/core/cluster_file/made_cluster_file.h"
+
+namespace oro {
+namespace {
+
+using namespace test;
+
+class WindowedGraph : public ::testing::Test {
+  protected:
+    const fs::path folder_ = scratch_folder();
+    const fs::path path_ = folder_ / "region.clusters";
+
+    static WindowedBake how(const fs::path& path, int levels, std::size_t posts, int threads = 2) {
+        WindowedBake bake;
+        bake.path = path;
+        bake.fingerprint = cluster_fingerprint;
+        bake.overwrite = true;
+        bake.threads = threads;
+        bake.sizes.levels = levels;
+        bake.sizes.posts = posts;
+        return bake;
+    }
+    std::string in_one_go(const ClusterTerrain& terrain) const {
+        const fs::path whole = folder_ / "whole.clusters";
+        EXPECT_TRUE(
+            write_cluster_graph(whole, terrain.graph, posts_of(terrain), cluster_fingerprint, true).ok());
+        return bytes_of(whole);
+    }
+    std::string in_windows(const HeightField& field, const WindowedBake& bake) const {
+        const auto done = bake_in_windows(field, bake);
+        EXPECT_TRUE(done.ok()) << done.error().line();
+        return done.ok() ? bytes_of(bake.path) : "";
+    }
+    std::size_t files() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+};
+
+TEST_F(WindowedGraph, HasTheBytesOfOneGo) {
+    for (const bool holes : {false, true}) {
+        const ClusterTerrain terrain(holes ? holed_field(420, 500, 5) : rough_field(47.0, 8.0, 400, 520));
+        const std::string whole = in_one_go(terrain);
+        for (const auto& [levels, posts] : {std::pair{2, 40'000}, {3, 70'000}, {4, 100'000}}) {
+            const WindowedBake bake = how(path_, levels, static_cast<std::size_t>(posts));
+            const std::size_t windows =
+                windows_of(terrain.heights.rows, terrain.heights.columns, bake.sizes).size();
+            EXPECT_GT(windows, 2U);
+            EXPECT_TRUE(in_windows(terrain.field, bake) == whole)
+                << levels << " levels, " << windows << " windows, holes " << holes;
+            EXPECT_EQ(files(), 2U) << "windows are gone";
+        }
+    }
+}
+
+// What is there is taken, what is damaged is built again.
+TEST_F(WindowedGraph, GoesOnAfterABreak) {
+    const ClusterTerrain terrain(rough_field(47.0, 8.0, 400, 300));
+    const std::string whole = in_one_go(terrain);
+    WindowedBake bake = how(path_, 3, 50'000, 1);
+    const std::size_t windows = windows_of(terrain.heights.rows, terrain.heights.columns, bake.sizes).size();
+    ASSERT_GT(windows, 2U);
+    for (std::size_t stop = 1; stop <= windows; ++stop) {
+        struct Broken {};
+        std::size_t begun = 0;
+        bake.progress = [&](double) {
+            if (begun++ == stop) throw Broken{};
+        };
+        if (stop < windows) {
+            EXPECT_THROW((void)bake_in_windows(terrain.field, bake), Broken);
+        }
+        if (stop == 2) {
+            std::string bytes = bytes_of(path_of_window(path_, 0));
+            bytes[bytes.size() - 5] = static_cast<char>(bytes[bytes.size() - 5] ^ 1);
+            put_bytes(path_of_window(path_, 0), bytes);
+        }
+    }
+    bake.progress = {};
+    EXPECT_TRUE(in_windows(terrain.field, bake) == whole);
+}
+
+// Windows cover the region once by what they own, and reach beyond it.
+TEST_F(WindowedGraph, WindowsOwnEachPostOnce) {
+    for (const auto& [rows, columns] : {std::pair{400, 520}, {1201, 3601}, {2, 5000}, {9000, 7000}}) {
+        const WindowSizes sizes{4, 150'000};
+        std::int64_t owned = 0;
+        for (const RegionWindow& window : windows_of(rows, columns, sizes)) {
+            owned += (window.own.last_row - window.own.first_row + 1) *
+                     (window.own.last_column - window.own.first_column + 1);
+            EXPECT_LE(window.window.first_row, window.own.first_row);
+            EXPECT_GE(window.window.first_row + window.rows - 1, window.own.last_row);
+            EXPECT_EQ(window.window.north_open, window.window.first_row > 0);
+            EXPECT_EQ(window.window.south_open, window.window.first_row + window.rows < rows);
+            EXPECT_EQ(window.window.first_row % leaf_side, 0);
+            EXPECT_EQ(window.window.first_column % leaf_side, 0);
+        }
+        EXPECT_EQ(owned, std::int64_t{rows} * columns);
+    }
+}
+
+}  // namespace
+}  // namespace oro
