@@ -242,6 +242,23 @@ std::string overlaps(const SeamReport& seams) {
            "; the finer spacing wins, among equals the first by file name";
 }
 
+// A cluster graph level by level. All of one level cover the ground once.
+std::string levels_text(const RegionFile& file, const ClusterOutline& graph) {
+    std::string text = text_of("  %-12s%6s %12s %10s %10s %12s\n", "", "level", "triangles", "clusters",
+                               "groups", "error up to");
+    const auto add = [&](std::size_t level, std::uint64_t triangles, std::uint64_t clusters,
+                         std::uint64_t groups, double error_m) {
+        text += text_of("  %-12s%6zu %12s %10s %10s %10.2f m\n", "", level, grouped(triangles).c_str(),
+                        grouped(clusters).c_str(), grouped(groups).c_str(), error_m);
+    };
+    add(0, file.outline().triangles, graph.leaves, 0, 0.0);
+    for (std::size_t i = 0; i < graph.levels.size(); ++i) {
+        const GraphLevel& level = graph.levels[i];
+        add(i + 1, level.triangles_out, level.clusters_out, level.groups, level.largest_error_m);
+    }
+    return text;
+}
+
 std::string baked_text(const RegionFile& file, const ClusterFile* clusters) {
     const auto posts = static_cast<double>(file.outline().grid.post_count());
     const int levels = file.order().levels();
@@ -258,6 +275,7 @@ std::string baked_text(const RegionFile& file, const ClusterFile* clusters) {
         text += line("clusters", counted(clusters->outline().triangles, "triangle", "triangles") + " in " +
                                      counted(clusters->outline().levels.size(), "level", "levels") +
                                      " above the grid, " + counted(clusters->bytes(), "byte", "bytes"));
+    if (clusters) text += levels_text(file, clusters->outline());
     return text +
            line("size", counted(file.bytes(), "byte", "bytes") +
                             text_of(", %.2f for each post", static_cast<double>(file.bytes()) / posts));

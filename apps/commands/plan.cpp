@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "apps/accuracy/accuracy.h"
+#include "apps/accuracy/mesh_forecast.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/plan_text.h"
 #include "apps/drawing/region_scene.h"
@@ -90,8 +91,12 @@ ordered_json effect_json(const BudgetLine& line) {
     return effect;
 }
 
+ordered_json forecast_json(const MeshForecast& mesh) {
+    return json_object("triangles", mesh.triangles, "worst_m", mesh.worst_m, "worst_px", mesh.worst_px);
+}
+
 ordered_json plan_json(const Budget& budget, const View& view, const AccuracyChoice& choice,
-                       const UnseenGround& unseen) {
+                       const UnseenGround& unseen, const std::optional<MeshForecasts>& meshes) {
     ordered_json json = ordered_json::object();
     json["tolerance_px"] = budget.tolerance_px;
     json["in_view"] = !budget.empty;
@@ -105,6 +110,10 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     json["unseen"] = unseen_json(unseen);
     // None where the region's posts are its sources' own.
     if (budget.resampling) json["resampling"] = size_json(*budget.resampling);
+    json["meshes"] = nullptr;
+    if (meshes)
+        json["meshes"] =
+            json_object("blocks", forecast_json(meshes->blocks), "clusters", forecast_json(meshes->clusters));
     json["dominates"] = nullptr;
     json["dominates_kind"] = nullptr;
     if (budget.dominant) {
@@ -161,11 +170,12 @@ Result<void> run_plan(const PlanOptions& options) {
     ORO_TRY(const AccuracyChoice choice,
             choose_accuracy(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const UnseenGround unseen, unseen_in(view, region, *truth, ceiling_m));
+    ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region));
     if (options.json) {
-        std::printf("%s\n", json_text(plan_json(budget, view, choice, unseen), true).c_str());
+        std::printf("%s\n", json_text(plan_json(budget, view, choice, unseen, meshes), true).c_str());
         return {};
     }
-    std::fputs(plan_text(budget, view, eye_of(view, region), choice, unseen).c_str(), stdout);
+    std::fputs(plan_text(budget, view, eye_of(view, region), choice, unseen, meshes).c_str(), stdout);
     return {};
 }
 

@@ -110,6 +110,26 @@ std::string resampling_row(const Budget& budget) {
                budget.resampling, "");
 }
 
+// What can be drawn of a region that has clusters.
+std::string meshes_text(const std::optional<MeshForecasts>& meshes, const View& view) {
+    if (!meshes) return {};
+    char text[120];
+    std::snprintf(text, sizeof text, "\nWhat is in view at --tau %g, by either mesh:\n", view.tau_px);
+    std::string out = text + left_aligned("drawn by", name_columns) + "       triangles";
+    out += std::string(flag_columns - 6, ' ') + "   worst m   worst px\n";
+    for (const auto& [name, mesh] :
+         {std::pair{"blocks (--mesh grid)", meshes->blocks}, {"clusters", meshes->clusters}}) {
+        const std::string triangles = grouped(mesh.triangles);
+        std::string line = left_aligned(name, name_columns) +
+                           std::string(triangles.size() < 16 ? 16 - triangles.size() : 0, ' ') + triangles +
+                           std::string(4, ' ') + point_aligned(mesh.worst_m, before_point) +
+                           point_aligned(mesh.worst_px, before_point);
+        line.erase(line.find_last_not_of(' ') + 1);
+        out += line + "\n";
+    }
+    return out;
+}
+
 // What this view is good to, and what would make it better.
 std::string advice(const Budget& budget, const View& view, const AccuracyChoice& choice,
                    const UnseenGround& unseen) {
@@ -184,7 +204,8 @@ std::string estimates_text(const Budget& budget) {
 }  // namespace
 
 std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye,
-                      const AccuracyChoice& choice, const UnseenGround& unseen) {
+                      const AccuracyChoice& choice, const UnseenGround& unseen,
+                      const std::optional<MeshForecasts>& meshes) {
     if (budget.empty) {
         std::string nothing =
             eye_text(view, eye) + "nothing of the region is in view: there is nothing to predict\n";
@@ -214,6 +235,7 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
     out += "\nWhat the data do not tell, and no setting can help:\n" + headings("error", "within", limit, "");
     out += rows(budget, EffectGroup::data, view);
     out += resampling_row(budget) + unseen_row(unseen, budget.tolerance_px);
+    out += meshes_text(meshes, view);
     out += "\n" + row("this picture, but for its data", "",
                       yes_or_no(budget.total.worst_px <= budget.tolerance_px), budget.total, "");
     return out + "\n" + advice(budget, view, choice, unseen) + "\n" + limit_of_data(budget) + "\n";

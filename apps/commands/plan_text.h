@@ -6,6 +6,7 @@
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/beyond_data.h"
+#include "apps/accuracy/mesh_forecast.h"
 #include "apps/view/view.h"
 
 namespace oro {
@@ -19,6 +20,7 @@ struct PlanEye {
 // The eye, a table of all effects in three parts, and what they come to in some sentences. Lines of at most
 // 120 columns with their line ends, but for the sentences, which are as long as they are.
 std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye,
-                      const AccuracyChoice& choice, const UnseenGround& unseen);
+                      const AccuracyChoice& choice, const UnseenGround& unseen,
+                      const std::optional<MeshForecasts>& meshes);
 
 }  // namespace oro

@@ -64,8 +64,8 @@ std::vector<Camera> cameras_of(const TradeOptions& options, const View& view, co
     return cameras;
 }
 
-void describe(const TradeOptions& options, const View& view, const Gpu& gpu, RasterPath path,
-              TradeReport& report) {
+void describe(const TradeOptions& options, const View& view, const Region& region, const Gpu& gpu,
+              RasterPath path, TradeReport& report) {
     for (const std::string& source : view.region.paths)
         report.region += (report.region.empty() ? "" : ", ") + fs::path(source).filename().string();
     report.command = options.command;
@@ -77,7 +77,7 @@ void describe(const TradeOptions& options, const View& view, const Gpu& gpu, Ras
     report.time = time_text(view.time_utc_s);
     report.width_px = view.camera.width_px;
     report.height_px = view.camera.height_px;
-    for (const TradeCase& one : trade_cases(view.own_posts)) {
+    for (const TradeCase& one : trade_cases(view, region)) {
         TradeSetting setting;
         setting.key = one.key;
         setting.options = one.options;
@@ -180,7 +180,7 @@ Result<void> run_trade(const TradeOptions& options) {
         say(options.quiet, note);
     const std::vector<Camera> cameras = cameras_of(options, view, region, trade.ground());
     TradeReport report;
-    describe(options, view, *gpu, path, report);
+    describe(options, view, region, *gpu, path, report);
     constexpr std::size_t with_pictures = 3;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         bar.show(static_cast<double>(i) / static_cast<double>(cameras.size()), "measuring views");

@@ -89,6 +89,20 @@ ordered_json region_json(const Region& region) {
     return json;
 }
 
+// finest: triangles of the grid.
+ordered_json graph_json(const ClusterFile& file, std::uint64_t finest) {
+    const ClusterOutline& graph = file.outline();
+    ordered_json json = json_object("levels", graph.levels.size(), "groups", graph.groups, "triangles",
+                                    graph.triangles, "bytes", file.bytes());
+    json["by_level"] = ordered_json::array({json_object("level", 0, "triangles", finest, "clusters",
+                                                        graph.leaves, "groups", 0, "largest_error_m", 0.0)});
+    for (const GraphLevel& level : graph.levels)
+        json["by_level"].push_back(json_object("level", json["by_level"].size(), "triangles",
+                                               level.triangles_out, "clusters", level.clusters_out, "groups",
+                                               level.groups, "largest_error_m", level.largest_error_m));
+    return json;
+}
+
 ordered_json file_json(const Region& region) {
     if (!region.file) return nullptr;
     const RegionFile& file = *region.file;
@@ -100,10 +114,7 @@ ordered_json file_json(const Region& region) {
     json["pages"] = file.order().count();
     json["triangles"] = file.outline().triangles;
     json["bytes"] = file.bytes();
-    if (region.clusters)
-        json["clusters"] = json_object(
-            "levels", region.clusters->outline().levels.size(), "groups", region.clusters->outline().groups,
-            "triangles", region.clusters->outline().triangles, "bytes", region.clusters->bytes());
+    if (region.clusters) json["clusters"] = graph_json(*region.clusters, file.outline().triangles);
     json["bytes_per_post"] =
         static_cast<double>(file.bytes()) / static_cast<double>(region.field.grid.post_count());
     return json;

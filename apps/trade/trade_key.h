@@ -14,12 +14,13 @@ struct TradeKey {
     std::optional<EffectKind> effect{};  // of the model: left out or rounded, alone; of the data: as it is
     std::optional<double> tau_px{};      // how far `detail` may be off; nothing for all others
     std::optional<Bundle> bundle{};
+    bool clusters{};  // drawn by the region's clusters, not by blocks
 
     bool operator==(const TradeKey&) const = default;
 };
 
-// "full detail", "no geoid", "no full detail, tau 2", "draft", "ground between the posts": parts of the model
-// as plan calls them.
+// "full detail", "no geoid", "no full detail, tau 2", "clusters, tau 2" (likewise without full detail),
+// "draft", "ground between the posts": parts of the model as plan calls them.
 std::string name_of(const TradeKey& key);
 
 }  // namespace oro

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/drawing/mesh_choice.h"
 #include "core/base/median.h"
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
@@ -68,16 +69,17 @@ Camera Trade::camera_of(const Camera& camera, const TradeCase& one) const {
     return from;
 }
 
-// There are three scenes at a time: as tiles have it, in 16 bits, without a geoid.
+// There are three scenes at a time: as tiles have it, in 16 bits, without a geoid; and one by clusters.
 MemoryOptions Trade::share_of_memory() const {
-    constexpr int scenes = 3, least_mb = 16;
+    const int scenes = has_clusters(region_, view_) ? 4 : 3;
+    constexpr int least_mb = 16;
     MemoryOptions share = memory_;
     if (share.gpu_memory_mb) share.gpu_memory_mb = std::max(least_mb, *share.gpu_memory_mb / scenes);
     return share;
 }
 
 Result<Scene*> Trade::scene_of(const TradeCase& one) {
-    const std::pair key(one.has_geoid, one.heights);
+    const std::tuple key(one.has_geoid, one.heights, one.key.clusters);
     if (const auto found = scenes_.find(key); found != scenes_.end()) return &found->second;
     if (!one.has_geoid && !without_geoid_) {
         without_geoid_ = region_;
@@ -86,9 +88,9 @@ Result<Scene*> Trade::scene_of(const TradeCase& one) {
     const Region& region = one.has_geoid ? region_ : *without_geoid_;
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
     ORO_TRY(GridPages pages, pages_of_grids(region, cuts, view_.exaggeration));
-    ORO_TRY(RegionScene whole,
-            scene_of_region(gpu_, region, cuts, std::move(pages),
-                            {view_.exaggeration, share_of_memory(), one.heights, asks_for_means(style_)}));
+    ORO_TRY(RegionScene whole, scene_of_region(gpu_, region, cuts, std::move(pages),
+                                               {view_.exaggeration, share_of_memory(), one.heights,
+                                                asks_for_means(style_), one.key.clusters}));
     return &scenes_.emplace(key, std::move(whole.scene)).first->second;
 }
 
@@ -117,6 +119,8 @@ Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const
     shot.gpu_ms = 1000.0 * median_of(std::move(times_s));
     shot.triangles = drawn.picture.report.counts.triangles_drawn;
     shot.bytes = drawn.picture.page_bytes;
+    if (one.key.clusters)
+        shot.bytes += drawn.picture.report.counts.meshlets_drawn * sizeof(gpu::ClusterBlock);
     shot.displacement_m = drawn.errors.ground.summary_displacement_m;
     shot.displacement_px = drawn.errors.ground.summary_displacement_px;
     shot.surface_px = drawn.errors.ground.summary_surface_px;

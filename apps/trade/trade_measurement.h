@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "apps/accuracy/accuracy.h"
@@ -30,7 +31,7 @@ class Trade {
           repeats_(repeats),
           memory_(memory),
           painter_(gpu, path),
-          cases_(trade_cases(keeps_own_posts(region))) {}
+          cases_(trade_cases(view, region)) {}
 
     // Reads the truth. Errors: damage in a baked region; nothing to draw.
     Result<void> prepare();
@@ -60,7 +61,7 @@ class Trade {
     std::unique_ptr<TrueScene> truth_;
     GridPages pages_;  // for predictions
     TrueWorld world_;
-    std::map<std::pair<bool, HeightStorage>, Scene> scenes_;
+    std::map<std::tuple<bool, HeightStorage, bool>, Scene> scenes_;  // geoid, heights, clusters
 };
 
 }  // namespace oro

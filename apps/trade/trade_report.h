@@ -20,7 +20,7 @@ struct TradeShot {
     TradeKey setting;
     double gpu_ms{};  // timestamps: levels, triangles and shading of one sample, median of the repeats
     std::uint64_t triangles{};
-    std::uint64_t bytes{};  // of the pages that the frame reads, on the GPU
+    std::uint64_t bytes{};  // of the pages and clusters that the frame reads, on the GPU
     ErrorSummary displacement_m, displacement_px, surface_px, seen_px, skyline_px;
     // Of all of them, edges less what they are found to.
     [[nodiscard]] double largest_px() const {

@@ -3,18 +3,23 @@
 #include <cstdio>
 
 #include "apps/accuracy/accuracy.h"
+#include "apps/drawing/mesh_choice.h"
 
 namespace oro {
 namespace {
 
 constexpr WorldModel true_air{Earth::ellipsoid, standard_air, Precision::relative};
 
-void add_levels(std::vector<TradeCase>& cases) {
+void add_levels(std::vector<TradeCase>& cases, bool clusters) {
     for (const double tau_px : {0.5, 1.0, 2.0, 4.0}) {
         char options[60];
         std::snprintf(options, sizeof options, "--tau %g --air standard", tau_px);
         TradeCase one{{EffectKind::detail, tau_px, {}}, options, tau_px, true_air};
         one.keeps_tau = true;
+        cases.push_back(one);
+        if (!clusters) continue;
+        one.key.clusters = true;
+        one.options += " --mesh clusters";
         cases.push_back(one);
     }
 }
@@ -35,10 +40,14 @@ void add_models(std::vector<TradeCase>& cases) {
 
 }  // namespace
 
-std::vector<TradeCase> trade_cases(bool own_posts) {
+std::vector<TradeCase> trade_cases(const View& view, const Region& region) {
+    return trade_cases(keeps_own_posts(region), has_clusters(region, view));
+}
+
+std::vector<TradeCase> trade_cases(bool own_posts, bool clusters) {
     std::vector<TradeCase> cases{{{}, "--tau 0 --air standard", 0.0, true_air}};
     cases.front().keeps_tau = true;
-    add_levels(cases);
+    add_levels(cases, clusters);
     add_models(cases);
     for (const AccuracyBundle& bundle : accuracy_bundles()) {
         TradeCase one{
@@ -53,6 +62,9 @@ std::vector<TradeCase> trade_cases(bool own_posts) {
         std::erase_if(cases, [](const TradeCase& one) {
             return one.world.earth != Earth::ellipsoid || one.world.precision != Precision::relative;
         });
+    // As one would have to ask for them.
+    for (TradeCase& one : cases)
+        if (clusters && !one.key.clusters && !one.options.empty()) one.options += " --mesh grid";
     return cases;
 }
 

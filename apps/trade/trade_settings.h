@@ -22,7 +22,10 @@ struct TradeCase {
 
 // Full detail first, then levels, then one thing left out or rounded at a time, then bundles. All but those
 // that leave it out have standard air. Posts in a CRS of their own (`own_posts`) are not drawn on another
-// Earth, nor placed in float32.
-std::vector<TradeCase> trade_cases(bool own_posts);
+// Earth, nor placed in float32. With `clusters` each tau is tried with them, too (draws_clusters()); all else
+// is drawn by blocks, as it is where there are none.
+std::vector<TradeCase> trade_cases(bool own_posts, bool clusters);
+// Of a region, in a view's size and models.
+std::vector<TradeCase> trade_cases(const View& view, const Region& region);
 
 }  // namespace oro

@@ -1,0 +1,83 @@
+#include "apps/accuracy/mesh_forecast.h"
+
+#include <algorithm>
+#include <array>
+
+#include "apps/baking/cluster_bake.h"
+#include "apps/drawing/mesh_choice.h"
+#include "core/baked/file_pages.h"
+#include "core/base/parallel.h"
+#include "core/cluster_frame/cluster_choice.h"
+#include "core/cluster_frame/group_rule.h"
+#include "core/lod/levels.h"
+
+namespace oro {
+namespace {
+
+Tile whole_picture(const Camera& camera) {
+    return {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+}
+
+MeshForecast forecast_blocks(const LevelPyramid& pyramid, const Camera& camera, double tau_px) {
+    const std::array<Plane, 5> planes =
+        frustum_planes_view(projection_of_tile(camera, whole_picture(camera)));
+    const glm::dmat3 view_from_ecef = camera.view_from_ecef();
+    const LevelView level_of = level_view(camera, tau_px);
+    MeshForecast forecast;
+    for (const DrawnNode& drawn : select_nodes(pyramid, camera, whole_picture(camera), tau_px).nodes) {
+        const PyramidLevel& level = pyramid.levels[static_cast<std::size_t>(drawn.level)];
+        const PageSummary& page = level.page_of_node(drawn.row, drawn.column).summary;
+        const gpu::MeshletBounds& node = level.node(drawn.row, drawn.column);
+        const glm::dvec3 centre = view_from_ecef * (page.origin_ecef.m - camera.eye_ecef().m +
+                                                    page.ecef_from_page * glm::dvec3(node.centre));
+        if (node.radius < 0.0F || beyond_frustum(planes, centre, static_cast<double>(node.radius))) continue;
+        forecast.triangles += static_cast<std::uint64_t>(2 * level.grid.row.quads_of_node(drawn.row) *
+                                                         level.grid.column.quads_of_node(drawn.column));
+        if (drawn.level == 0) continue;
+        forecast.worst_m = std::max(forecast.worst_m, static_cast<double>(node.error_m));
+        forecast.worst_px =
+            std::max(forecast.worst_px, static_cast<double>(gpu::projected_error_px(
+                                            gpu::vec3(centre), node.lod_radius, node.error_m,
+                                            level_of.pixels_per_tangent, level_of.corner_tangent)));
+    }
+    return forecast;
+}
+
+Result<MeshForecast> forecast_clusters(RegionClusters& clusters, const View& view,
+                                       const HorizonOccluder& occluder) {
+    ORO_TRY(const ClusterChoice choice, choose_clusters(clusters, view.camera, whole_picture(view.camera),
+                                                        view.tau_px, view.model, occluder, {}));
+    const GroupRule rule(view.camera, view.tau_px, view.model.air);
+    MeshForecast forecast;
+    for (const std::uint32_t cluster : choice.clusters) {
+        ORO_TRY(const std::uint32_t triangles, clusters.triangle_count(cluster));
+        forecast.triangles += triangles;
+        const std::uint32_t maker = clusters.maker(cluster);
+        if (maker == no_group) continue;
+        const ClusterGroup& group = clusters.groups()[maker];
+        forecast.worst_m = std::max(forecast.worst_m, group.error_m);
+        forecast.worst_px = std::max(forecast.worst_px, rule.error_px(group));
+    }
+    return forecast;
+}
+
+}  // namespace
+
+Result<std::optional<MeshForecasts>> mesh_forecasts(const View& view, const Region& region) {
+    if (!has_clusters(region, view) || region.field.grid.post_count() > most_posts_in_one_go)
+        return std::optional<MeshForecasts>();
+    ORO_TRY(const HeightField field, field_in_memory(*region.file));
+    const RegionShape& shape = region.file->outline().shape;
+    MeshForecasts forecasts;
+    {
+        const DrawnHeights heights = drawn_heights(field, 1.0, thread_count());
+        forecasts.blocks = forecast_blocks(build_pyramid(field.grid, shape, heights, thread_count()),
+                                           view.camera, view.tau_px);
+    }
+    ORO_TRY(const std::unique_ptr<RegionClusters> clusters,
+            clusters_of_file(region.clusters, region.file->fingerprint(), field, shape.occluder));
+    ORO_TRY(forecasts.clusters, forecast_clusters(*clusters, view, shape.occluder));
+    return std::optional(forecasts);
+}
+
+}  // namespace oro
