@@ -43,7 +43,7 @@ struct PostPlace {
 // bilinear between.
 class GridNet {
   public:
-    // The exact places of posts; as many as are asked for.
+    // The exact places of posts; as many as are asked for, maybe by several threads at once.
     using ExactPlaces = std::function<Result<void>(std::span<const PostNumber>, std::span<PostPlace>)>;
     static constexpr double largest_error_m = 2.0e-5;
 
@@ -168,7 +168,14 @@ class GridNet {
     };
     Result<std::optional<PatchNumber>> fit_patches(const ExactPlaces& exact, PatchNumber first);
     Result<bool> fit_corrected(const ExactPlaces& exact);
-    Result<bool> correct_patch(const ExactPlaces& exact, int row, int column);
+    // What a patch becomes, its coefficients aside; `holds` is false where a correction would be none.
+    struct Corrected {
+        double error_m{};
+        bool holds{true};
+        std::optional<Correction> correction;
+    };
+    Result<Corrected> make_corrected(const ExactPlaces& exact, int row, int column);
+    Result<Corrected> correction_of(const ExactPlaces& exact, int row, int column) const;
     Result<void> fit_patch(const ExactPlaces& exact, int row, int column);
     Result<double> patch_error_m(const ExactPlaces& exact, int row, int column) const;
     void add_correction(Correction correction);

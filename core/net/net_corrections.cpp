@@ -1,12 +1,14 @@
 // Corrections of what a net's polynomials cannot follow, and whether its patches meet with them.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
 
+#include "core/base/parallel.h"
 #include "core/net/chebyshev.h"
 #include "core/net/grid_net.h"
 
@@ -60,23 +62,36 @@ PostNumber GridNet::across_rims(const PostNumber& post, const glm::dvec3& wanted
 
 // Corrects what does not hold. False where a correction would be none.
 Result<bool> GridNet::fit_corrected(const ExactPlaces& exact) {
-    for (int row = 0; row < down_.patches; ++row) {
-        for (int column = 0; column < across_.patches; ++column) {
-            ORO_CHECK(fit_patch(exact, row, column));
-            ORO_TRY(const double error_m, patch_error_m(exact, row, column));
-            // A kink may lie between the places that were looked at.
-            if (error_m <= 0.5 * largest_error_m) {
-                error_m_ = std::max(error_m_, error_m);
-                continue;
-            }
-            ORO_TRY(const bool holds, correct_patch(exact, row, column));
-            if (!holds) return false;
-        }
+    const int count = down_.patches * across_.patches;
+    std::vector<Result<Corrected>> made(static_cast<std::size_t>(count), Corrected{});
+    std::atomic<bool> failed{false};
+    in_parallel(count, thread_count(), [&](int number) {
+        if (failed) return;
+        auto& patch = made[static_cast<std::size_t>(number)];
+        patch = make_corrected(exact, number / across_.patches, number % across_.patches);
+        if (!patch.ok() || !patch->holds) failed = true;
+    });
+    for (int number = 0; number < count; ++number) {
+        auto& patch = made[static_cast<std::size_t>(number)];
+        if (!patch.ok()) return patch.error();
+        if (!patch->holds) return false;
+        error_m_ = std::max(error_m_, patch->error_m);
+        if (!patch->correction) continue;
+        add_correction(std::move(*patch->correction));
+        if (!is_gentle(number / across_.patches, number % across_.patches)) return false;
     }
     return patches_are_whole();
 }
 
-Result<bool> GridNet::correct_patch(const ExactPlaces& exact, int row, int column) {
+Result<GridNet::Corrected> GridNet::make_corrected(const ExactPlaces& exact, int row, int column) {
+    ORO_CHECK(fit_patch(exact, row, column));
+    ORO_TRY(const double error_m, patch_error_m(exact, row, column));
+    // A kink may lie between the places that were looked at.
+    if (error_m <= 0.5 * largest_error_m) return Corrected{error_m, true, std::nullopt};
+    return correction_of(exact, row, column);
+}
+
+Result<GridNet::Corrected> GridNet::correction_of(const ExactPlaces& exact, int row, int column) const {
     const int last_row = down_.last_of_patch(row), last_column = across_.last_of_patch(column);
     const int first_row = row * down_.patch_posts - down_.first,
               first_column = column * across_.patch_posts - across_.first;
@@ -102,17 +117,14 @@ Result<bool> GridNet::correct_patch(const ExactPlaces& exact, int row, int colum
         constexpr double most = largest_correction_m / wgs84_a_m / correction_step;
         auto& post = correction.posts[n / width * columns + n % width];
         for (int axis = 0; axis < 3; ++axis) {
-            if (!(std::abs(steps[axis]) <= most)) return false;
+            if (!(std::abs(steps[axis]) <= most)) return Corrected{0.0, false, std::nullopt};
             post[static_cast<std::size_t>(axis)] = static_cast<std::int16_t>(steps[axis]);
         }
         without_m = std::max(without_m, off_m(sum, normal));
         with_m = std::max(with_m, off_m(sum + correction_step * steps, normal));
     }
-    const bool needs_none = without_m <= largest_error_m;
-    error_m_ = std::max(error_m_, needs_none ? without_m : with_m);
-    if (needs_none) return true;
-    add_correction(std::move(correction));
-    return is_gentle(row, column);
+    if (without_m <= largest_error_m) return Corrected{without_m, true, std::nullopt};
+    return Corrected{with_m, true, std::move(correction)};
 }
 
 // A fold would be steeper.
