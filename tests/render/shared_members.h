@@ -37,7 +37,6 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(PageBlock, boxes),
         ORO_MEMBER(PageBlock, rises),
         ORO_MEMBER(PageBlock, heights),
-        ORO_MEMBER(PageBlock, rises),
         ORO_MEMBER(FramePage, view_from_page),
         ORO_MEMBER(FramePage, origin_view),
         ORO_MEMBER(FramePage, planes),
