@@ -215,6 +215,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
                    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
     const VkBufferCopy copy{0, 0, sizeof(gpu::FrameCounts)};
     vkCmdCopyBuffer(commands, counts_.handle.get(), counts_read_.handle.get(), 1, &copy);
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) grids_[i].record_sights(commands);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
@@ -242,6 +243,11 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
     remember(plan);
     report.pages = plan.pages.size();
+    if (plan.wants_sights && occlusion_->is_on()) {
+        report.sights.push_back(grids_[0].sights_of(plan));
+        for (std::size_t i = 0; i < plan.beside.size(); ++i)
+            report.sights.push_back(grids_[i + 1].sights_of(plan.beside[i]));
+    }
     report.counts.meshlets_beyond_frustum += static_cast<gpu::uint>(plan.clusters.beyond_frustum);
     report.counts.meshlets_beyond_horizon += static_cast<gpu::uint>(plan.clusters.beyond_horizon);
     for (const FramePlan& other : plan.beside) report.pages += other.pages.size();

@@ -21,11 +21,12 @@ namespace oro {
 // What a frame did and how long the GPU took for it.
 struct FrameReport {
     gpu::FrameCounts counts{};
-    std::uint64_t pages{};      // of the frame, parents of drawn ones included
-    double choose_s{};          // GPU timestamps: levels chosen
-    double raster_s{};          // from pages to triangle ids, by either path
-    double shade_s{};           // the shading pass
-    bool images_settled{true};  // images over the ground are as fine as the frame asks for
+    std::uint64_t pages{};            // of the frame, parents of drawn ones included
+    double choose_s{};                // GPU timestamps: levels chosen
+    double raster_s{};                // from pages to triangle ids, by either path
+    double shade_s{};                 // the shading pass
+    bool images_settled{true};        // images over the ground are as fine as the frame asks for
+    std::vector<FrameSights> sights;  // of each grid, for Scene::saw(); none where it was drawn at once
     [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
 };
 
