@@ -39,7 +39,7 @@ FrameSights asked(const PageIndex& page, float eye = 0.0F) {
 
 TEST(SeenGround, WhatNobodyAskedForMayShow) {
     const EvenPages pages;
-    const SeenGround seen(pages);
+    SeenGround seen(pages);
     EXPECT_EQ(pages.levels(), 5);
     EXPECT_FALSE(seen.is_hidden({3, 3, 0}));
 }
@@ -119,7 +119,7 @@ TEST(SeenGround, WhatWasHiddenAndShowsStaysShown) {
     EXPECT_FALSE(seen.is_hidden({2, 2, 0})) << "while the view stays";
     int views = 0;
     while (!seen.is_hidden({2, 2, 0}) && views < 100) seen.add(asked({2, 2, 0}, static_cast<float>(++views)));
-    EXPECT_EQ(views, SeenGround::views_kept);
+    EXPECT_EQ(views, SeenGround::views_kept + 1);
 }
 
 // A page that is not there is hidden where that is sure of all that may be in its place, or where it was
