@@ -82,7 +82,7 @@ void add_show(OptionGroup& looks, ViewOptions& options) {
         "--show", options.show, show_words(),
         "Show how the picture was made, in the place of colours: visible, whether the last round drew it "
         "or one before; levels, how many posts are left out; meshlets or triangles, each in a colour of "
-        "its own. For pictures of one sample.");
+        "its own; overdraw, how many triangles cover a pixel. For pictures of one sample.");
 }
 
 void add_look_options(CLI::App& command, ViewOptions& options) {

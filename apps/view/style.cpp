@@ -153,6 +153,8 @@ gpu::uint shown_by(Show show) {
             return gpu::show_levels;
         case Show::meshlets:
             return gpu::show_meshlets;
+        case Show::overdraw:
+            return gpu::show_overdraw;
         case Show::triangles:
             break;
     }

@@ -41,7 +41,7 @@ enum class Rim { skirt, none };
 enum class Edges { smooth, steps };
 // What a picture shows of its own making, in the place of colours: whether the last of a frame's rounds drew
 // it, how coarse, which meshlet, which triangle.
-enum class Show { visible, levels, meshlets, triangles };
+enum class Show { visible, levels, meshlets, triangles, overdraw };
 
 // Which part of all around a panorama shows: azimuths from the left border clockwise, elevations from its
 // lowest row to its highest. The view's camera then tells the eye, the middle and the whole picture's size.

@@ -42,7 +42,9 @@ struct FrameRendererOptions {
     gpu::uint show{};              // gpu::show_...: what explains a frame of one sample, not its colours
     bool waits_for_images{true};   // false: a frame is drawn with what of them is there
     OcclusionUse occlusion{OcclusionUse::if_it_pays};  // without record_positions
-    bool nearest_pyramid{false};                       // wrong occlusion, for the test that notices it
+    // Mesh path: triangles that cover no pixel's centre are not drawn; the ids are the same.
+    bool leave_out_small{false};
+    bool nearest_pyramid{false};  // wrong occlusion, for the test that notices it
     RasterPath path{RasterPath::mesh};
 };
 
@@ -148,6 +150,7 @@ class FrameRenderer {
     OwnedQueryPool timestamps_;
     Buffer depths_;
     Buffer tiles_in_parts_;
+    Buffer overdraw_;  // FrameConstants::overdraw, where it is shown
     Buffer triangles_;
     Buffer counts_;       // on the device
     Buffer counts_read_;  // for the host

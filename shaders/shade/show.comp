@@ -1,6 +1,6 @@
 #version 460
 // Colours pixels by what draws them, in the place of the ground's own colours (FrameConstants.show): which round, level, meshlet or
-// triangle. The table of level colours and those of the rounds are also core's, for legends (core/frame/frame_colours.h).
+// triangle, or how many triangles. The table of level colours and those of the rounds are also core's, for legends (core/frame/frame_colours.h).
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/shade/show_colours.glsl"
@@ -28,6 +28,7 @@ void main() {
     vec3 colour = shown_by_hash(FRAME.show == show_triangles ? triangle : node);
     if (FRAME.show == show_levels) colour = shown_level(frame_pages().at[page].level);
     if (FRAME.show == show_visible) colour = shown_round(FRAME.occlusion == 0u || was_drawn_before(node));
+    if (FRAME.show == show_overdraw) colour = shown_overdraw(Words(FRAME.overdraw).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]);
     // Meshlets are told apart by a little light.
     if (FRAME.show == show_levels || FRAME.show == show_visible) colour *= 0.85 + 0.15 * shown_by_hash(node).x;
     imageStore(picture, pixel, vec4(colour, 1.0));
