@@ -4,13 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "core/cells/cell_diagonal.h"
+
 namespace oro {
 
 // Heights of the 4 x 4 posts around a cell, rows from north to south; the cell's own are at [1..2][1..2].
 using CellHeights = std::array<std::array<double, 4>, 4>;
-
-// Which diagonal: from the north-west post to the south-east one, or across that.
-enum class Diagonal { falls, rises };
 
 // Where the ground in a cell's middle would be, split by one diagonal: half-way between its posts.
 [[nodiscard]] inline double middle_m(const CellHeights& h, Diagonal diagonal) {
@@ -33,17 +32,14 @@ enum class Diagonal { falls, rises };
     return lesser(std::abs(falls), std::abs(rises));
 }
 
-// Takes the diagonal whose middle is nearer to that of the smooth surface through all sixteen posts (Source:
-// R. Keys, Cubic convolution interpolation for digital image processing, 1981: weights -1, 9, 9, -1 of 16).
+// What is drawn: the diagonal whose middle is nearer to that of the smooth surface through all sixteen posts.
 [[nodiscard]] inline Diagonal nearest_smooth(const CellHeights& h) {
-    constexpr std::array<double, 4> weights{-1.0 / 16.0, 9.0 / 16.0, 9.0 / 16.0, -1.0 / 16.0};
-    double smooth_m = 0.0;
-    for (std::size_t row = 0; row < 4; ++row) {
-        for (std::size_t column = 0; column < 4; ++column)
-            smooth_m += weights[row] * weights[column] * h[row][column];
-    }
-    return lesser(std::abs(middle_m(h, Diagonal::falls) - smooth_m),
-                  std::abs(middle_m(h, Diagonal::rises) - smooth_m));
+    return diagonal_of(
+        [&](int row, int column) {
+            return decisive_steps(
+                static_cast<float>(h[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]));
+        },
+        1, 1);
 }
 
 }  // namespace oro

@@ -1,7 +1,9 @@
 #include "core/baked/net_bytes.h"
 
+#include <algorithm>
 #include <string>
 
+#include "core/baked/packed_corrections.h"
 #include "core/base/little_endian.h"
 
 namespace oro::region_format {
@@ -20,6 +22,10 @@ void exchange_front(Visit& visit, Stored& stored) {
     visit(stored.error_m);
 }
 
+Error wrong_net(const std::string& what) {
+    return {ErrorKind::failed, "grid of posts", what};
+}
+
 }  // namespace
 
 std::vector<std::byte> net_to_bytes(const GridNet& net) {
@@ -33,16 +39,15 @@ std::vector<std::byte> net_to_bytes(const GridNet& net) {
     exchange_front(put, stored);
     for (const glm::dvec3& coefficient : stored.coefficients)
         for (int axis = 0; axis < 3; ++axis) put(coefficient[axis]);
+    if (stored.corrections.empty()) return bytes;
+    const std::vector<std::byte> corrections = pack_corrections(stored);
+    bytes.insert(bytes.end(), corrections.begin(), corrections.end());
     return bytes;
 }
 
 Result<std::shared_ptr<const GridNet>> net_from_bytes(std::span<const std::byte> bytes, int rows,
                                                       int columns) {
-    const auto wrong = [](const std::string& what) {
-        return Error{ErrorKind::failed, "grid of posts", what};
-    };
-    if (bytes.size() < net_front_bytes || (bytes.size() - net_front_bytes) % patch_bytes != 0)
-        return wrong("it has " + std::to_string(bytes.size()) + " bytes");
+    if (bytes.size() < net_front_bytes) return wrong_net("it has " + std::to_string(bytes.size()) + " bytes");
     GridNet::Stored stored;
     const std::byte* at = bytes.data();
     auto get = [&at](auto& number) {
@@ -51,12 +56,20 @@ Result<std::shared_ptr<const GridNet>> net_from_bytes(std::span<const std::byte>
     };
     exchange_front(get, stored);
     if (stored.down.posts != rows || stored.across.posts != columns)
-        return wrong("it has " + std::to_string(stored.down.posts) + " x " +
-                     std::to_string(stored.across.posts) + " posts, expected " + std::to_string(rows) +
-                     " x " + std::to_string(columns));
-    stored.coefficients.resize((bytes.size() - net_front_bytes) / 24);
+        return wrong_net("it has " + std::to_string(stored.down.posts) + " x " +
+                         std::to_string(stored.across.posts) + " posts, expected " + std::to_string(rows) +
+                         " x " + std::to_string(columns));
+    // As many patches as it says that it has; what is left then are corrections.
+    const std::uint64_t found = (bytes.size() - net_front_bytes) / patch_bytes;
+    const auto said = [](const GridNet::Stored::Axis& axis) {
+        return static_cast<std::uint64_t>(std::max(axis.patches, 0));
+    };
+    const std::uint64_t patches = std::min(said(stored.down) * said(stored.across), found);
+    stored.coefficients.resize(patches * GridNet::coefficients_a_patch);
     for (glm::dvec3& coefficient : stored.coefficients)
         for (int axis = 0; axis < 3; ++axis) get(coefficient[axis]);
+    const std::span<const std::byte> corrections = bytes.subspan(net_front_bytes + patches * patch_bytes);
+    if (!corrections.empty()) ORO_CHECK(unpack_corrections(corrections, stored));
     return GridNet::from(stored);
 }
 

@@ -93,6 +93,11 @@ Result<PostGrid> read_net(const OpenFile& file, const RegionHeader& header, std:
     }));
     auto net = net_from_bytes(bytes, header.grid.rows(), header.grid.columns());
     if (!net.ok()) return file.damaged(offset, "the net of its posts is none: " + net.error().what);
+    if ((*net)->is_corrected() != is_on_corrected_net(header.version))
+        return file.damaged(offset, "the net of its posts has " +
+                                        std::string((*net)->is_corrected() ? "" : "no ") +
+                                        "corrections, which version " + std::to_string(header.version) +
+                                        (is_on_corrected_net(header.version) ? " has" : " has not"));
     return grid_on_net(std::move(*net));
 }
 

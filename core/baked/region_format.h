@@ -11,11 +11,12 @@
 // Numbers are little endian. Each part has its checksum, XXH64: header and records their own, at their end;
 // description, undulation and net in the header, a payload in its record. No byte is without one.
 //
-// Versions 1 and 3 have posts on latitudes and longitudes, versions 2 and 4 on a net. In 1 and 2 all cells
-// are split from their north-west to their south-east posts, in 3 and 4 as the posts of their level decide
-// (core/cells/cell_diagonal.h); there a page in which a region round the Earth ends has one more column of
-// posts. Of a net's axes only step and count mean anything: that of the rows has the bytes of the net where
-// the other versions have the first post's index, that of the columns its checksum, and all else is 0.
+// Versions 1 and 3 have posts on latitudes and longitudes, versions 2 and 4 on a net, 5 and 6 on a net with
+// corrections. In 1, 2 and 5 all cells are split from their north-west to their south-east posts, in 3, 4 and
+// 6 as the posts of their level decide (core/cells/cell_diagonal.h); there a page in which a region round the
+// Earth ends has one more column of posts. Of a net's axes only step and count mean anything: that of the
+// rows has the bytes of the net where the other versions have the first post's index, that of the columns its
+// checksum, and all else is 0.
 #pragma once
 
 #include <array>
@@ -34,15 +35,20 @@ namespace oro::region_format {
 // Begins with a byte that no text has, and holds both kinds of line end, which a transfer as text would
 // change.
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'O', 'R', 'O', '\r', '\n', 0x1a, '\n'};
-inline constexpr std::uint32_t first_version = 1, last_version = 4;
+inline constexpr std::uint32_t first_version = 1, last_version = 6;
 [[nodiscard]] inline std::uint32_t version_of(const PostGrid& grid) {
-    return (grid.net ? 2 : 1) + (grid.split == CellSplit::by_posts ? 2 : 0);
+    const std::uint32_t by_posts = grid.split == CellSplit::by_posts ? 1 : 0;
+    if (grid.net && grid.net->is_corrected()) return 5 + by_posts;
+    return (grid.net ? 2 : 1) + 2 * by_posts;
 }
 [[nodiscard]] constexpr bool is_on_net(std::uint32_t version) {
-    return version % 2 == 0;
+    return version == 2 || version >= 4;
+}
+[[nodiscard]] constexpr bool is_on_corrected_net(std::uint32_t version) {
+    return version >= 5;
 }
 [[nodiscard]] constexpr CellSplit split_of(std::uint32_t version) {
-    return version > 2 ? CellSplit::by_posts : CellSplit::all_fall;
+    return version == 3 || version == 4 || version == 6 ? CellSplit::by_posts : CellSplit::all_fall;
 }
 inline constexpr std::size_t header_bytes = 256;
 inline constexpr std::size_t record_bytes = 448;

@@ -141,10 +141,12 @@ void check_net(Findings& findings, const RegionHeader& header) {
     check_net_axis(findings, header.grid.lat, -1, at_grid_lat);
     check_net_axis(findings, header.grid.lon, +1, at_grid_lon);
     const std::uint64_t bytes = header.net_bytes;
-    findings.require(bytes >= net_front_bytes + patch_bytes && bytes <= most_bytes &&
-                         (bytes - net_front_bytes) % patch_bytes == 0,
-                     at_grid_lat + 16, "net bytes", bytes,
-                     said(net_front_bytes) + " and " + said(patch_bytes) + " for each patch");
+    // Corrections may have any size.
+    findings.require(
+        bytes >= net_front_bytes + patch_bytes && bytes <= most_bytes &&
+            (is_on_corrected_net(header.version) || (bytes - net_front_bytes) % patch_bytes == 0),
+        at_grid_lat + 16, "net bytes", bytes,
+        said(net_front_bytes) + " and " + said(patch_bytes) + " for each patch");
 }
 
 // All that does not follow from other numbers.

@@ -252,7 +252,8 @@ NodeDeviations::Sag NodeDeviations::sag_of_net(double dh_m, double finest_dh_m) 
     const double radius_m = wgs84_a_m + highest_m_;
     const auto bound_m = [&](double down, double right, double dh) {
         const double both = down + right;
-        return 0.125 * (grid_.net->bend() * radius_m * both * both + 2.02 * dh * both);
+        return 0.125 * (grid_.net->bend() * radius_m * both * both + 2.02 * dh * both +
+                        2.0 * grid_.net->kink() * radius_m * both);
     };
     const double finest_down = grid_.row_step_rad(), finest_right = grid_.column_step_rad();
     const double down = std::ldexp(finest_down, level_.level()),

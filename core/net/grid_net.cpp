@@ -1,141 +1,27 @@
 #include "core/net/grid_net.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
+
+#include "core/net/chebyshev.h"
 
 namespace oro {
 namespace {
 
-constexpr int fewest_posts = 16;  // of a patch's side: what needs smaller ones is not smooth
 constexpr double smallest_radius_m = wgs84_b_m * wgs84_b_m / wgs84_a_m;  // of curvature, on the ellipsoid
 
-glm::dvec3 unit_normal(const PostPlace& place) {
+}  // namespace
+
+glm::dvec3 normal_of_place(const PostPlace& place) {
     const SineCosine lat = sine_cosine_deg(place.lat_deg), lon = sine_cosine_deg(place.lon_deg);
     return {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
 }
 
-// Chebyshev polynomials at x in -1 .. 1, and their derivatives.
-template <class Terms>
-void chebyshev(double x, Terms& value) {
-    value[0] = 1.0;
-    value[1] = x;
-    for (std::size_t i = 2; i < value.size(); ++i) value[i] = 2.0 * x * value[i - 1] - value[i - 2];
-}
-template <class Terms>
-void chebyshev(double x, Terms& value, Terms& slope) {
-    chebyshev(x, value);
-    slope[0] = 0.0;
-    slope[1] = 1.0;
-    for (std::size_t i = 2; i < value.size(); ++i)
-        slope[i] = 2.0 * value[i - 1] + 2.0 * x * slope[i - 1] - slope[i - 2];
-}
-
-// Roots of the polynomial of that number: where a function is asked for that the ones below it are to follow.
-double root(int i, int count) {
-    return -std::cos(std::numbers::pi * (i + 0.5) / count);
-}
-
-}  // namespace
-
 PostPlace place_of_normal(const glm::dvec3& normal) {
     return {deg_from_radians(Radians(std::atan2(normal.z, std::hypot(normal.x, normal.y)))),
             deg_from_radians(Radians(std::atan2(normal.y, normal.x)))};
-}
-
-GridNet::Cut GridNet::cut(int posts, int patches) {
-    const int patch_posts = std::max(fewest_posts, (posts + patches - 1) / patches);
-    return {{0, posts, patch_posts, (posts + patch_posts - 1) / patch_posts}};
-}
-
-GridNet::GridNet(const Cut& down, const Cut& across)
-    : down_(down),
-      across_(across),
-      patches_(static_cast<std::size_t>(down_.patches) * static_cast<std::size_t>(across_.patches)) {}
-
-Result<std::shared_ptr<const GridNet>> GridNet::fit(int rows, int columns, const ExactPlaces& exact) {
-    assert(rows >= 2 && columns >= 2);
-    for (int patches = 1; patches == 1 || patches * fewest_posts <= std::max(rows, columns); patches *= 2) {
-        std::shared_ptr<GridNet> net(new GridNet(cut(rows, patches), cut(columns, patches)));
-        ORO_TRY(const bool holds, net->fit_patches(exact));
-        if (!holds) continue;
-        ORO_CHECK(net->measure());
-        return std::shared_ptr<const GridNet>(std::move(net));
-    }
-    return Error{ErrorKind::failed, "grid of posts",
-                 "its places on the Earth do not follow smoothly from row and column"};
-}
-
-// True when all patches hold what was promised.
-Result<bool> GridNet::fit_patches(const ExactPlaces& exact) {
-    for (int row = 0; row < down_.patches; ++row) {
-        for (int column = 0; column < across_.patches; ++column) {
-            ORO_CHECK(fit_patch(exact, row, column));
-            ORO_TRY(const double error_m, patch_error_m(exact, row, column));
-            error_m_ = std::max(error_m_, error_m);
-            if (!(error_m <= largest_error_m)) return false;
-        }
-    }
-    return true;
-}
-
-// Discrete orthogonality gives the coefficients. Source: W. H. Press et al., Numerical Recipes, 3rd ed. 2007,
-// eq. 5.8.7.
-Result<void> GridNet::fit_patch(const ExactPlaces& exact, int row, int column) {
-    std::array<PostNumber, terms * terms> posts;
-    std::array<PostPlace, terms * terms> places;
-    std::array<Terms, terms> at;  // of each root
-    for (int i = 0; i < terms; ++i) chebyshev(root(i, terms), at[static_cast<std::size_t>(i)]);
-    const auto number = [&](const Cut& axis, int patch, int i) {
-        return (static_cast<double>(patch) + 0.5 * (root(i, terms) + 1.0)) * axis.patch_posts;
-    };
-    for (int i = 0; i < terms * terms; ++i)
-        posts[static_cast<std::size_t>(i)] = {number(down_, row, i / terms),
-                                              number(across_, column, i % terms)};
-    ORO_CHECK(exact(posts, places));
-    Patch& made = patches_[static_cast<std::size_t>(row * across_.patches + column)];
-    std::ranges::fill(made.coefficients, glm::dvec3(0.0));
-    for (std::size_t i = 0; i < terms * terms; ++i) {
-        const glm::dvec3 normal = unit_normal(places[i]);
-        for (std::size_t j = 0; j < terms * terms; ++j)
-            made.coefficients[j] += at[i / terms][j / terms] * at[i % terms][j % terms] * normal;
-    }
-    for (std::size_t j = 0; j < terms * terms; ++j) {
-        const double share = (j / terms == 0 ? 1.0 : 2.0) * (j % terms == 0 ? 1.0 : 2.0);
-        made.coefficients[j] *= share / (terms * terms);
-    }
-    return {};
-}
-
-// At places between the roots and on the patch's rim, where polynomials stray farthest.
-Result<double> GridNet::patch_error_m(const ExactPlaces& exact, int row, int column) const {
-    constexpr int side = 2 * terms + 1;
-    std::vector<PostNumber> posts(side * side);
-    std::vector<PostPlace> places(side * side);
-    const auto number = [&](const Cut& axis, int patch, int i) {
-        const double first = static_cast<double>(patch) * axis.patch_posts;
-        return first + std::min<double>(axis.patch_posts, axis.last() - first) * i / (side - 1);
-    };
-    for (int i = 0; i < side * side; ++i)
-        posts[static_cast<std::size_t>(i)] = {number(down_, row, i / side),
-                                              number(across_, column, i % side)};
-    ORO_CHECK(exact(posts, places));
-    double most_m = 0.0;
-    Terms down, right;
-    for (std::size_t i = 0; i < posts.size(); ++i) {
-        chebyshev(down_.in_patch(posts[i].row, row), down);
-        chebyshev(across_.in_patch(posts[i].column, column), right);
-        glm::dvec3 sum(0.0);
-        for (std::size_t j = 0; j < terms * terms; ++j)
-            sum += down[j / terms] * right[j % terms] * patch(row, column).coefficients[j];
-        const double off_m = wgs84_a_m * glm::distance(glm::normalize(sum), unit_normal(places[i]));
-        most_m = off_m <= most_m ? most_m : off_m;  // and what is no number
-    }
-    return most_m;
 }
 
 int GridNet::Cut::patch_of(double number) const {
@@ -165,6 +51,7 @@ GridNet::Jet GridNet::jet_at(double row, double column) const {
     }
     jet.by_row *= 2.0 / down_.patch_posts;
     jet.by_column *= 2.0 / across_.patch_posts;
+    if (of.correction != Patch::none) correct(of, {held_row, held_column}, i, j, jet);
     jet.normal += (row - held_row) * jet.by_row + (column - held_column) * jet.by_column;
     return jet;
 }
@@ -195,6 +82,8 @@ void GridNet::normals_of_row(int row, int first_column, std::span<glm::dvec3> no
         chebyshev(across_.in_patch(column, j), right);
         glm::dvec3 sum(0.0);
         for (std::size_t l = 0; l < terms; ++l) sum += right[l] * of_row[l];
+        if (patch(i, j).correction != Patch::none)
+            sum += correction_at(patch(i, j), down_.post_of_patch(row, i), across_.post_of_patch(column, j));
         normals[k] = glm::normalize(sum);
     }
 }
@@ -203,27 +92,31 @@ PostPlace GridNet::place_at(double row, double column) const {
     return place_of_normal(normal_at(row, column));
 }
 
-// Newton's method in the plane of the map's own derivatives.
+// A step of Newton's method in the plane of the map's own derivatives.
+PostNumber GridNet::step_towards(const glm::dvec3& wanted, const Jet& jet) {
+    const glm::dvec3 off = wanted - glm::normalize(jet.normal);
+    const double rr = glm::dot(jet.by_row, jet.by_row), cc = glm::dot(jet.by_column, jet.by_column),
+                 rc = glm::dot(jet.by_row, jet.by_column);
+    const double r = glm::dot(off, jet.by_row), c = glm::dot(off, jet.by_column);
+    const double determinant = rr * cc - rc * rc;
+    return {(r * cc - c * rc) / determinant, (c * rr - r * rc) / determinant};
+}
+
 PostNumber GridNet::post_at(double lat_deg, double lon_deg) const {
-    const glm::dvec3 wanted = unit_normal({lat_deg, lon_deg});
+    const glm::dvec3 wanted = normal_of_place({lat_deg, lon_deg});
     constexpr double far = 1.0e9;
     if (!(glm::dot(wanted, middle_) > 0.0)) return {far, far};
     PostNumber post = inverse_.post(wanted);
     Jet jet = jet_at(post.row, post.column);
     constexpr int most_steps = 30;
     for (int step = 0; step < most_steps; ++step) {
-        const glm::dvec3 off = wanted - glm::normalize(jet.normal);
-        const double rr = glm::dot(jet.by_row, jet.by_row), cc = glm::dot(jet.by_column, jet.by_column),
-                     rc = glm::dot(jet.by_row, jet.by_column);
-        const double r = glm::dot(off, jet.by_row), c = glm::dot(off, jet.by_column);
-        const double determinant = rr * cc - rc * rc;
-        const double down = (r * cc - c * rc) / determinant, right = (c * rr - r * rc) / determinant;
+        const auto [down, right] = step_towards(wanted, jet);
         post.row += down;
         post.column += right;
         if (std::abs(down) + std::abs(right) < 1.0e-7) break;  // the next step would be its square
         jet = jet_at(post.row, post.column);
     }
-    return post;
+    return corrections_.empty() ? post : across_rims(post, wanted);
 }
 
 GridNet::Lie GridNet::lie_at(double row, double column) const {
@@ -245,7 +138,13 @@ GridNet::Lie GridNet::lie_at(double row, double column) const {
 Result<void> GridNet::measure() {
     constexpr int side = 48;
     const double row_step = down_.last() / side, column_step = across_.last() / side;
-    double bend = 1.0;
+    // Over a few posts a kink turns no less, and bends no more than it does over these.
+    constexpr double few_posts = 8.0;
+    const auto looks = [&](double step, double last) {
+        return corrections_.empty() ? step : std::min(std::max(step, few_posts), last);
+    };
+    const double row_look = looks(row_step, down_.last()), column_look = looks(column_step, across_.last());
+    double bend = 1.0, turn = 0.0;
     std::vector<Lie> lies;
     for (int i = 0; i <= side; ++i) {
         for (int j = 0; j <= side; ++j) {
@@ -256,15 +155,22 @@ Result<void> GridNet::measure() {
             if (!(facing > 0.1 * down * right))
                 return Error{ErrorKind::failed, "grid of posts",
                              "its rows and columns are mirrored or have a fold"};
-            const Jet below = jet_at(std::min(row + row_step, down_.last()), column);
-            const Jet beside = jet_at(row, std::min(column + column_step, across_.last()));
-            const auto bent = [&](const glm::dvec3& change, double step, double one, double other) {
-                return step > 0.0 ? glm::length(change) / (step * one * other) : 0.0;
+            const Jet below = jet_at(std::min(row + row_look, down_.last()), column);
+            const Jet beside = jet_at(row, std::min(column + column_look, across_.last()));
+            const auto within = [](double from, double look, double last) {
+                return from + look <= last + 1.0e-6 * look ? look : 0.0;
             };
-            bend =
-                std::max({bend, bent(below.by_row - jet.by_row, i < side ? row_step : 0.0, down, down),
-                          bent(beside.by_column - jet.by_column, j < side ? column_step : 0.0, right, right),
-                          bent(below.by_column - jet.by_column, i < side ? row_step : 0.0, down, right)});
+            const double row_way = within(row, row_look, down_.last()),
+                         column_way = within(column, column_look, across_.last());
+            const auto bent = [&](const glm::dvec3& change, double step, double one, double other) {
+                const double angle = step * std::max(one, other);
+                const double found = step > 0.0 ? glm::length(change) / (step * one * other) : 0.0;
+                bend = std::max(bend, found);
+                turn = std::max(turn, (found - 1.0) * angle);
+            };
+            bent(below.by_row - jet.by_row, row_way, down, down);
+            bent(beside.by_column - jet.by_column, column_way, right, right);
+            bent(below.by_column - jet.by_column, row_way, down, right);
             lies.push_back(lie_at(row, column));
         }
     }
@@ -282,6 +188,8 @@ Result<void> GridNet::measure() {
     row_m_ = largest(&Lie::row_m);
     column_m_ = largest(&Lie::column_m);
     bend_ = 1.1 * bend * wgs84_a_m / smallest_radius_m;
+    // Between two samples ways may turn one way and back: twice what they differ by.
+    if (!corrections_.empty()) kink_ = 2.0 * turn;
     middle_ = normal_at(0.5 * down_.last(), 0.5 * across_.last());
     ORO_CHECK(fit_inverse());
     find_box();

@@ -1,15 +1,19 @@
 // Where the posts of a grid lie whose source has a CRS of its own (projected, turned, of another datum):
-// smooth functions of row and column, held against the exact places when they were made.
+// smooth functions of row and column, and corrections where those cannot follow; held against the exact
+// places when they were made.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,22 +37,38 @@ struct PostPlace {
 // everywhere, also at the poles and across the antimeridian, where latitude and longitude are not. A post
 // belongs to one patch by its number alone, so it has the same bits in whichever page or level it is asked
 // for. Beyond the grid the map goes on straight.
+//
+// A datum may come by a grid of shifts (BETA2007, NTF, OSTN15), linear between its nodes. No polynomial
+// follows its kinks. Patches over them have a correction besides: what their posts are off, one by one, and
+// bilinear between.
 class GridNet {
   public:
-    // The exact places of posts; as many as are asked for.
+    // The exact places of posts; as many as are asked for, maybe by several threads at once.
     using ExactPlaces = std::function<Result<void>(std::span<const PostNumber>, std::span<PostPlace>)>;
     static constexpr double largest_error_m = 2.0e-5;
 
     // For rows x columns posts (2 at least of each). Places are within largest_error_m of the exact ones:
-    // patches are halved until that holds at places between those that made them. Rows must run clockwise
-    // from columns, seen from above, as south does from east. Errors: those of `exact`; a map that is not
-    // smooth enough, is mirrored or has a fold.
+    // patches are halved until that holds at places between those that made them. Where the smallest do not
+    // hold it, larger ones are taken, and those with a post that is farther off are corrected. Rows must run
+    // clockwise from columns, seen from above, as south does from east. Errors: those of `exact`; a map that
+    // jumps (largest_correction_m, steepest_correction), is mirrored or has a fold.
     static Result<std::shared_ptr<const GridNet>> fit(int rows, int columns, const ExactPlaces& exact);
 
     // A part of it: the same posts, with the same bits. At least 2 of each, all within the grid. Errors: none
     // that its whole had not.
     [[nodiscard]] Result<std::shared_ptr<const GridNet>> part(int first_row, int first_column, int rows,
                                                               int columns) const;
+
+    // What the polynomials of a patch are off at its posts, those with which the next patches begin among
+    // them, row by row: x, y and z of the normal in whole steps (2.9 um on the Earth). 6 bytes a post.
+    struct Correction {
+        int patch{};  // patches are counted row by row
+        std::vector<std::array<std::int16_t, 3>> posts;
+    };
+    static constexpr double correction_step = 0x1p-41;
+    static constexpr double largest_correction_m = 0.095;  // along each axis
+    // How much more one post is corrected than the next, of the way between them.
+    static constexpr double steepest_correction = 1.0e-3;
 
     // All that it is made of, to the bit: for files.
     struct Stored {
@@ -61,11 +81,13 @@ class GridNet {
         Axis down{}, across{};
         double error_m{};
         std::vector<glm::dvec3> coefficients;  // patch by patch, a row of them after another
+        std::vector<Correction> corrections;   // of some patches, in their order
     };
     static constexpr int coefficients_a_patch = 81;
     [[nodiscard]] Stored stored() const;
     // The inverse; any numbers may be given. Errors (of a "grid of posts"): what makes them no net: counts
-    // that do not fit each other, normals that are none, patches that do not meet, a fold.
+    // that do not fit each other, normals that are none, patches that do not meet, a fold, corrections that
+    // are none.
     static Result<std::shared_ptr<const GridNet>> from(const Stored& stored);
 
     [[nodiscard]] PostPlace place_at(double row, double column) const;
@@ -89,14 +111,18 @@ class GridNet {
 
     [[nodiscard]] int rows() const { return down_.posts; }
     [[nodiscard]] int columns() const { return across_.posts; }
-    // Largest distance from the exact places that was seen when the net was made.
+    // Largest distance from the exact places that was seen when the net was made; of a net with corrections
+    // at posts, where it counts.
     [[nodiscard]] double error_m() const { return error_m_; }
+    [[nodiscard]] bool is_corrected() const { return !corrections_.empty(); }
     // Largest distances from post to post anywhere.
     [[nodiscard]] double row_m() const { return row_m_; }
     [[nodiscard]] double column_m() const { return column_m_; }
-    // How much ways along rows and columns bend at most, 1 being a great circle: a stretch of them of s
-    // metres is at most bend s^2 / (8 R) off its chord.
+    // How much ways along rows and columns bend at most, 1 being a great circle, and by how much they turn at
+    // the kinks of a corrected net, in radians: a stretch of them of s metres is at most bend s^2 / (8 R) +
+    // kink s / 4 off its chord.
     [[nodiscard]] double bend() const { return bend_; }
+    [[nodiscard]] double kink() const { return kink_; }
     // From places to posts by one polynomial, for what needs it quickly and not quite exactly: row and column
     // as a sum of powers of (u, v), the place's normal along two axes, moved and scaled to -1 .. 1 over the
     // grid. Beyond those it goes on straight.
@@ -126,7 +152,9 @@ class GridNet {
     static constexpr int terms = 9;
     using Terms = std::array<double, terms>;
     struct Patch {
+        static constexpr std::int32_t none = -1;
         std::array<glm::dvec3, terms * terms> coefficients;
+        std::int32_t correction{none};  // its number among those of the net
     };
     static_assert(terms * terms == coefficients_a_patch);
     struct Jet {
@@ -134,10 +162,27 @@ class GridNet {
     };
     struct Cut;
     GridNet(const Cut& down, const Cut& across);
-    Result<bool> fit_patches(const ExactPlaces& exact);
+    // A patch by its number down and across.
+    struct PatchNumber {
+        int row, column;
+    };
+    Result<std::optional<PatchNumber>> fit_patches(const ExactPlaces& exact, PatchNumber first);
+    Result<bool> fit_corrected(const ExactPlaces& exact);
+    // What a patch becomes, its coefficients aside; `holds` is false where a correction would be none.
+    struct Corrected {
+        double error_m{};
+        bool holds{true};
+        std::optional<Correction> correction;
+    };
+    Result<Corrected> make_corrected(const ExactPlaces& exact, int row, int column);
+    Result<Corrected> correction_of(const ExactPlaces& exact, int row, int column) const;
     Result<void> fit_patch(const ExactPlaces& exact, int row, int column);
     Result<double> patch_error_m(const ExactPlaces& exact, int row, int column) const;
+    void add_correction(Correction correction);
+    Result<void> take_corrections(const std::vector<Correction>& corrections);
+    [[nodiscard]] bool is_gentle(int row, int column) const;
     [[nodiscard]] bool patches_are_whole() const;
+    [[nodiscard]] bool rims_meet(int row, int column) const;
     Result<void> measure();
     void find_box();
     Result<void> fit_inverse();
@@ -145,6 +190,9 @@ class GridNet {
         return patches_[static_cast<std::size_t>(row * across_.patches + column)];
     }
     [[nodiscard]] Jet jet_at(double row, double column) const;
+    void correct(const Patch& of, const PostNumber& at, int row, int column, Jet& jet) const;
+    static PostNumber step_towards(const glm::dvec3& wanted, const Jet& jet);
+    [[nodiscard]] PostNumber across_rims(const PostNumber& post, const glm::dvec3& wanted) const;
 
     // The patches along one axis. Sums of whole numbers are exact, so a part has the places of its whole.
     struct Cut : Stored::Axis {
@@ -153,22 +201,45 @@ class GridNet {
         [[nodiscard]] double in_patch(double number, int patch) const {
             return 2.0 * (number + first - static_cast<double>(patch) * patch_posts) / patch_posts - 1.0;
         }
+        // The inverse.
+        [[nodiscard]] double number(int patch, double place) const {
+            return 0.5 * (place + 1.0) * patch_posts + static_cast<double>(patch) * patch_posts - first;
+        }
+        // Posts from a patch's first one.
+        [[nodiscard]] int post_of_patch(int number, int patch) const {
+            return number + first - patch * patch_posts;
+        }
+        // The last post of a patch that the grid has, the next one's first among them.
+        [[nodiscard]] int last_of_patch(int patch) const {
+            return std::min(patch_posts, post_of_patch(posts - 1, patch));
+        }
         [[nodiscard]] double last() const { return posts - 1.0; }
     };
     static Cut cut(int posts, int patches);
+    static glm::dvec3 polynomial_at(const Patch& of, double down, double right);
     [[nodiscard]] glm::dvec3 in_patch(int row, int column, double down, double right) const;
+    // What a post of a patch is corrected by.
+    [[nodiscard]] glm::dvec3 correction_at(const Patch& of, int down, int right) const {
+        const auto columns = static_cast<std::size_t>(across_.patch_posts) + 1;
+        const auto& steps =
+            corrections_[static_cast<std::size_t>(of.correction)]
+                .posts[static_cast<std::size_t>(down) * columns + static_cast<std::size_t>(right)];
+        return correction_step * glm::dvec3(steps[0], steps[1], steps[2]);
+    }
 
     Cut down_, across_;
     std::vector<Patch> patches_;
+    std::vector<Correction> corrections_;
     double error_m_{};
-    double row_m_{}, column_m_{}, bend_{};
+    double row_m_{}, column_m_{}, bend_{}, kink_{};
     Box box_{};
     glm::dvec3 middle_{};  // normal of the grid's middle
     Inverse inverse_{};
 };
 
-// The place with a unit normal.
+// The place with a unit normal, and the other way.
 PostPlace place_of_normal(const glm::dvec3& normal);
+glm::dvec3 normal_of_place(const PostPlace& place);
 
 // Position of what is h_m above the ellipsoid along its unit normal. Error: below 1e-8 m.
 inline Ecef ecef_along(const glm::dvec3& normal, double h_m) {

@@ -3,7 +3,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string>
 
 #include "core/net/grid_net.h"
@@ -13,13 +12,6 @@ namespace {
 
 Error no_net(const std::string& what) {
     return {ErrorKind::failed, "grid of posts", what};
-}
-
-// Chebyshev polynomials at x.
-std::array<double, 9> chebyshev_at(double x) {
-    std::array<double, 9> value{1.0, x};
-    for (std::size_t i = 2; i < value.size(); ++i) value[i] = 2.0 * x * value[i - 1] - value[i - 2];
-    return value;
 }
 
 bool fit_each_other(const GridNet::Stored::Axis& axis) {
@@ -32,7 +24,7 @@ bool fit_each_other(const GridNet::Stored::Axis& axis) {
 }  // namespace
 
 GridNet::Stored GridNet::stored() const {
-    Stored stored{down_, across_, error_m_, {}};
+    Stored stored{down_, across_, error_m_, {}, corrections_};
     stored.coefficients.reserve(patches_.size() * coefficients_a_patch);
     for (const Patch& patch : patches_)
         stored.coefficients.insert(stored.coefficients.end(), patch.coefficients.begin(),
@@ -64,42 +56,10 @@ Result<std::shared_ptr<const GridNet>> GridNet::from(const Stored& stored) {
         std::copy_n(stored.coefficients.begin() + static_cast<std::ptrdiff_t>(i * coefficients_a_patch),
                     coefficients_a_patch, net->patches_[i].coefficients.begin());
     net->error_m_ = stored.error_m;
+    ORO_CHECK(net->take_corrections(stored.corrections));
     if (!net->patches_are_whole()) return no_net("its normals are not of length 1, or do not meet");
     ORO_CHECK(net->measure());
     return std::shared_ptr<const GridNet>(std::move(net));
-}
-
-// The sum of a patch's polynomials, -1 .. 1 each way.
-glm::dvec3 GridNet::in_patch(int row, int column, double down, double right) const {
-    const auto by_row = chebyshev_at(down), by_column = chebyshev_at(right);
-    glm::dvec3 sum(0.0);
-    for (std::size_t j = 0; j < coefficients_a_patch; ++j)
-        sum += by_row[j / terms] * by_column[j % terms] * patch(row, column).coefficients[j];
-    return sum;
-}
-
-// Looks at as many places of each patch as it has coefficients, its corners among them.
-bool GridNet::patches_are_whole() const {
-    constexpr double length_slack = 1.0e-6, apart = 1.0e-10;  // 0.6 mm; those of a fit are within 1e-11
-    const auto at = [](int i) { return -std::cos(std::numbers::pi * i / (terms - 1)); };
-    for (int row = 0; row < down_.patches; ++row) {
-        for (int column = 0; column < across_.patches; ++column) {
-            for (int i = 0; i < terms * terms; ++i) {
-                const glm::dvec3 normal = in_patch(row, column, at(i / terms), at(i % terms));
-                if (!(std::abs(glm::length(normal) - 1.0) <= length_slack)) return false;
-            }
-            for (int i = 0; i < terms; ++i) {
-                const bool below = row + 1 < down_.patches, beside = column + 1 < across_.patches;
-                if (below && !(glm::distance(in_patch(row, column, 1.0, at(i)),
-                                             in_patch(row + 1, column, -1.0, at(i))) <= apart))
-                    return false;
-                if (beside && !(glm::distance(in_patch(row, column, at(i), 1.0),
-                                              in_patch(row, column + 1, at(i), -1.0)) <= apart))
-                    return false;
-            }
-        }
-    }
-    return true;
 }
 
 Result<std::shared_ptr<const GridNet>> GridNet::part(int first_row, int first_column, int rows,
@@ -118,9 +78,13 @@ Result<std::shared_ptr<const GridNet>> GridNet::part(int first_row, int first_co
               across = touched(across_, first_column, columns, left);
     std::shared_ptr<GridNet> net(new GridNet(down, across));
     for (int row = 0; row < down.patches; ++row) {
-        for (int column = 0; column < across.patches; ++column)
-            net->patches_[static_cast<std::size_t>(row * across.patches + column)] =
-                patch(top + row, left + column);
+        for (int column = 0; column < across.patches; ++column) {
+            const Patch& of = patch(top + row, left + column);
+            const int number = row * across.patches + column;
+            net->patches_[static_cast<std::size_t>(number)] = of;
+            if (of.correction != Patch::none)
+                net->add_correction({number, corrections_[static_cast<std::size_t>(of.correction)].posts});
+        }
     }
     net->error_m_ = error_m_;
     ORO_CHECK(net->measure());

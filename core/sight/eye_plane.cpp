@@ -136,7 +136,8 @@ void EyePlane::measure(const PostGrid& grid, int threads) {
     if (net_) {
         constexpr double radius_m = 6.4e6;
         // Of the longest edge, a diagonal: whatever way it bends.
-        const double off_m = radius_m / 8.0 * net_->bend() * (tall + wide) * (tall + wide);
+        const double off_m = radius_m / 8.0 * net_->bend() * (tall + wide) * (tall + wide) +
+                             radius_m / 4.0 * net_->kink() * (tall + wide);
         set_error(off_m * (1.0 + 2.0 * std::abs(bend_per_m_) * radius_m),
                   off_m + most_rise_m * (tall + wide) / 4.0, steepest2);
         return;

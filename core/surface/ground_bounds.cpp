@@ -43,7 +43,8 @@ double GridBounds::flat_m(const GroundExtent& triangle, const GroundExtent& grou
     if (grid_.net) {
         const double radius_m = wgs84_a_m + highest_m_;
         const auto bound_m = [&](double both, double rise_m) {
-            return 0.125 * (grid_.net->bend() * radius_m * both * both + 2.02 * rise_m * both);
+            return 0.125 * (grid_.net->bend() * radius_m * both * both + 2.02 * rise_m * both +
+                            2.0 * grid_.net->kink() * radius_m * both);
         };
         return bound_m(tall + wide, triangle.rise_m) + bound_m(down + right, group.rise_m) +
                placement_share * radius_m * (group_tall + group_wide) + rounding_m;

@@ -24,7 +24,8 @@ inline FlatTriangle flat_triangle(const PostGrid& grid, const SineCosine& lat, d
     const double tall = posts * grid.row_step_rad();
     const double wide = posts * grid.column_step_rad();
     if (grid.net) {
-        const double bent = grid.net->bend() * (tall + wide) * (tall + wide) / 8.0;
+        const double bent = grid.net->bend() * (tall + wide) * (tall + wide) / 8.0 +
+                            grid.net->kink() * (tall + wide) / 4.0;
         const double off_m = (wgs84_a_m + std::max(0.0, h_m)) * bent;
         return {off_m,
                 off_m + (wgs84_a_m + std::max(0.0, h_m)) * steepness * (tall + wide) * (tall + wide) / 4.0};

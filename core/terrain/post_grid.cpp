@@ -36,11 +36,12 @@ Between between(double index, int count) {
 }
 
 // H on the triangles of one cell; u and v in [0, 1] from its north-west post to the south and east.
-std::optional<double> H_in_cell_m(const HeightField& field, int row, int column, double u, double v) {
+std::optional<double> H_in_cell_m(const HeightField& field, int row, int column, double u, double v,
+                                  const std::vector<char>* left_out) {
     const float north_west = field.H_at_post_m(row, column);
     const float south_east = field.H_at_post_m(row + 1, column + 1);
     if (is_void(north_west) || is_void(south_east)) return std::nullopt;
-    if (cell_diagonal(field, row, column) == Diagonal::rises) {
+    if (cell_diagonal(field, row, column, left_out) == Diagonal::rises) {
         const bool west = west_of_diagonal(Diagonal::rises, u, v) >= 0.0;
         const CellPlane plane = cell_plane(Diagonal::rises, west, static_cast<double>(north_west),
                                            static_cast<double>(field.H_at_post_m(row, column + 1)),
@@ -161,7 +162,8 @@ double HeightField::h_at_post_m(int row, int column) const {
     return static_cast<double>(H_at_post_m(row, column)) + N_at_post_m(row, column);
 }
 
-std::optional<double> HeightField::surface_H_m(double lat_deg, double lon_deg) const {
+std::optional<double> HeightField::surface_H_m(double lat_deg, double lon_deg,
+                                               const std::vector<char>* left_out) const {
     const PostNumber at = grid.post_at(lat_deg, lon_deg);
     double y = at.row, x = at.column;
     const double last_row = grid.rows() - 1;
@@ -180,7 +182,7 @@ std::optional<double> HeightField::surface_H_m(double lat_deg, double lon_deg) c
         for (int left = 0; left <= (v == 0.0 ? 1 : 0); ++left) {
             if (row - up < 0 || row - up > grid.rows() - 2) continue;
             if (column - left < 0 || column - left > grid.columns() - 2) continue;
-            const auto surface = H_in_cell_m(*this, row - up, column - left, u + up, v + left);
+            const auto surface = H_in_cell_m(*this, row - up, column - left, u + up, v + left, left_out);
             if (surface) return surface;
         }
     }

@@ -79,8 +79,9 @@ Oracle::Scenery::PlaneBox Oracle::Scenery::net_on_plane(const Patch& patch) cons
     constexpr double near_pole_deg = 80.0;
     const bool any_meridian = !(highest_deg < near_pole_deg);
     const SineCosine highest = sine_cosine_deg(std::min(highest_deg, near_pole_deg));
-    const double stray_deg = deg_from_radians(
-        Radians(posts.net->bend() * angle * angle / 8.0 * 1.1 * (1.0 + highest.sine / highest.cosine)));
+    const double stray_deg =
+        deg_from_radians(Radians((posts.net->bend() * angle * angle / 8.0 + posts.net->kink() * angle / 4.0) *
+                                 1.1 * (1.0 + highest.sine / highest.cosine)));
     const double lat_pad_deg = any_meridian ? deg_from_radians(Radians(angle)) : stray_deg;
     const double lon_pad_deg = stray_deg / highest.cosine;
     const double from_eye_deg = std::remainder(first_deg - sight.place.lon_deg, 360.0);
@@ -191,7 +192,8 @@ bool Oracle::Scenery::box(const TrueSurface::Block& block, glm::dvec3& low, glm:
                                                      tall);
     const glm::dvec3 across = high - low;
     const double bulge =
-        on_net ? posts.net->bend() * (tall + wide) * (tall + wide) : tall * tall + wide * wide * cosine;
+        on_net ? posts.net->bend() * (tall + wide) * (tall + wide) + 2.0 * posts.net->kink() * (tall + wide)
+               : tall * tall + wide * wide * cosine;
     const double pad_m = bulge / 8.0 * radius_m * 1.1 +
                          std::abs(sight.refraction.curvature_per_m()) * glm::dot(across, across) / 8.0 +
                          1.0e-3;

@@ -165,16 +165,28 @@ void find_obstacle(const RegionRequest& request, std::vector<Source> sources, Fi
         groups = grids_of_sources(std::move(sources), request);
     else
         groups.push_back(std::move(sources));
+    std::vector<std::pair<std::string, std::string>> away;
+    bool any_stay = false;
     for (const std::vector<Source>& group : groups) {
         const auto own = groups.size() == 1 ? extent : region_extent(group, request.box);
         if (!own) continue;
         const auto fault = fault_of_grid(group, *own, request);
-        if (!fault) continue;
-        if (!listing.error) listing.error = *fault;
-        for (const auto& [path, why] : to_leave_out(group, request.box)) {
-            const auto file = std::ranges::find(listing.files, path, &ListedFile::path);
-            if (file != listing.files.end()) file->leave_out = why;
+        if (!fault) {
+            any_stay = true;
+            continue;
         }
+        if (!listing.error) listing.error = *fault;
+        const auto of_group = to_leave_out(group, request.box);
+        any_stay = any_stay || !of_group.empty();
+        away.insert(away.end(), of_group.begin(), of_group.end());
+        // A grid that nothing makes small enough goes as a whole, as one huge raster does.
+        if (of_group.empty())
+            for (const Source& source : group) away.emplace_back(source.report.path, fault->line());
+    }
+    if (!any_stay) return;
+    for (const auto& [path, why] : away) {
+        const auto file = std::ranges::find(listing.files, path, &ListedFile::path);
+        if (file != listing.files.end()) file->leave_out = why;
     }
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
+#include <mutex>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/net/page_on_net.h"
@@ -23,7 +25,7 @@ struct LatticeWindow {
     int rows{}, columns{};
 };
 
-// Exact places of the posts of a lattice.
+// Exact places of the posts of a lattice; may be asked from several threads.
 class SourcePlaces {
   public:
     explicit SourcePlaces(const Source& source)
@@ -46,8 +48,12 @@ class SourcePlaces {
             y[i] = m[3] + m[4] * column + m[5] * row;
         }
         const GdalMessages messages;
-        OCTTransformEx(outwards_.get(), static_cast<int>(x.size()), x.data(), y.data(), z.data(),
-                       done.data());
+        CoordinateTransformation outwards = taken();
+        if (!outwards)
+            return Error{ErrorKind::failed, source_.report.path,
+                         "PROJ has no memory for another way to WGS84"};
+        OCTTransformEx(outwards.get(), static_cast<int>(x.size()), x.data(), y.data(), z.data(), done.data());
+        give_back(std::move(outwards));
         for (std::size_t i = 0; i < posts.size(); ++i) {
             if (!done[i] || !std::isfinite(x[i]) || !std::isfinite(y[i]))
                 return Error{
@@ -60,9 +66,24 @@ class SourcePlaces {
     }
 
   private:
+    // One that no other thread has.
+    [[nodiscard]] CoordinateTransformation taken() const {
+        const std::lock_guard lock(lending_);
+        if (spare_.empty()) return CoordinateTransformation(OCTClone(outwards_.get()));
+        CoordinateTransformation one = std::move(spare_.back());
+        spare_.pop_back();
+        return one;
+    }
+    void give_back(CoordinateTransformation one) const {
+        const std::lock_guard lock(lending_);
+        spare_.push_back(std::move(one));
+    }
+
     const Source& source_;
     SpatialReference crs_;
     CoordinateTransformation outwards_;
+    mutable std::mutex lending_;
+    mutable std::vector<CoordinateTransformation> spare_;
 };
 
 // Do rows run as north does from east in the window's middle, seen from above?

@@ -33,8 +33,9 @@ struct OwnPosts {
 
 // All posts of sources that share one lattice (CRS, spacing, turn, and places a whole number of posts apart),
 // or those around a box (whole rows and columns). Places are PROJ's to 0.02 mm (core/net/grid_net.h). They
-// cannot be kept where sources share none, where PROJ cannot turn the CRS into WGS84, where places do not
-// follow smoothly from row and column, and where they reach some 5,000 km from their middle. Errors:
+// cannot be kept where sources share none, where PROJ cannot turn the CRS into WGS84, where places jump from
+// one post to the next (kinks of a grid of shifts are kept), and where they reach some 5,000 km from their
+// middle. Errors:
 // more posts than memory holds; nothing in the box (no_data).
 Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<BoundingBox>& box);
 

@@ -6,10 +6,12 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "core/terrain/post_spacing.h"
 #include "geo/together/coverage_rim.h"
+#include "geo/together/cut_regions.h"
 
 namespace oro {
 namespace {
@@ -55,14 +57,22 @@ std::vector<float> rim_distances_m(const HeightField& field, double width_m) {
     return distances;
 }
 
+// A grid, and which of its posts finer ones cover: cells beside those are split as they are drawn.
+struct GridBelow {
+    Region* grid;
+    std::vector<char> left_out;
+};
+
 // H of the ground below a grid: that of the smallest rank among the greater ones.
-std::optional<double> H_below_m(const std::vector<Region*>& below, const PostPlace& place) {
-    for (const Region* const other : below)
-        if (const auto H_m = other->field.surface_H_m(place.lat_deg, place.lon_deg)) return H_m;
+std::optional<double> H_below_m(std::span<const GridBelow> below, const PostPlace& place) {
+    for (const GridBelow& other : below)
+        if (const auto H_m = other.grid->field.surface_H_m(
+                place.lat_deg, place.lon_deg, other.left_out.empty() ? nullptr : &other.left_out))
+            return H_m;
     return std::nullopt;
 }
 
-void feather_grid(Region& region, const std::vector<Region*>& below, double width_m) {
+void feather_grid(Region& region, std::span<const GridBelow> below, double width_m) {
     const PostGrid& grid = region.field.grid;
     const std::vector<float> distances = rim_distances_m(region.field, width_m);
     Feathered told{width_m, 0, 0.0, 0.0};
@@ -101,13 +111,21 @@ void feather_grid(Region& region, const std::vector<Region*>& below, double widt
 
 }  // namespace
 
-// The coarsest first: what lies below a grid is then as it is drawn.
+// The coarsest first: what lies below a grid is then as it is drawn. Heights change, and where there are any
+// does not: so neither does what is cut out.
 Result<void> feather(Region& region, double width_m) {
-    std::vector<Region*> grids{&region};
-    for (Region& other : region.beside) grids.push_back(&other);
-    std::ranges::stable_sort(grids, {}, [](const Region* grid) { return grid->rank; });
+    std::vector<GridBelow> grids{{&region, {}}};
+    for (Region& other : region.beside) grids.push_back({&other, {}});
+    std::ranges::stable_sort(grids, {}, [](const GridBelow& one) { return one.grid->rank; });
+    for (GridBelow& one : grids) {
+        std::vector<const HeightField*> finer;
+        for (const Region* other : finer_than(region, *one.grid)) finer.push_back(&other->field);
+        if (finer.empty()) continue;
+        ORO_TRY(CutOut cut, cut_out(one.grid->field, finer));
+        one.left_out = std::move(cut.left_out);
+    }
     for (std::size_t i = grids.size() - 1; i-- > 0;)
-        feather_grid(*grids[i], {grids.begin() + static_cast<std::ptrdiff_t>(i) + 1, grids.end()}, width_m);
+        feather_grid(*grids[i].grid, std::span(grids).subspan(i + 1), width_m);
     return region.health();
 }
 

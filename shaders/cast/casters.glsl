@@ -29,7 +29,8 @@ struct CasterCell {
     ivec4 heights;  // north-west, north-east, south-west, south-east
     bool rises;     // from its south-west to its north-east post
 };
-CasterCell caster_cell(PageBlocks block, uint level, ivec2 post) {
+// All but which way it is split, for what looks at its posts alone.
+CasterCell unsplit_caster_cell(PageBlocks block, uint level, ivec2 post) {
     uvec2 number = uvec2(post) >> level;
     CasterCell cell;
     cell.from = ivec2(number << level);
@@ -37,7 +38,13 @@ CasterCell caster_cell(PageBlocks block, uint level, ivec2 post) {
     uint place = ((number.x & 127u) + 1u) * height_stride + (number.y & 127u) + 1u;
     cell.heights = ivec4(stored_height(block, place), stored_height(block, place + 1u), stored_height(block, place + height_stride),
                          stored_height(block, place + height_stride + 1u));
-    cell.rises = rises_at(block, number & 127u);
+    cell.rises = false;
+    return cell;
+}
+bool caster_rises(PageBlocks block, uint level, ivec2 post) { return rises_at(block, uvec2(post) >> level & 127u); }
+CasterCell caster_cell(PageBlocks block, uint level, ivec2 post) {
+    CasterCell cell = unsplit_caster_cell(block, level, post);
+    cell.rises = caster_rises(block, level, post);
     return cell;
 }
 
@@ -48,15 +55,13 @@ float west_of_diagonal(CasterCell cell, vec2 share) { return cell.rises ? 1.0 - 
 
 // Metres above a height (in steps) of a cell's triangle at a place in it, of 1; no_ground_m where it has none.
 float above_base(CasterCell cell, vec2 share, bool west, int base) {
-    if (cell.rises) {
-        // All four are there. From the north-west post, or from the south-east one.
-        ivec3 rising = (west ? cell.heights.xzy : cell.heights.wyz) - base;
-        vec2 along = west ? share : 1.0 - share;
-        return height_step_m * (float(rising.x) + along.x * float(rising.y - rising.x) + along.y * float(rising.z - rising.x));
-    }
-    int corner = west ? cell.heights.z : cell.heights.y;
-    if (cell.heights.x == void_height || cell.heights.w == void_height || corner == void_height) return no_ground_m;
-    float north_west = float(cell.heights.x - base), south_east = float(cell.heights.w - base), other = float(corner - base);
-    float along_first = west ? share.x : share.y, along_second = west ? share.y : share.x;
-    return height_step_m * (north_west + along_first * (other - north_west) + along_second * (south_east - other));
+    // A cell that rises is one that falls, seen in a mirror: its east is west there.
+    ivec4 heights = cell.rises ? cell.heights.yxwz : cell.heights;
+    if (cell.rises) share.y = 1.0 - share.y;
+    bool first = west != cell.rises;
+    int corner = first ? heights.z : heights.y;
+    if (heights.x == void_height || heights.w == void_height || corner == void_height) return no_ground_m;
+    float north = float(heights.x - base), south = float(heights.w - base), other = float(corner - base);
+    float along_first = first ? share.x : share.y, along_second = first ? share.y : share.x;
+    return height_step_m * (north + along_first * (other - north) + along_second * (south - other));
 }

@@ -201,7 +201,7 @@ void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, fl
     for (int i = 0; i < 40 && t_m + step_m < to_m && search.least > -sun_radius_rad; ++i) {
         vec2 at = piece.at + (t_m + step_m - piece.from_m) * piece.per_m;
         ivec2 post = search.post + whole_signed(floor(at));
-        CasterCell cell = caster_cell(PageBlocks(node.block), level, post);
+        CasterCell cell = unsplit_caster_cell(PageBlocks(node.block), level, post);
         vec2 low = as_floats(cell.from - search.post), high = as_floats(cell.to - search.post);
         float out_m = clamp(way_out_of(piece, low, high), t_m + step_m, to_m), out_z_m = along(line, out_m).z + search.lift_m;
         // Most cells are too low to matter; the last of a node is where the next one goes on.
@@ -210,6 +210,7 @@ void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, fl
         bool low_enough = float(highest) * height_step_m - base_m < matters_m && search.step_m == 0.0 && !meets && out_m + step_m < to_m;
         if (!low_enough) {
             // Where it crosses the diagonal.
+            cell.rises = caster_rises(PageBlocks(node.block), level, post);
             vec2 size = high - low, here = (piece.at + (t_m - piece.from_m) * piece.per_m - low) / size, step = piece.per_m / size;
             float apart = west_of_diagonal(cell, here), change = cell.rises ? -step.x - step.y : step.x - step.y;
             float diagonal_m = change == 0.0 ? -1.0 : t_m - apart / change;

@@ -48,7 +48,7 @@ void scan(std::span<const float> values) {
 }
 
 void scan(const gpu::PageBlock& block) {
-    scan_part(block, 0, offsetof(gpu::PageBlock, heights));
+    scan_part(block, 0, offsetof(gpu::PageBlock, boxes));  // what comes after are bits and whole numbers
 }
 
 void scan(const FramePlan& plan) {

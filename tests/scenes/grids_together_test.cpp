@@ -1,12 +1,14 @@
 // Grids that lie over each other are one surface: no background shines through where they meet, from any eye,
 // and what is drawn is what brute force finds.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <random>
 
+#include "core/cells/cell_diagonal.h"
 #include "core/measure/picture_errors.h"
 #include "core/seam/seam_pages.h"
 #include "core/terrain/drawn_heights.h"
@@ -50,6 +52,8 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         seam_ = seam_between(region_, cuts_, 1.0);
         std::vector<const Region*> grids = all_grids(region_);
         for (std::size_t i = 0; i < grids.size(); ++i) {
+            falling_.push_back(grids[i]->field);
+            falling_.back().grid.split = CellSplit::all_fall;
             Scene scene = scene_of(pages_in_memory(rest_of(grids[i]->field, cuts_.grids[i]), 1.0, 2));
             if (i == 0)
                 scene_.emplace(std::move(scene));
@@ -95,7 +99,10 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         Camera camera;
         const double lat_deg = at.lat_deg + between(-0.002, 0.002),
                      lon_deg = at.lon_deg + between(-0.002, 0.002);
+        // Whichever diagonal is drawn: cells beside what is cut out fall.
         double ground_m = -1000.0;
+        for (const HeightField& field : falling_)
+            ground_m = std::max(ground_m, ground_h_m(field, lat_deg, lon_deg).value_or(-1000.0));
         for (const Region* grid : all_grids(region_))
             ground_m = std::max(ground_m, ground_h_m(grid->field, lat_deg, lon_deg).value_or(-1000.0));
         camera.eye = {lat_deg, lon_deg, ground_m + std::exp(between(std::log(3.0), std::log(highest_m)))};
@@ -106,6 +113,7 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
     }
 
     Region region_;
+    std::vector<HeightField> falling_;  // the grids, with all cells split as if they fell
     RegionCuts cuts_;
     Seam seam_;
     std::optional<Scene> scene_;
@@ -248,11 +256,16 @@ std::vector<Triangle> all_triangles(const Region& region, const RegionCuts& cuts
         const auto at = [&](int row, int column) { return post_ecef(rest, row, column, 1.0).m - eye; };
         for (int row = 0; row + 1 < rest.grid.rows(); ++row) {
             for (int column = 0; column + 1 < rest.grid.columns(); ++column) {
-                if (!there(row, column) || !there(row + 1, column + 1)) continue;
-                if (there(row + 1, column))
-                    all.push_back({at(row, column), at(row + 1, column), at(row + 1, column + 1)});
-                if (there(row, column + 1))
-                    all.push_back({at(row, column), at(row + 1, column + 1), at(row, column + 1)});
+                for (const bool west : {true, false}) {
+                    const CellCorners corners = cell_corners(cell_diagonal(rest, row, column), west);
+                    if (!std::ranges::all_of(corners, [&](const std::array<int, 2>& corner) {
+                            return there(row + corner[0], column + corner[1]);
+                        }))
+                        continue;
+                    all.push_back({at(row + corners[0][0], column + corners[0][1]),
+                                   at(row + corners[1][0], column + corners[1][1]),
+                                   at(row + corners[2][0], column + corners[2][1])});
+                }
             }
         }
     }

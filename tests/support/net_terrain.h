@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
 
@@ -53,6 +54,48 @@ inline std::shared_ptr<const GridNet> net_of(const PlaneOfPosts& plane) {
                          return {};
                      });
     EXPECT_TRUE(net.ok()) << net.error().line();
+    return net.ok() ? *net : nullptr;
+}
+
+// The same moved by a grid of shifts, as some datums are: bilinear between nodes, each moved by up to so many
+// metres.
+struct KinkedPlane {
+    PlaneOfPosts plane;
+    double node_posts{110.7};
+    double shift_m{0.05};
+
+    // Of a node, in posts.
+    [[nodiscard]] glm::dvec2 shift(double row, double column) const {
+        const double mixed = std::sin(12.9898 * row + 78.233 * column) * 43758.5453,
+                     other = std::sin(39.346 * row + 11.135 * column) * 24634.6345;
+        return (2.0 * glm::dvec2(mixed - std::floor(mixed), other - std::floor(other)) - 1.0) *
+               (shift_m / plane.post_m);
+    }
+    [[nodiscard]] PostPlace place_of(double row, double column) const {
+        const double down = row / node_posts, right = column / node_posts;
+        const double i = std::floor(down), j = std::floor(right);
+        const glm::dvec2 north = glm::mix(shift(i, j), shift(i, j + 1.0), right - j),
+                         south = glm::mix(shift(i + 1.0, j), shift(i + 1.0, j + 1.0), right - j);
+        const glm::dvec2 moved = glm::mix(north, south, down - i);
+        return plane.place_of(row + moved.x, column + moved.y);
+    }
+};
+
+inline Result<std::shared_ptr<const GridNet>> fit_of(
+    int rows, int columns, const std::function<PostPlace(double row, double column)>& place) {
+    return GridNet::fit(rows, columns,
+                        [&](std::span<const PostNumber> posts, std::span<PostPlace> places) -> Result<void> {
+                            for (std::size_t i = 0; i < posts.size(); ++i)
+                                places[i] = place(posts[i].row, posts[i].column);
+                            return {};
+                        });
+}
+
+inline std::shared_ptr<const GridNet> kinked_net_of(const KinkedPlane& kinked) {
+    auto net = fit_of(kinked.plane.rows, kinked.plane.columns,
+                      [&](double row, double column) { return kinked.place_of(row, column); });
+    EXPECT_TRUE(net.ok()) << net.error().line();
+    EXPECT_TRUE(net.ok() && (*net)->is_corrected());
     return net.ok() ? *net : nullptr;
 }
 

@@ -151,6 +151,18 @@ TEST(RegionWords, FilesThatMakeNoRegionAreToldOneByOne) {
         << told.err;
     EXPECT_NE(told.err.find("Narrow it with --bbox"), std::string::npos) << told.err;
     EXPECT_EQ(told.err_lines().size(), 1U) << told.err;
+    // Found: a raster that is too large alone was not named.
+    const std::string huge = (folder / "huge.vrt").string();
+    EXPECT_NE(told.err.find("; without " + huge + " the others make a region"), std::string::npos)
+        << told.err;
+    EXPECT_NE(told.out.find("to be left out: 1 file\n" + huge + "  region too large: "), std::string::npos)
+        << told.out;
+    fs::remove(folder / "N00E000.hgt");
+    fs::remove(folder / "S80W170.hgt");
+    oro::test::write_bytes(folder / "broken.txt", "no raster");
+    const Outcome alone = run_orograph({"info", folder});
+    EXPECT_EQ(alone.exit_code, 1);
+    EXPECT_EQ(alone.err.find("; without"), std::string::npos) << alone.err;
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ TEST(RegionFile, SaysWhatIsDamagedAndWhere) {
     EXPECT_TRUE(says(refusal_with_flip(path, 0, 0), "is no region file"));
     EXPECT_TRUE(says(refusal_with_flip(path, 8, 3),
                      "of the region format (byte 8), this program reads versions "
-                     "1 to 4"));
+                     "1 to 6"));
     EXPECT_TRUE(says(refusal_with_flip(path, 33, 0), "is damaged at byte 0: the header has checksum"));
     EXPECT_TRUE(says(refusal_with_flip(path, 260, 0), "is damaged at byte 256: the description"));
     EXPECT_TRUE(says(refusal_with_flip(path, 280, 0), "is damaged at byte 273: the undulation"));

@@ -108,7 +108,7 @@ TEST(GridNet, KnowsHowItsRowsLie) {
     EXPECT_NEAR(lie.turn_rad, std::atan2(north * std::sin(turn), east * std::cos(turn)), 1.0e-6);
 }
 
-// No net: mirrored, folded, with a kink.
+// No net: mirrored, folded, with a jump.
 TEST(GridNet, RefusesWhatIsNone) {
     const auto fit = [](const std::function<PostPlace(double, double)>& place) {
         const auto net = GridNet::fit(
@@ -134,7 +134,7 @@ TEST(GridNet, RefusesWhatIsNone) {
     EXPECT_EQ(fit([](double row, double column) {
                   return PostPlace{46.0 - 0.001 * row - (row > 37.3 ? 0.0004 : 0.0), 8.0 + 0.001 * column};
               }),
-              "its places on the Earth do not follow smoothly from row and column");
+              "its places on the Earth do not follow smoothly from row and column: they jump");
 }
 
 // Every page and level has the same whole steps for a post; true also of a continent, whose pages reach far.
@@ -199,6 +199,15 @@ void check_places(const HeightField& field, PlacesOnPages& pages) {
 TEST(PageOnNet, PostsHaveOnePlaceOnEveryPageAndLevel) {
     PlacesOnPages pages;
     check_places(test::net_field({300, 420, {46.5, 8.0}, 25.0, 12.0}, test::patchy_H_m, 47.5F), pages);
+    EXPECT_EQ(pages.far_pages, 0);
+}
+
+TEST(PageOnNet, PostsOverKinksDoToo) {
+    const test::KinkedPlane kinked{{300, 420, {46.5, 8.0}, 25.0, 12.0}, 150.3, 0.2};
+    HeightField field = test::net_field(kinked.plane, test::patchy_H_m, 47.5F);
+    field.grid.net = test::kinked_net_of(kinked);
+    PlacesOnPages pages;
+    check_places(field, pages);
     EXPECT_EQ(pages.far_pages, 0);
 }
 

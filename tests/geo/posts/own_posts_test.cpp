@@ -6,12 +6,14 @@
 #include <ogr_srs_api.h>
 
 #include <GeographicLib/Geocentric.hpp>
+#include <chrono>
 #include <cmath>
 #include <random>
 
 #include "core/net/page_on_net.h"
 #include "core/terrain/drawn_heights.h"
 #include "geo/region/region.h"
+#include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -23,6 +25,7 @@ struct Case {
     const char* crs;
     std::array<double, 6> cell_corners;
     int rows, columns;
+    const char* shifts{""};  // the grid of shifts that its datum comes by, whose kinks no polynomial follows
 };
 
 // Made heights, which name their post.
@@ -42,6 +45,30 @@ const std::array<Case, 9> cases{{
     {"turned by 30 degrees", "EPSG:32632", {400000.0, 17.32, 10.0, 5150000.0, 10.0, -17.32}, 600, 800},
     {"rows northwards", "EPSG:25832", {600000.0, 25.0, 0.0, 5300000.0, 0.0, 25.0}, 500, 400},
     {"degrees on another datum", "EPSG:4267", {-105.0, 0.001, 0.0, 40.0, 0.0, -0.001}, 700, 800},
+}};
+
+const std::array<Case, 6> kinked{{
+    {"BETA2007 every 25 m",
+     "EPSG:31468",
+     {4400000.0, 25.0, 0.0, 5300000.0, 0.0, -25.0},
+     900,
+     1100,
+     "BETA2007.gsb"},
+    {"BETA2007 every 90 m",
+     "EPSG:31467",
+     {3450000.0, 90.0, 0.0, 5600000.0, 0.0, -90.0},
+     700,
+     500,
+     "BETA2007.gsb"},
+    {"BETA2007 every km",
+     "EPSG:31467",
+     {3400000.0, 1000.0, 0.0, 5800000.0, 0.0, -1000.0},
+     400,
+     300,
+     "BETA2007.gsb"},
+    {"degrees by BETA2007", "EPSG:4314", {10.0, 0.0005, 0.0, 50.0, 0.0, -0.0005}, 300, 400, "BETA2007.gsb"},
+    {"NTF", "EPSG:4275", {2.0, 0.0005, 0.0, 46.0, 0.0, -0.0005}, 500, 600, "ntf_r93.gsb"},
+    {"NZGD49", "EPSG:27200", {2500000.0, 25.0, 0.0, 5950000.0, 0.0, -25.0}, 700, 900, "nzgd2kgrid0005.gsb"},
 }};
 
 std::string written(const std::filesystem::path& file, const Case& of) {
@@ -76,15 +103,20 @@ OGRCoordinateTransformationH to_wgs84(const char* crs) {
 
 TEST_P(OwnPostsOf, LieWhereProjAndGeographicLibPutThem) {
     const Case& of = GetParam();
+    if (!std::string(of.shifts).empty() && !proj_file(of.shifts)) GTEST_SKIP() << "needs " << of.shifts;
     const auto folder = scratch_folder();
     RegionRequest request;
     request.paths = {written(folder / "own.tif", of)};
+    const auto started = std::chrono::steady_clock::now();
     const auto region = open_region(request);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
     ASSERT_TRUE(region.ok()) << region.error().line();
     const HeightField& field = region->field;
-    ASSERT_TRUE(field.grid.net);
+    ASSERT_TRUE(field.grid.net) << region->notes.front();
     ASSERT_EQ(field.grid.rows(), of.rows);
     ASSERT_EQ(field.grid.columns(), of.columns);
+    EXPECT_EQ(field.grid.net->is_corrected(), !std::string(of.shifts).empty());
+    EXPECT_FALSE(region->sources.at(0).resampling);
     EXPECT_LE(field.grid.net->error_m(), GridNet::largest_error_m);
 
     const auto proj = to_wgs84(of.crs);
@@ -115,17 +147,23 @@ TEST_P(OwnPostsOf, LieWhereProjAndGeographicLibPutThem) {
         worst_back = std::max({worst_back, std::abs(back.row - row), std::abs(back.column - column)});
     }
     OCTDestroyCoordinateTransformation(proj);
-    std::printf("%s: seed %u, %d posts: at most %.3f mm off, and %.1e of a post back; net %.1e m\n", of.name,
-                seed, posts, 1e3 * worst_m, worst_back, field.grid.net->error_m());
+    const GridNet::Stored net = field.grid.net->stored();
+    std::printf(
+        "%s: seed %u, %d posts: at most %.3f mm off, and %.1e of a post back; net %.1e m, %zu of %d "
+        "patches of %d x %d corrected; opened in %.2f s\n",
+        of.name, seed, posts, 1e3 * worst_m, worst_back, net.error_m, net.corrections.size(),
+        net.down.patches * net.across.patches, net.down.patch_posts, net.across.patch_posts, took.count());
     EXPECT_LE(worst_m, 0.5e-3);
     EXPECT_LE(worst_back, 2.0e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Crs, OwnPostsOf, testing::ValuesIn(cases), [](const auto& test) {
+std::string name_of(const testing::TestParamInfo<Case>& test) {
     std::string name = test.param.name;
     std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
     return name;
-});
+}
+INSTANTIATE_TEST_SUITE_P(Crs, OwnPostsOf, testing::ValuesIn(cases), name_of);
+INSTANTIATE_TEST_SUITE_P(GridOfShifts, OwnPostsOf, testing::ValuesIn(kinked), name_of);
 
 // A part of a file is its own posts, too: the same ones.
 TEST(OwnPosts, OfABoxAreThoseOfTheWhole) {

@@ -15,6 +15,10 @@
 namespace oro {
 namespace {
 
+const std::vector<char>* left_out_of(const RegionCuts& cuts, std::size_t grid) {
+    return cuts.grids[grid].left_out.empty() ? nullptr : &cuts.grids[grid].left_out;
+}
+
 // By a search over all posts of the rim, and a weight of its own.
 TEST(Feather, IsWhatDistancesToTheRimSay) {
     constexpr unsigned seed = 17;
@@ -24,6 +28,7 @@ TEST(Feather, IsWhatDistancesToTheRimSay) {
     Region after = test::three_grids(90);
     ASSERT_TRUE(feather(after, width_m).ok());
     const std::vector<const Region*> grids = all_grids(before), changed = all_grids(after);
+    const RegionCuts cuts = cut_regions(before).value();
     EXPECT_FALSE(changed[0]->feathered);
     double worst_m = 0.0;
     int inside = 0, moved = 0;
@@ -51,8 +56,10 @@ TEST(Feather, IsWhatDistancesToTheRimSay) {
             const PostPlace at = own.grid.place_at(row, column);
             // The third grid lies over the second, and that over the first.
             std::optional<double> below_m;
-            if (number == 2) below_m = changed[1]->field.surface_H_m(at.lat_deg, at.lon_deg);
-            if (!below_m) below_m = changed[0]->field.surface_H_m(at.lat_deg, at.lon_deg);
+            if (number == 2)
+                below_m = changed[1]->field.surface_H_m(at.lat_deg, at.lon_deg, left_out_of(cuts, 1));
+            if (!below_m)
+                below_m = changed[0]->field.surface_H_m(at.lat_deg, at.lon_deg, left_out_of(cuts, 0));
             if (!below_m) {
                 EXPECT_EQ(own.H_at_post_m(row, column), now.H_at_post_m(row, column));
                 continue;
