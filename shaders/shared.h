@@ -111,8 +111,9 @@ struct PageBlock {
     // Of each meshlet: how far its posts are from the centre of its sphere, along east, north and that
     // normal, in 1023rds of its radius, 10 bits each.
     uint boxes[256];
-    // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its north-west to its
-    // south-east (core/cells/cell_diagonal.h). Two words a meshlet, row by row, the first the lowest bit.
+    // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its
+    // north-west to its south-east (core/cells/cell_diagonal.h). Two words a meshlet, row by row, the first
+    // the lowest bit.
     uint rises[512];
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
@@ -161,8 +162,11 @@ struct FramePage {
     uint children[4];  // pages of the next finer level: north-west, north-east, south-west, south-east
     uint last_column;  // last node of a row, 15 or less where a region goes round the Earth
     uint west_column;  // parent of the node beyond the west rim: its column in that page
-    uint stand_in;  // bits of the quarters whose nodes are drawn whatever their error: nothing finer is there
+    // Bits of the quarters whose nodes are drawn whatever their error: nothing finer is there. Four bits up
+    // those of them where something finer is needed.
+    uint stand_in;
 };
+ORO_CONST uint stands_for_missing = 4u;  // the first of these bits
 // Slopes are shaded from the coarsest page whose posts are at most so many pixels apart, whatever level the
 // triangles are of.
 ORO_CONST float shading_spacing_px = 1.5f;
@@ -176,6 +180,7 @@ ORO_CONST uint no_page = 0xffffffffu;
 ORO_CONST uint no_column = 0xffffffffu;
 ORO_CONST uint pages_max = 131071u;  // of a frame, all its grids together: what triangle ids can number
 ORO_CONST uint accepted_words = 8u;  // a page: a bit for each node
+ORO_CONST uint sight_words = 24u;    // a page: FrameConstants.sights
 ORO_CONST uint edges_words = 32u;    // a page: four bits for each node
 ORO_CONST uint cull_by_frustum = 1u;
 ORO_CONST uint cull_by_horizon = 2u;
@@ -190,21 +195,6 @@ ORO_CONST uint seam_stride = 3u;         // posts of a seam's page from a quad t
 ORO_CONST float seam_unit = 1048576.0f;  // a unit vector's length in the places of its pages
 
 ORO_CONST uint groups_per_row = 32768u;  // of an indirect dispatch; below every device's limit
-
-struct FrameCounts {
-    uint pages_live;    // with a node of the right level
-    uint nodes_chosen;  // of the right level; those that are hidden included
-    uint meshlets_beyond_frustum;
-    uint meshlets_beyond_horizon;
-    uint meshlets_drawn;
-    uint triangles_drawn;
-    uint mesh_groups;            // mesh path: workgroups of mesh shaders
-    uint triangles_not_clipped;  // compute path: no room in the list; the frame has holes
-    uint task_groups;            // mesh path: workgroups of task shaders
-    uint meshlets_tested;        // whether other ground hides them, by the last round
-    uint meshlets_hidden;        // ... those that it hides, and that no round has drawn
-    uint meshlets_drawn_later;   // by another round than the first
-};
 
 #include "shaders/shared_rounds.h"
 
@@ -385,6 +375,10 @@ struct FrameConstants {
     uint show;              // show_...: what explains the frame, in the place of colours
     float placing_slack_m;  // a post may be drawn so far from where it is in its page's frame
     ClusterTable clusters;
+    // Three bits for each node, accepted_words of any a page: whether it was asked if it shows, whether it may,
+    // and whether anything finer may that it stands for, because that is missing. 0: nobody wants to know.
+    uvec2 sights;
+    uvec2 overdraw;  // uint for each pixel, row by row: triangles that cover it; 0: nobody wants to know
 };
 
 #ifdef __cplusplus

@@ -81,8 +81,9 @@ void add_show(OptionGroup& looks, ViewOptions& options) {
     looks.choice(
         "--show", options.show, show_words(),
         "Show how the picture was made, in the place of colours: visible, whether the last round drew it "
-        "or one before; levels, how coarse; meshlets or triangles, each in a colour of its own; clusters or "
-        "groups of them, likewise, of a file that was baked with clusters. For pictures of one sample.");
+        "or one before; levels, how coarse; meshlets or triangles, each in a colour of its own; overdraw, "
+        "how many triangles cover a pixel; clusters or groups of them, each in a colour of its own, of a "
+        "file that was baked with clusters. For pictures of one sample.");
 }
 
 void add_look_options(CLI::App& command, ViewOptions& options) {

@@ -55,6 +55,11 @@ ColourKey key_of_show(Show show, bool clusters, const Region& region) {
         for (int level = 0; level < std::min(levels, 8); ++level)
             key.names.push_back(
                 {coded(colour_of_level(static_cast<gpu::uint>(level))), std::to_string(1 << level)});
+    } else if (show == Show::overdraw) {
+        key.title = "Triangles that cover a pixel, hidden ones too";
+        for (const auto& [triangles, name] :
+             {std::pair{1U, "1"}, {2U, "2"}, {4U, "3-4"}, {8U, "5-8"}, {16U, "9-16"}, {17U, "more"}})
+            key.names.push_back({coded(colour_of_overdraw(triangles)), name});
     } else {
         const char* const what = show == Show::groups      ? "group of clusters"
                                  : show == Show::triangles ? "triangle"

@@ -29,10 +29,11 @@ constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16",
 constexpr Names<Sea, 3> seas{{{"level", Sea::level}, {"low", Sea::low}, {"voids", Sea::voids}}};
 constexpr Names<Rim, 2> rims{{{"skirt", Rim::skirt}, {"none", Rim::none}}};
 constexpr Names<std::optional<bool>, 3> labels_of_view{{{"style", {}}, {"on", true}, {"off", false}}};
-constexpr Names<Show, 6> shows{{{"visible", Show::visible},
+constexpr Names<Show, 7> shows{{{"visible", Show::visible},
                                 {"levels", Show::levels},
                                 {"meshlets", Show::meshlets},
                                 {"triangles", Show::triangles},
+                                {"overdraw", Show::overdraw},
                                 {"clusters", Show::clusters},
                                 {"groups", Show::groups}}};
 constexpr Names<Edges, 2> edges_of_ground{{{"smooth", Edges::smooth}, {"steps", Edges::steps}}};

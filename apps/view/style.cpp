@@ -157,6 +157,8 @@ gpu::uint shown_by(Show show) {
             return gpu::show_clusters;
         case Show::groups:
             return gpu::show_groups;
+        case Show::overdraw:
+            return gpu::show_overdraw;
         case Show::triangles:
             break;
     }

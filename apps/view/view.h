@@ -40,8 +40,8 @@ enum class Rim { skirt, none };
 // has of both, or what is in its middle.
 enum class Edges { smooth, steps };
 // What a picture shows of its own making, in the place of colours: whether the last of a frame's rounds drew
-// it, how coarse, which meshlet, which triangle, which cluster, which group of clusters.
-enum class Show { visible, levels, meshlets, triangles, clusters, groups };
+// it, how coarse, which meshlet, which triangle, how many triangles, which cluster, which group of clusters.
+enum class Show { visible, levels, meshlets, triangles, overdraw, clusters, groups };
 
 // Which part of all around a panorama shows: azimuths from the left border clockwise, elevations from its
 // lowest row to its highest. The view's camera then tells the eye, the middle and the whole picture's size.

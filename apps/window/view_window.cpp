@@ -292,6 +292,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     ORO_TRY(const FrameReport drawn,
             viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
+    viewer.scene->saw(drawn.sights);
     ORO_CHECK(write_over(viewer, drawn));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown || !drawn.images_settled;

@@ -21,6 +21,10 @@ gpu::vec3 colour_of_round(bool before_last) {
     return gpu::shown_round(before_last);
 }
 
+gpu::vec3 colour_of_overdraw(gpu::uint triangles) {
+    return gpu::shown_overdraw(triangles);
+}
+
 gpu::vec3 colour_of_number(gpu::uint number) {
     return gpu::shown_by_hash(number);
 }

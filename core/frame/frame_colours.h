@@ -11,6 +11,8 @@ gpu::vec3 colour_of_level(gpu::uint level);
 gpu::vec3 colour_of_cluster_level(gpu::uint level);
 // Of a meshlet that the frame's last round drew, or one before it.
 gpu::vec3 colour_of_round(bool before_last);
+// Of a pixel that so many triangles cover.
+gpu::vec3 colour_of_overdraw(gpu::uint triangles);
 // Of a meshlet or a triangle by its number.
 gpu::vec3 colour_of_number(gpu::uint number);
 

@@ -26,6 +26,7 @@ struct WantedPage {
     PageRecord record;
     std::uint64_t address{};  // 0: not on the GPU
     bool open{};              // takes part in the frame
+    bool shows{};             // or may, or is needed by one that may
     std::uint32_t stand_in{};
     double distance_m{};
     std::uint32_t number{gpu::no_page};  // in the frame
@@ -52,6 +53,7 @@ class PageChoice {
     }
 
     Result<void> choose();
+    void ask_what_shows(const IsHidden& is_hidden);
     void number_pages(FramePlan& plan);
     void list_pages(FrameTables& tables, FramePlan& plan) const;
 
@@ -190,8 +192,8 @@ void PageChoice::open_level(int number) {
             const auto found = above.find({beside[i].row, beside[i].column});
             page.open = found == above.end() || found->second.open;
         }
-        if (!page.open)
-            parent.stand_in |= 1U << static_cast<unsigned>(2 * (index.row % 2) + index.column % 2);
+        const auto quarter = static_cast<unsigned>(2 * (index.row % 2) + index.column % 2);
+        if (!page.open) parent.stand_in |= (1U << quarter) | (1U << (gpu::stands_for_missing + quarter));
     }
 }
 
@@ -207,6 +209,26 @@ Result<void> PageChoice::choose() {
     return {};
 }
 
+// A page that shows needs those without which it is not opened: the one above it and those beside that.
+void PageChoice::ask_what_shows(const IsHidden& is_hidden) {
+    for (int number = 0; number < pages_.levels(); ++number) {
+        const bool top = number == pages_.levels() - 1;
+        for (auto& [coord, page] : level(number)) {
+            const PageIndex& index = page.record.summary.index;
+            page.shows = page.shows || !is_hidden || !is_hidden(index);
+            if (top || !page.shows) continue;
+            WantedLevel& above = level(number + 1);
+            above.at({index.row / 2, index.column / 2}).shows = true;
+            std::array<bool, 4> there{};
+            const std::array<PageIndex, 4> beside = beside_parents(index, there);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const auto found = above.find({beside[i].row, beside[i].column});
+                if (there[i] && found != above.end()) found->second.shows = true;
+            }
+        }
+    }
+}
+
 void PageChoice::number_pages(FramePlan& plan) {
     std::vector<WantedPage*> open;
     std::vector<const WantedPage*> missing;
@@ -214,7 +236,10 @@ void PageChoice::number_pages(FramePlan& plan) {
         plan.pages_wanted += wanted.size();
         for (auto& [coord, page] : wanted) {
             if (page.open) open.push_back(&page);
-            if (page.address == 0) missing.push_back(&page);
+            if (page.address == 0)
+                missing.push_back(&page);
+            else if (!page.shows || !page.open)
+                plan.hidden.push_back(page.record.summary.index);
         }
     }
     const auto key = [](const WantedPage& page) {
@@ -226,10 +251,11 @@ void PageChoice::number_pages(FramePlan& plan) {
     std::sort(open.begin(), open.end(), [&](const WantedPage* a, const WantedPage* b) {
         return a->distance_m != b->distance_m ? a->distance_m < b->distance_m : key(*a) < key(*b);
     });
-    // What others wait for first, then what is near.
+    // What shows first, of that what others wait for, then what is near.
     std::sort(missing.begin(), missing.end(), [&](const WantedPage* a, const WantedPage* b) {
         const PageIndex& one = a->record.summary.index;
         const PageIndex& other = b->record.summary.index;
+        if (a->shows != b->shows) return a->shows;
         if (one.level != other.level) return one.level > other.level;
         return a->distance_m != b->distance_m ? a->distance_m < b->distance_m : key(*a) < key(*b);
     });
@@ -237,7 +263,10 @@ void PageChoice::number_pages(FramePlan& plan) {
         page->number = static_cast<std::uint32_t>(plan.page_indices.size());
         plan.page_indices.push_back(page->record.summary.index);
     }
-    for (const WantedPage* page : missing) plan.missing.push_back(page->record.summary.index);
+    for (const WantedPage* page : missing) {
+        plan.missing.push_back(page->record.summary.index);
+        plan.missing_hidden += page->shows ? 0 : 1;
+    }
     plan.pages_beyond_frustum = beyond_frustum_;
     plan.pages_beyond_horizon = beyond_horizon_;
 }
@@ -322,10 +351,12 @@ void PageChoice::list_pages(FrameTables& tables, FramePlan& plan) const {
 
 Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residency, const Camera& camera,
                              const Tile& tile, double tau_px, const WorldModel& model,
-                             const HeightQuantization& coding, double shading_spacing_px) {
+                             const HeightQuantization& coding, double shading_spacing_px,
+                             const IsHidden& is_hidden) {
     const ModelView model_view(camera, model, coding);
     PageChoice choice(pages, residency, camera, tile, tau_px, shading_spacing_px, model_view);
     ORO_CHECK(choice.choose());
+    choice.ask_what_shows(is_hidden);
     FramePlan plan;
     choice.number_pages(plan);
     if (plan.page_indices.size() > gpu::pages_max)

@@ -70,6 +70,7 @@ Result<void> describe_lacks(VkPhysicalDevice physical, const GpuOptions& options
     report.mesh_shader = report.mesh_shader && mesh.meshShader && mesh.taskShader;
     report.compute_raster =
         !options.without_compute_raster && features.features.shaderInt64 && vulkan12.shaderBufferInt64Atomics;
+    report.fragment_stores = features.features.fragmentStoresAndAtomics == VK_TRUE;
     if (!report.mesh_shader && !report.compute_raster) report.lacks.push_back(DeviceLack::way_of_drawing);
     if (!graphics_queue_family(physical)) report.lacks.push_back(DeviceLack::queue);
     if (!options.presents) return {};

@@ -200,6 +200,7 @@ Result<void> Gpu::create_device(const GpuOptions& options) {
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.features.shaderInt64 = report_.compute_raster ? VK_TRUE : VK_FALSE;
+    features.features.fragmentStoresAndAtomics = report_.fragment_stores ? VK_TRUE : VK_FALSE;
     features.pNext = &vulkan12;
 
     const float priority = 1.0F;

@@ -44,6 +44,7 @@ struct DeviceReport {
     std::string driver;              // name and version as the driver gives them
     std::uint32_t vulkan_version{};  // packed, as VK_API_VERSION_MAJOR and its like take it
     bool mesh_shader{};              // VK_EXT_mesh_shader with task shaders: the mesh path runs
+    bool fragment_stores{};          // fragment shaders may count
     bool compute_raster{};           // 64-bit integers and atomics in buffers: the compute path runs
     MeshShaderLimits mesh;
     std::uint32_t subgroup_size{};
@@ -78,10 +79,13 @@ std::string name_of(RasterPath path);
 
 struct Pipelines;  // render/frame/pipelines.h
 
-// Which of a device's pipelines: those of one way of drawing, that record where posts are placed or not.
+// Which of a device's pipelines: those of one way of drawing, as render/frame/pipelines.h, PipelineWants,
+// says.
 struct PipelinesKey {
     RasterPath path{};
     bool record_positions{};
+    bool leave_out_small{};
+    bool overdraw{};
     auto operator<=>(const PipelinesKey&) const = default;
 };
 

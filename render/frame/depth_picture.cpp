@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "render/frame/picture_renderer.h"
+#include "render/frame/settled_frame.h"
 
 namespace oro {
 namespace {
@@ -73,14 +74,14 @@ Result<FrameReport> DepthPainter::draw_sample(Scene& scene, const Camera& camera
                                               const gpu::FrameStyle& style,
                                               const DepthPictureOptions& options, const Tile& tile,
                                               DepthPicture& picture, std::vector<float>& depths) {
-    ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px, options.model));
-    picture.settled = picture.settled && plan.is_settled();
-    ORO_TRY(const FrameReport report, renderer_->draw(std::move(plan), style));
+    ORO_TRY(SettledFrame frame,
+            draw_settled(scene, *renderer_, camera, tile, options.tau_px, options.model, style));
+    picture.settled = picture.settled && frame.settled;
     ORO_TRY(const std::vector<float> drawn,
             renderer_->read_depths(static_cast<std::uint32_t>(tile.width_px),
                                    static_cast<std::uint32_t>(tile.height_px)));
     place_tile(drawn, tile, camera.width_px, 1, depths);
-    return report;
+    return std::move(frame.report);
 }
 
 Result<std::vector<DrawnPoint>> read_points(FrameRenderer& renderer, const Camera& camera, const Tile& tile) {

@@ -49,9 +49,17 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     assert(options.extent.height > 0 && options.extent.height <= gpu.report().max_picture_side_px);
     FrameRenderer renderer(gpu);
     renderer.options_ = options;
-    ORO_TRY(renderer.pipelines_, shared_pipelines(gpu, options.path,
-                                                  {options.record_positions, options.keep_triangles,
-                                                   options.show != gpu::show_colours}));
+    const bool overdraw = options.show == gpu::show_overdraw;
+    if (overdraw && options.path == RasterPath::mesh && !gpu.report().fragment_stores)
+        return Error{
+            ErrorKind::failed, gpu.report().name,
+            "cannot count triangles by mesh shaders (fragmentStoresAndAtomics is missing); --pipeline "
+            "compute can"};
+    ORO_TRY(
+        renderer.pipelines_,
+        shared_pipelines(gpu, options.path,
+                         {options.record_positions, options.keep_triangles, options.show != gpu::show_colours,
+                          options.leave_out_small && !options.record_positions, overdraw}));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -127,6 +135,13 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
                                            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                                        MemoryKind::device, "depths"));
     }
+    if (options_.show == gpu::show_overdraw && overdraw_.size < pixels) {
+        ORO_TRY(overdraw_,
+                create_buffer(*gpu_, pixels,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                              MemoryKind::device, "triangles over pixels"));
+    }
     const VkDeviceSize triangles =
         VkDeviceSize{triangle_rows()} * options_.extent.width * sizeof(gpu::DrawnTriangle);
     if (options_.keep_triangles && triangles_.size < triangles) {
@@ -165,6 +180,7 @@ Result<void> FrameRenderer::upload(std::size_t number, FramePlan& plan, const Fr
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = asked.style;
     constants.show = options_.show;
+    constants.overdraw = address_words(overdraw_.address);
     if (plan.clusters.on)
         ORO_CHECK(add_cluster_pipelines(*gpu_, options_.path, options_.keep_triangles, *pipelines_));
     DrapeStore* const drape = number < asked.drapes.size() ? asked.drapes[number] : nullptr;
@@ -184,6 +200,7 @@ Result<void> FrameRenderer::upload(std::size_t number, FramePlan& plan, const Fr
 void FrameRenderer::record_upload(VkCommandBuffer commands, std::size_t grids) const {
     for (std::size_t i = 0; i < grids; ++i) grids_[i].record_upload(commands);
     vkCmdFillBuffer(commands, counts_.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    if (overdraw_.handle) vkCmdFillBuffer(commands, overdraw_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
@@ -215,6 +232,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
                    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
     const VkBufferCopy copy{0, 0, sizeof(gpu::FrameCounts)};
     vkCmdCopyBuffer(commands, counts_.handle.get(), counts_read_.handle.get(), 1, &copy);
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) grids_[i].record_sights(commands);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
@@ -242,6 +260,11 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
     remember(plan);
     report.pages = plan.pages.size();
+    if (plan.wants_sights && occlusion_->is_on()) {
+        report.sights.push_back(grids_[0].sights_of(plan));
+        for (std::size_t i = 0; i < plan.beside.size(); ++i)
+            report.sights.push_back(grids_[i + 1].sights_of(plan.beside[i]));
+    }
     report.counts.meshlets_beyond_frustum += static_cast<gpu::uint>(plan.clusters.beyond_frustum);
     report.counts.meshlets_beyond_horizon += static_cast<gpu::uint>(plan.clusters.beyond_horizon);
     for (const FramePlan& other : plan.beside) report.pages += other.pages.size();

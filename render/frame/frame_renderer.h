@@ -21,11 +21,12 @@ namespace oro {
 // What a frame did and how long the GPU took for it.
 struct FrameReport {
     gpu::FrameCounts counts{};
-    std::uint64_t pages{};      // of the frame, parents of drawn ones included
-    double choose_s{};          // GPU timestamps: levels chosen
-    double raster_s{};          // from pages to triangle ids, by either path
-    double shade_s{};           // the shading pass
-    bool images_settled{true};  // images over the ground are as fine as the frame asks for
+    std::uint64_t pages{};            // of the frame, parents of drawn ones included
+    double choose_s{};                // GPU timestamps: levels chosen
+    double raster_s{};                // from pages to triangle ids, by either path
+    double shade_s{};                 // the shading pass
+    bool images_settled{true};        // images over the ground are as fine as the frame asks for
+    std::vector<FrameSights> sights;  // of each grid, for Scene::saw(); none where it was drawn at once
     [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
 };
 
@@ -41,7 +42,9 @@ struct FrameRendererOptions {
     gpu::uint show{};              // gpu::show_...: what explains a frame of one sample, not its colours
     bool waits_for_images{true};   // false: a frame is drawn with what of them is there
     OcclusionUse occlusion{OcclusionUse::if_it_pays};  // without record_positions
-    bool nearest_pyramid{false};                       // wrong occlusion, for the test that notices it
+    // Mesh path: triangles that cover no pixel's centre are not drawn; the ids are the same.
+    bool leave_out_small{false};
+    bool nearest_pyramid{false};  // wrong occlusion, for the test that notices it
     RasterPath path{RasterPath::mesh};
 };
 
@@ -147,6 +150,7 @@ class FrameRenderer {
     OwnedQueryPool timestamps_;
     Buffer depths_;
     Buffer tiles_in_parts_;
+    Buffer overdraw_;  // FrameConstants::overdraw, where it is shown
     Buffer triangles_;
     Buffer counts_;       // on the device
     Buffer counts_read_;  // for the host

@@ -16,6 +16,7 @@ static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
 constexpr VkDeviceSize cluster_groups_bytes = 16;
 // Addresses that straddle 8 bytes cost 2 to 4 % of a frame.
 static_assert((offsetof(gpu::FrameConstants, clusters) + offsetof(gpu::ClusterTable, drawn)) % 8 == 0);
+static_assert(offsetof(gpu::FrameConstants, sights) % 8 == 0);
 
 // Where the parts of a grid's data lie, in bytes.
 struct DataLayout {
@@ -118,7 +119,40 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const FramePlan& plan) {
                                        MemoryKind::device, "choice of levels"));
         page_capacity_ = capacity;
     }
+    ORO_CHECK(reserve_sights(gpu, plan));
     return plan.constants.occlusion != 0 ? reserve_seen(gpu, plan.pages.size()) : Result<void>();
+}
+
+Result<void> GridFrame::reserve_sights(const Gpu& gpu, const FramePlan& plan) {
+    const bool wanted = plan.wants_sights && plan.constants.occlusion != 0;
+    sights_size_ = wanted ? VkDeviceSize{4} * gpu::sight_words * plan.pages.size() : 0;
+    if (sights_.size >= sights_size_) return {};
+    const VkDeviceSize size = std::max(sights_size_, 2 * sights_.size);
+    ORO_TRY(Buffer sights,
+            create_buffer(gpu, size,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::device, "sights"));
+    ORO_TRY(sights_read_, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::readback,
+                                        "sights read back"));
+    sights_ = std::move(sights);  // both are that large, or neither is
+    return {};
+}
+
+void GridFrame::record_sights(VkCommandBuffer commands) const {
+    if (sights_size_ == 0) return;
+    const VkBufferCopy copy{0, 0, sights_size_};
+    vkCmdCopyBuffer(commands, sights_.handle.get(), sights_read_.handle.get(), 1, &copy);
+}
+
+FrameSights GridFrame::sights_of(const FramePlan& plan) const {
+    FrameSights sights;
+    if (sights_size_ == 0) return sights;
+    sights.pages = plan.page_indices;
+    sights.words.resize(sights_size_ / sizeof(gpu::uint));
+    std::memcpy(sights.words.data(), sights_read_.mapped, sights_size_);
+    sights.view = plan.constants;
+    return sights;
 }
 
 // Of this frame in rounds; those of the last one stay as they are.
@@ -179,6 +213,7 @@ void GridFrame::address(FramePlan& plan) const {
     if (constants.occlusion != 0 && remembers())
         constants.seen_before = address_words(seen_[1 - turn_].address);
     constants.page_before = address_words(data_.address + layout.before);
+    constants.sights = sights_size_ > 0 ? address_words(sights_.address) : gpu::uvec2(0U);
 }
 
 void GridFrame::fill(const FramePlan& plan) {
@@ -207,6 +242,7 @@ void GridFrame::record_upload(VkCommandBuffer commands) const {
     const VkBufferCopy copy{0, 0, size_};
     vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
     if (clears_seen_) vkCmdFillBuffer(commands, seen_[turn_].handle.get(), 0, VK_WHOLE_SIZE, 0);
+    if (sights_size_ > 0) vkCmdFillBuffer(commands, sights_.handle.get(), 0, sights_size_, 0);
 }
 
 void GridFrame::bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/frame/frame_plan.h"
+#include "core/frame/seen_ground.h"
 #include "render/device/resources.h"
 #include "render/frame/pipelines.h"
 #include "render/shading/caster_buffers.h"
@@ -26,6 +27,10 @@ class GridFrame {
     // Puts a plan, whose constants are whole, where record_upload() sends it from.
     void fill(const FramePlan& plan);
     void record_upload(VkCommandBuffer commands) const;
+    // What the frame's nodes have shown goes to where sights_of() reads it, once the frame is done.
+    void record_sights(VkCommandBuffer commands) const;
+    // Nothing of a frame that was drawn at once.
+    [[nodiscard]] FrameSights sights_of(const FramePlan& plan) const;
     void bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const;
 
     // The frame was drawn in rounds: the next such one knows which of its nodes were seen. Or nobody knows.
@@ -46,6 +51,7 @@ class GridFrame {
   private:
     void bind_constants(const Gpu& gpu) const;
     Result<void> reserve_seen(const Gpu& gpu, std::size_t pages);
+    Result<void> reserve_sights(const Gpu& gpu, const FramePlan& plan);
     [[nodiscard]] std::vector<gpu::uint> numbers_before(const FramePlan& plan) const;
 
     OwnedDescriptorPool pool_;
@@ -57,6 +63,8 @@ class GridFrame {
     std::array<Buffer, 2> seen_;  // of this frame in rounds and of the last such one, by turns
     std::size_t turn_{};
     std::vector<PageIndex> before_;  // the last such frame's pages; none: nothing is known of it
+    Buffer sights_, sights_read_;    // FrameConstants::sights, on the device and for the host
+    VkDeviceSize sights_size_{};     // of the frame's; 0: nobody wants to know
     std::size_t page_capacity_{};
     bool clears_seen_{};
     VkDeviceSize size_{};  // that a frame sends

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "render/frame/settled_frame.h"
+
 namespace oro {
 namespace {
 
@@ -22,28 +24,68 @@ void add_counts(PictureReport& sum, const FrameReport& part) {
     sum.pages_drawn += part.counts.pages_live;
 }
 
-// Draws one tile, all its samples; its pixels stay in the renderer. Counts are those of the first sample.
-Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
-                       const PictureOptions& options, Tile tile, FrameRenderer& renderer,
-                       PictureReport& report) {
+// A tile more.
+void add(PictureReport& sum, const PictureReport& tile) {
+    sum.meshlets_beyond_frustum += tile.meshlets_beyond_frustum;
+    sum.meshlets_beyond_horizon += tile.meshlets_beyond_horizon;
+    sum.mesh_groups += tile.mesh_groups;
+    sum.meshlets_drawn += tile.meshlets_drawn;
+    sum.triangles_drawn += tile.triangles_drawn;
+    sum.pages_drawn += tile.pages_drawn;
+    sum.pages_beyond_frustum += tile.pages_beyond_frustum;
+    sum.pages_beyond_horizon += tile.pages_beyond_horizon;
+    sum.settled = sum.settled && tile.settled;
+    sum.images_settled = sum.images_settled && tile.images_settled;
+    sum.choose_s += tile.choose_s;
+    sum.raster_s += tile.raster_s;
+    sum.shade_s += tile.shade_s;
+    ++sum.tiles;
+}
+
+// What all samples of a tile took, and whether they told anything new of what shows.
+struct TileSamples {
+    PictureReport report;
+    bool is_news{false};
+};
+
+Result<TileSamples> draw_samples(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
+                                 const PictureOptions& options, Tile tile, FrameRenderer& renderer) {
+    TileSamples samples;
+    PictureReport& report = samples.report;
     for (int i = 0; i < options.samples; ++i) {
         tile.sample_px = sample_place(i, options.samples);
         ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px, options.model));
-        report.settled = report.settled && plan.is_settled();
+        const bool whole = plan.is_settled();
+        report.settled = report.settled && plan.shows_all();
         if (i == 0) {
-            report.pages_beyond_frustum += plan.pages_beyond_frustum;
-            report.pages_beyond_horizon += plan.pages_beyond_horizon;
+            report.pages_beyond_frustum = plan.pages_beyond_frustum;
+            report.pages_beyond_horizon = plan.pages_beyond_horizon;
         }
         ORO_TRY(const FrameReport drawn,
                 renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),
                               static_cast<std::uint32_t>(options.samples), scene.drapes()));
+        if (!whole) samples.is_news = scene.saw(drawn.sights) || samples.is_news;
         report.images_settled = report.images_settled && drawn.images_settled;
         if (i == 0) add_counts(report, drawn);
         report.choose_s += drawn.choose_s;
         report.raster_s += drawn.raster_s;
         report.shade_s += drawn.shade_s;
     }
-    ++report.tiles;
+    return samples;
+}
+
+// Draws one tile, all its samples; its pixels stay in the renderer. Counts are those of the first sample.
+// Where the GPU cannot hold all that it asks for, it is drawn until nothing new is told of what shows
+// (settled_frame.h).
+Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
+                       const PictureOptions& options, const Tile& tile, FrameRenderer& renderer,
+                       PictureReport& report) {
+    TileSamples drawn;
+    for (int frame = 0; frame == 0 || (drawn.is_news && frame < most_settling_frames); ++frame) {
+        ORO_TRY(drawn, draw_samples(scene, camera, style, options, tile, renderer));
+    }
+    drawn.report.settled = drawn.report.settled && !drawn.is_news;
+    add(report, drawn.report);
     return {};
 }
 

@@ -20,6 +20,7 @@
 #include "spirv/raster_comp.h"
 #include "spirv/raster_large_comp.h"
 #include "spirv/show_comp.h"
+#include "spirv/terrain_count_frag.h"
 #include "spirv/terrain_frag.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_mesh_two.h"
@@ -94,16 +95,18 @@ VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, const OwnedShad
     return info;
 }
 
-// By constant_id: local size; record_positions; meshlets_per_group.
+// By constant_id: local size; record_positions; meshlets_per_group; leave_out_small.
 struct StageConstants {
     std::uint32_t local_size;
     VkBool32 record_positions;
     std::uint32_t meshlets_per_group;
+    std::uint32_t leave_out_small;
 };
-constexpr std::array<VkSpecializationMapEntry, 3> stage_constants_map{
+constexpr std::array<VkSpecializationMapEntry, 4> stage_constants_map{
     VkSpecializationMapEntry{0, offsetof(StageConstants, local_size), sizeof(std::uint32_t)},
     VkSpecializationMapEntry{1, offsetof(StageConstants, record_positions), sizeof(VkBool32)},
-    VkSpecializationMapEntry{2, offsetof(StageConstants, meshlets_per_group), sizeof(std::uint32_t)}};
+    VkSpecializationMapEntry{2, offsetof(StageConstants, meshlets_per_group), sizeof(std::uint32_t)},
+    VkSpecializationMapEntry{3, offsetof(StageConstants, leave_out_small), sizeof(std::uint32_t)}};
 
 // What of the terrain's pipeline is no shader: ids and reversed depth, nothing blended, nothing culled. Its
 // parts point at each other, so it stays where it is.
@@ -178,20 +181,21 @@ Result<OwnedPipeline> create_raster_pipeline(const Gpu& gpu, const Pipelines& pi
 
 Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& pipelines,
                                               StageConstants task_constants, StageConstants mesh_constants,
-                                              bool ties) {
+                                              bool ties, bool overdraw) {
     ORO_TRY(const OwnedShader task, create_shader(gpu, terrain_task_spirv, "terrain.task"));
     const std::span<const std::uint32_t> mesh_words =
         mesh_constants.meshlets_per_group == 2 ? std::span<const std::uint32_t>(terrain_mesh_two_spirv)
                                                : std::span<const std::uint32_t>(terrain_mesh_spirv);
     ORO_TRY(const OwnedShader mesh, create_shader(gpu, mesh_words, "terrain.mesh"));
     const std::span<const std::uint32_t> fragment_words =
-        ties ? std::span<const std::uint32_t>(terrain_ties_frag_spirv)
-             : std::span<const std::uint32_t>(terrain_frag_spirv);
+        ties       ? std::span<const std::uint32_t>(terrain_ties_frag_spirv)
+        : overdraw ? std::span<const std::uint32_t>(terrain_count_frag_spirv)
+                   : std::span<const std::uint32_t>(terrain_frag_spirv);
     ORO_TRY(const OwnedShader fragment,
             create_shader(gpu, fragment_words, ties ? "terrain_ties.frag" : "terrain.frag"));
     const VkSpecializationInfo task_info{3, stage_constants_map.data(), sizeof(task_constants),
                                          &task_constants};
-    const VkSpecializationInfo mesh_info{2, stage_constants_map.data(), sizeof(mesh_constants),
+    const VkSpecializationInfo mesh_info{4, stage_constants_map.data(), sizeof(mesh_constants),
                                          &mesh_constants};
     const std::array stages{stage(VK_SHADER_STAGE_TASK_BIT_EXT, task, &task_info),
                             stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, &mesh_info),
@@ -204,7 +208,7 @@ std::uint32_t mesh_group_size(const Gpu& gpu) {
     return std::clamp(std::min(limits.preferred_mesh_invocations, limits.max_mesh_invocations), 1U, 128U);
 }
 
-Result<void> create_mesh_path(const Gpu& gpu, bool record_positions, Pipelines& pipelines) {
+Result<void> create_mesh_path(const Gpu& gpu, const PipelineWants& wants, Pipelines& pipelines) {
     const MeshShaderLimits& limits = gpu.report().mesh;
     // A power of two that divides the meshlets of a page.
     pipelines.meshlets_per_task =
@@ -219,12 +223,12 @@ Result<void> create_mesh_path(const Gpu& gpu, bool record_positions, Pipelines& 
                                        ? 2
                                        : 1;
     const std::uint32_t mesh_size = mesh_group_size(gpu);
-    const VkBool32 recording = record_positions ? VK_TRUE : VK_FALSE;
-    const std::uint32_t together = pipelines.meshlets_per_group;
-    const StageConstants task{pipelines.meshlets_per_task, recording, together};
-    const StageConstants mesh{mesh_size, recording, together};
-    ORO_TRY(pipelines.terrain, create_terrain_pipeline(gpu, pipelines, task, mesh, false));
-    ORO_TRY(pipelines.terrain_ties, create_terrain_pipeline(gpu, pipelines, task, mesh, true));
+    const VkBool32 recording = wants.record_positions ? VK_TRUE : VK_FALSE;
+    const std::uint32_t together = pipelines.meshlets_per_group, small = wants.leave_out_small ? 1 : 0;
+    const StageConstants task{pipelines.meshlets_per_task, recording, together, small};
+    const StageConstants mesh{mesh_size, recording, together, small};
+    ORO_TRY(pipelines.terrain, create_terrain_pipeline(gpu, pipelines, task, mesh, false, wants.overdraw));
+    ORO_TRY(pipelines.terrain_ties, create_terrain_pipeline(gpu, pipelines, task, mesh, true, false));
     return {};
 }
 
@@ -265,26 +269,32 @@ Result<void> create_choice(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
-Result<void> create_compute_path(const Gpu& gpu, Pipelines& pipelines) {
+Result<void> create_compute_path(const Gpu& gpu, bool overdraw, Pipelines& pipelines) {
     // Measured: a software driver takes a third less time where no triangle of up to 64 x 64 pixels is handed
     // on.
-    const std::int32_t alone_max_px = gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU ? 4096 : 64;
-    const VkSpecializationMapEntry entry{1, 0, sizeof(alone_max_px)};
-    const VkSpecializationInfo constants{1, &entry, sizeof(alone_max_px), &alone_max_px};
+    struct {
+        std::int32_t alone_max_px;
+        VkBool32 counts_overdraw;
+    } const values{gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU ? 4096 : 64,
+                   overdraw ? VK_TRUE : VK_FALSE};
+    const std::array entries{VkSpecializationMapEntry{1, 0, sizeof(std::int32_t)},
+                             VkSpecializationMapEntry{3, sizeof(std::int32_t), sizeof(VkBool32)}};
+    const VkSpecializationInfo constants{2, entries.data(), sizeof(values), &values};
     ORO_TRY(pipelines.raster,
             create_compute_pipeline(gpu, pipelines, raster_comp_spirv, "raster", &constants));
+    const VkSpecializationInfo counts{1, &entries[1], sizeof(values), &values};
     ORO_TRY(pipelines.raster_clip,
-            create_compute_pipeline(gpu, pipelines, raster_clip_comp_spirv, "raster clip"));
+            create_compute_pipeline(gpu, pipelines, raster_clip_comp_spirv, "raster clip", &counts));
     ORO_TRY(pipelines.raster_large,
-            create_compute_pipeline(gpu, pipelines, raster_large_comp_spirv, "raster large"));
+            create_compute_pipeline(gpu, pipelines, raster_large_comp_spirv, "raster large", &counts));
     return {};
 }
 
-Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, bool record_positions) {
+Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants) {
     Pipelines pipelines;
     ORO_CHECK(create_layouts(gpu, path, pipelines));
-    ORO_CHECK(path == RasterPath::mesh ? create_mesh_path(gpu, record_positions, pipelines)
-                                       : create_compute_path(gpu, pipelines));
+    ORO_CHECK(path == RasterPath::mesh ? create_mesh_path(gpu, wants, pipelines)
+                                       : create_compute_path(gpu, wants.overdraw, pipelines));
     ORO_CHECK(create_choice(gpu, pipelines));
     ORO_CHECK(create_rounds(gpu, path, pipelines));
     return pipelines;
@@ -336,9 +346,11 @@ Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& p
 
 Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath path,
                                                     const PipelineWants& wants) {
-    std::shared_ptr<Pipelines>& kept = gpu.kept_pipelines({path, wants.record_positions});
+    const bool small = wants.leave_out_small && path == RasterPath::mesh;
+    std::shared_ptr<Pipelines>& kept =
+        gpu.kept_pipelines({path, wants.record_positions, small, wants.overdraw});
     if (!kept) {
-        ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants.record_positions));
+        ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants));
         kept = std::make_shared<Pipelines>(std::move(pipelines));
     }
     const VkBool32 compute = path == RasterPath::compute ? VK_TRUE : VK_FALSE;

@@ -70,6 +70,8 @@ struct PipelineWants {
     bool record_positions{false};  // the mesh shader writes each placed post to FrameConstants.recorded
     bool triangles{false};         // `triangles` is there
     bool show{false};              // `show` is there
+    bool leave_out_small{false};   // mesh path: triangles that cover no pixel's centre are not drawn
+    bool overdraw{false};          // triangles are counted into FrameConstants.overdraw
 };
 
 // Made once and kept until the device ends, with all that has been added since: drivers take longer to make

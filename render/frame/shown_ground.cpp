@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "render/frame/settled_frame.h"
+
 namespace oro {
 namespace {
 
@@ -62,8 +64,8 @@ Result<void> shown_triangles(const Gpu& gpu, Scene& scene, const Camera& camera,
                             std::min(tile_width, camera.width_px - x),
                             std::min(tile_height, camera.height_px - y),
                             {0.5, 0.5}};
-            ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px, options.model));
-            ORO_CHECK(renderer.draw(std::move(plan), gpu::FrameStyle{}));
+            ORO_CHECK(draw_settled(scene, renderer, camera, tile, options.tau_px, options.model,
+                                   gpu::FrameStyle{}));
             for (int first = 0; first < tile.height_px; first += rows_at_once) {
                 const int count = std::min(rows_at_once, tile.height_px - first);
                 ORO_TRY(const std::vector<ShownTriangle> triangles,

@@ -98,7 +98,8 @@ void Occlusion::begin(const FramePlan& plan, bool remembers) {
         patience_ = wait_ = first_patience;
         trials_ = 0;
     }
-    if (use_ == OcclusionUse::if_it_pays && much && goes_without()) return;
+    // While pages are missing, what is seen decides which come first.
+    if (use_ == OcclusionUse::if_it_pays && much && plan.is_settled() && goes_without()) return;
     uses_last_frame_ = much && remembers;
     if (uses_last_frame_) {
         rounds_ = {round_of(0, 0, false), round_of(0, gpu::round_shares, true)};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 namespace oro {
 namespace {
@@ -23,6 +24,11 @@ std::size_t page_bytes(const HeightQuantization& coding, const PageParts& parts)
     const auto with = [](std::size_t bytes, std::size_t part) { return (bytes + 15) / 16 * 16 + part; };
     const std::size_t placed = parts.places ? with(block, sizeof(gpu::PagePlaces)) : block;
     return parts.means ? with(placed, sizeof(gpu::PageMeans)) : placed;
+}
+
+double bytes_a_post(const HeightQuantization& coding) {
+    const std::size_t heights = page_bytes(coding) - offsetof(gpu::PageBlock, heights);
+    return static_cast<double>(heights) / (gpu::page_quads * gpu::page_quads);
 }
 
 Result<PageStore> PageStore::create(const Gpu& gpu, std::size_t capacity, const HeightQuantization& coding,
@@ -55,12 +61,30 @@ std::uint64_t PageStore::address(const PageIndex& page) {
     if (found == slots_of_.end()) return 0;
     Slot& slot = slots_[found->second];
     slot.used = frame_;
+    if (slot.shown != frame_) slot.shown_before = std::exchange(slot.shown, frame_);
     return chunks_[slot.chunk].buffer().address + slot.place * page_bytes_;
+}
+
+void PageStore::note_hidden(const PageIndex& page) {
+    const auto found = slots_of_.find({page.level, page.row, page.column});
+    if (found == slots_of_.end()) return;
+    Slot& slot = slots_[found->second];
+    if (slot.shown == frame_) slot.shown = slot.shown_before;
+}
+
+bool PageStore::has_room() const {
+    return !free_.empty() || (!full_ && budget_->left() >= page_bytes_);
+}
+
+std::size_t PageStore::room() const {
+    std::size_t room = free_.size() + (full_ ? 0 : budget_->left() / page_bytes_);
+    for (const Slot& slot : slots_) room += slot.used != 0 && slot.used < frame_ ? 1 : 0;
+    return std::max<std::size_t>(room, held_ == 0 ? 1 : 0);
 }
 
 // Slots of a new chunk, the first of them next.
 void PageStore::add_slots(std::size_t chunk, std::size_t count) {
-    for (std::size_t place = 0; place < count; ++place) slots_.push_back({{}, 0, chunk, place});
+    for (std::size_t place = 0; place < count; ++place) slots_.push_back({{}, 0, 0, 0, chunk, place});
     for (std::size_t place = 0; place < count; ++place) free_.push_back(slots_.size() - 1 - place);
     held_ += count;
 }
@@ -95,22 +119,27 @@ Result<void> PageStore::add_chunk() {
     }
 }
 
-// A slot that is free, or was not used for longest and not by this frame; false when there is none.
-Result<bool> PageStore::find_slot(std::size_t& slot) {
+// A slot that is free, or one that this frame does not use; false when there is none.
+Result<bool> PageStore::find_slot(bool for_hidden, std::size_t& slot) {
     if (free_.empty()) ORO_CHECK(add_chunk());
-    if (free_.empty()) return reuse_slot(slot);
+    if (free_.empty()) return reuse_slot(for_hidden, slot);
     slot = free_.back();
     free_.pop_back();
     return true;
 }
 
-// The slot that was not used for longest; false when this frame uses all.
-bool PageStore::reuse_slot(std::size_t& slot) {
+// Of the slots that this frame does not use, that whose page was not shown for longest, and of these that
+// which was not used for longest.
+bool PageStore::reuse_slot(bool for_hidden, std::size_t& slot) {
     std::size_t oldest = slots_.size();
-    for (std::size_t i = 0; i < slots_.size(); ++i)
-        if (slots_[i].used != 0 && (oldest == slots_.size() || slots_[i].used < slots_[oldest].used))
-            oldest = i;
-    if (oldest == slots_.size() || slots_[oldest].used >= frame_) return false;
+    const auto age = [](const Slot& of) { return std::pair(of.shown, of.used); };
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        const Slot& one = slots_[i];
+        if (one.used == 0 || one.used >= frame_) continue;
+        if (for_hidden && one.shown != 0 && one.shown + shown_lately >= frame_) continue;
+        if (oldest == slots_.size() || age(one) < age(slots_[oldest])) oldest = i;
+    }
+    if (oldest == slots_.size()) return false;
     slot = oldest;
     const auto holds = slots_of_.find(slots_[oldest].page);
     if (holds != slots_of_.end() && holds->second == slot) slots_of_.erase(holds);
@@ -207,10 +236,12 @@ Result<std::size_t> PageStore::send_by_batches(std::span<const LoadedPage> pages
             continue;
         }
         std::size_t slot = 0;
-        ORO_TRY(const bool found, find_slot(slot));
+        ORO_TRY(const bool found, find_slot(page.is_hidden, slot));
         if (!found) break;
         slots_[slot].page = key;
         slots_[slot].used = frame_;
+        slots_[slot].shown = page.is_hidden ? 0 : frame_;
+        slots_[slot].shown_before = 0;
         slots_of_[key] = slot;
         stage(page, staging_.mapped + batch.size() * page_bytes_);
         batch.push_back(slot);

@@ -21,6 +21,7 @@ struct LoadedPage {
     std::unique_ptr<gpu::PageBlock> block;
     std::unique_ptr<gpu::PageMeans> means;    // where the store keeps them
     std::unique_ptr<gpu::PagePlaces> places;  // likewise
+    bool is_hidden{};                         // other ground hides it, as far as is known
 };
 
 // What a store keeps of pages beside their blocks.
@@ -30,8 +31,11 @@ struct PageParts {
 };
 // Bytes that a page takes on the GPU.
 std::size_t page_bytes(const HeightQuantization& coding, const PageParts& parts = {});
+// Of these those of heights, for each of a page's 128 x 128 posts.
+double bytes_a_post(const HeightQuantization& coding);
 
-// The pages of one region that are on the GPU. What has not been used for longest makes room for what comes.
+// The pages of one region that are on the GPU. Of those that the current frame does not use, the one that has
+// not been shown for longest makes room for what comes.
 class PageStore {
   public:
     // At most `capacity` pages, at least 1, and fewer where the device has no room for them; their heights
@@ -48,8 +52,11 @@ class PageStore {
     PageStore& operator=(const PageStore&) = delete;
     ~PageStore() = default;
 
-    // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame.
+    // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame,
+    // and as being shown by it.
     std::uint64_t address(const PageIndex& page);
+    // The current frame uses it, and does not show it: other ground hides it.
+    void note_hidden(const PageIndex& page);
     // From a page's block to its means, bytes; 0 where none are kept.
     [[nodiscard]] std::uint64_t means_offset() const { return means_offset_; }
     // The same to its places.
@@ -58,8 +65,14 @@ class PageStore {
     void begin_frame() { ++frame_; }
 
     // Sends pages, in their order, until no slot is left that the current frame does not use; number of those
-    // sent. Waits for the GPU. Errors: the device; no room for any page at all.
+    // sent. A hidden one takes no slot of a page that was shown in the last `shown_lately` frames. Waits for
+    // the GPU. Errors: the device; no room for any page at all.
     Result<std::size_t> send(std::span<const LoadedPage> pages);
+    static constexpr std::uint64_t shown_lately = 64;
+    // Whether there is room for some more without taking any page's slot;
+    [[nodiscard]] bool has_room() const;
+    // ... for how many, where pages that this frame does not use make room.
+    [[nodiscard]] std::size_t room() const;
 
     // Lets go of buffers whose pages the current frame does not use, for others that share the budget: true
     // where there were any. No frame is being drawn.
@@ -75,14 +88,16 @@ class PageStore {
     using Key = std::tuple<int, int, int>;  // level, row, column
     struct Slot {
         Key page;
-        std::uint64_t used{};  // frame; 0: no page is there
+        std::uint64_t used{};   // frame; 0: no page is there
+        std::uint64_t shown{};  // the last frame that showed it, and the last before this one
+        std::uint64_t shown_before{};
         std::size_t chunk{};
         std::size_t place{};  // in the chunk
     };
     explicit PageStore(const Gpu& gpu) : gpu_(&gpu) {}
     Result<void> prepare_sending();
-    Result<bool> find_slot(std::size_t& slot);
-    bool reuse_slot(std::size_t& slot);
+    Result<bool> find_slot(bool for_hidden, std::size_t& slot);
+    bool reuse_slot(bool for_hidden, std::size_t& slot);
     Result<void> add_chunk();
     void add_slots(std::size_t chunk, std::size_t count);
     Result<std::size_t> send_by_batches(std::span<const LoadedPage> pages, std::vector<std::size_t>& batch);

@@ -74,7 +74,7 @@ void PageStream::load_next(std::unique_lock<std::mutex>& lock) {
     try {
         under_way_.insert(key(page));
         lock.unlock();
-        LoadedPage loaded{page, std::make_unique<gpu::PageBlock>(), nullptr, nullptr};
+        LoadedPage loaded{page, std::make_unique<gpu::PageBlock>(), nullptr, nullptr, false};
         Result<void> done = pages_.load(page, *loaded.block);
         if (parts_.means && done.ok()) {
             loaded.means = std::make_unique<gpu::PageMeans>();

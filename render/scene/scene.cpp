@@ -87,24 +87,78 @@ Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau
     return plan;
 }
 
+bool Scene::is_hidden(const PageIndex& page) const {
+    return hidden_.contains({page.level, page.row, page.column});
+}
+
+bool Scene::saw(std::span<const FrameSights> sights) {
+    bool is_new = false;
+    const std::vector<Scene*> scenes = all();
+    for (std::size_t i = 0; i < std::min(sights.size(), scenes.size()); ++i)
+        is_new = scenes[i]->seen_.add(sights[i]) || is_new;
+    return is_new;
+}
+
+// Where the last frame's pages filled the GPU and more of them show, those that do not show are planned
+// without: what comes next may take their place.
+Result<FramePlan> Scene::plan_of_pages(const Camera& camera, const Tile& tile, double tau_px,
+                                       const WorldModel& model) {
+    const double spacing_px = store_.means_offset() > 0 ? gpu::means_spacing_px : gpu::shading_spacing_px;
+    const auto planned = [&](const Residency& residency) {
+        store_.begin_frame();
+        return plan_frame(*pages_, residency, camera, tile, tau_px, model, store_.coding(), spacing_px,
+                          [&](const PageIndex& page) { return seen_.is_hidden(page); });
+    };
+    ORO_TRY(FramePlan plan, planned([&](const PageIndex& page) { return store_.address(page); }));
+    can_give_way_ = plan.missing.size() > plan.missing_hidden && !plan.hidden.empty();
+    if (!std::exchange(full_, false) || !can_give_way_) return plan;
+    can_give_way_ = false;
+    hidden_.clear();
+    for (const PageIndex& page : plan.hidden) hidden_.insert({page.level, page.row, page.column});
+    ORO_TRY(plan, planned([&](const PageIndex& page) { return is_hidden(page) ? 0 : store_.address(page); }));
+    // They are there, and need not come.
+    const std::size_t before = plan.missing.size();
+    std::erase_if(plan.missing, [&](const PageIndex& page) { return is_hidden(page); });
+    plan.missing_hidden -= std::min(plan.missing_hidden, before - plan.missing.size());
+    return plan;
+}
+
+// What casters need shows by what they cast: it comes before what is hidden.
+Result<void> Scene::add_casters(const Camera& camera, const Tile& tile, FramePlan& plan) {
+    if (!top_m_) {
+        ORO_TRY(top_m_, region_top_m(*pages_));
+    }
+    const auto first_hidden = plan.missing.end() - static_cast<std::ptrdiff_t>(plan.missing_hidden);
+    const std::vector<PageIndex> hidden(first_hidden, plan.missing.end());
+    plan.missing.erase(first_hidden, plan.missing.end());
+    ORO_CHECK(plan_casters(
+        *pages_, [&](const PageIndex& page) { return store_.address(page); }, camera, tile, cast_, *top_m_,
+        plan));
+    plan.missing_hidden = 0;
+    std::set<std::tuple<int, int, int>> wanted;
+    for (const PageIndex& page : plan.missing) wanted.insert({page.level, page.row, page.column});
+    for (const PageIndex& page : hidden) {
+        if (wanted.contains({page.level, page.row, page.column})) continue;
+        plan.missing.push_back(page);
+        ++plan.missing_hidden;
+    }
+    return {};
+}
+
 Result<FramePlan> Scene::own_plan(const Camera& camera, const Tile& tile, double tau_px,
                                   const WorldModel& model) {
-    store_.begin_frame();
-    full_ = false;
-    const Residency residency = [&](const PageIndex& page) { return store_.address(page); };
-    ORO_TRY(FramePlan plan,
-            plan_frame(*pages_, residency, camera, tile, tau_px, model, store_.coding(),
-                       store_.means_offset() > 0 ? gpu::means_spacing_px : gpu::shading_spacing_px));
+    ORO_TRY(FramePlan plan, plan_of_pages(camera, tile, tau_px, model));
+    for (const PageIndex& page : plan.hidden) store_.note_hidden(page);
     // A plan with no page shows nothing.
     if (clusters_ && beside_.empty() && model.earth == Earth::ellipsoid && !plan.pages.empty())
         ORO_CHECK(clusters_->add_to(plan, camera, tile, tau_px, model, pages_->facts().shape.occluder,
                                     store_.coding()));
-    if (cast_.any()) {
-        if (!top_m_) {
-            ORO_TRY(top_m_, region_top_m(*pages_));
-        }
-        ORO_CHECK(plan_casters(*pages_, residency, camera, tile, cast_, *top_m_, plan));
-    }
+    if (cast_.any()) ORO_CHECK(add_casters(camera, tile, plan));
+    full_for_hidden_ = false;
+    hidden_.clear();
+    for (const PageIndex& page : std::span(plan.missing).last(plan.missing_hidden))
+        hidden_.insert({page.level, page.row, page.column});
+    plan.wants_sights = !plan.missing.empty() || !store_.has_room();
     if (store_.means_offset() > 0) {
         plan.constants.has_means = 1;
         for (gpu::FramePage& page : plan.pages) page.means = behind(page, store_.means_offset());
@@ -117,12 +171,22 @@ Result<FramePlan> Scene::own_plan(const Camera& camera, const Tile& tile, double
     return plan;
 }
 
-Result<std::size_t> Scene::send_ready(bool wait, bool& all) {
-    ORO_TRY(const std::vector<LoadedPage> ready, stream_->take(wait));
-    ORO_TRY(const std::size_t sent, store_.send(ready));
-    bytes_sent_ += sent * page_bytes(store_.coding());
-    all = sent == ready.size();
+Result<Scene::Sent> Scene::send_ready(bool wait) {
+    ORO_TRY(std::vector<LoadedPage> ready, stream_->take(wait));
+    for (LoadedPage& page : ready) page.is_hidden = is_hidden(page.index);
+    std::ranges::stable_partition(ready, [](const LoadedPage& page) { return !page.is_hidden; });
+    Sent sent;
+    ORO_TRY(sent.count, store_.send(ready));
+    bytes_sent_ += sent.count * page_bytes(store_.coding());
+    if (sent.count < ready.size()) (ready[sent.count].is_hidden ? sent.hidden_left : sent.shown_left) = true;
     return sent;
+}
+
+std::vector<PageIndex> Scene::shown_of(std::span<const PageIndex> missing) const {
+    std::vector<PageIndex> shown;
+    std::ranges::copy_if(missing, std::back_inserter(shown),
+                         [&](const PageIndex& page) { return !is_hidden(page); });
+    return shown;
 }
 
 Result<bool> Scene::advance(std::span<const PageIndex> missing) {
@@ -132,15 +196,18 @@ Result<bool> Scene::advance(std::span<const PageIndex> missing) {
         better = better || more;
     }
     if (full_) return better;
-    stream_->want(missing);
-    bool fits = true;
-    ORO_TRY(const std::size_t sent, send_ready(false, fits));
-    full_ = !fits;
+    if (full_for_hidden_)
+        stream_->want(shown_of(missing));
+    else
+        stream_->want(missing);
+    ORO_TRY(const Sent sent, send_ready(false));
+    full_for_hidden_ = full_for_hidden_ || sent.hidden_left;
+    full_ = sent.shown_left;
     if (full_) stream_->want({});
     // For the next frame: what none of this one's grids uses.
     if (!beside_.empty() && std::ranges::any_of(all(), [](const Scene* scene) { return scene->full_; }))
         make_room();
-    return better || sent > 0;
+    return better || sent.count > 0 || (full_ && can_give_way_);
 }
 
 std::vector<Scene*> Scene::all() {
@@ -175,21 +242,36 @@ Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, do
     return plan;
 }
 
+// Pages become ready in any order, so no more are asked for than there is room for.
+Result<bool> Scene::bring(std::span<const PageIndex> all_pages) {
+    const std::span<const PageIndex> pages = all_pages.first(std::min(all_pages.size(), store_.room()));
+    stream_->want(pages);
+    for (std::size_t count = 0; count < pages.size();) {
+        ORO_TRY(const Sent sent, send_ready(true));
+        count += sent.count;
+        if (sent.hidden_left || sent.shown_left) {
+            stream_->want({});
+            return false;
+        }
+        if (sent.count == 0) break;
+    }
+    return pages.size() == all_pages.size();
+}
+
 Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                           const WorldModel& model) {
     for (;;) {
         ORO_TRY(FramePlan frame, own_plan(camera, tile, tau_px, model));
         if (frame.missing.empty()) return frame;
-        stream_->want(frame.missing);
-        for (std::size_t sent = 0; sent < frame.missing.size();) {
-            bool all = true;
-            ORO_TRY(const std::size_t some, send_ready(true, all));
-            sent += some;
-            if (all && some > 0) continue;
-            if (all) break;
-            stream_->want({});
-            return own_plan(camera, tile, tau_px, model);
+        ORO_TRY(bool fits, bring(shown_of(frame.missing)));
+        if (!fits && can_give_way_) {
+            full_ = true;  // so that the next plan lets hidden pages give way
+            continue;
         }
+        if (fits && frame.missing_hidden == frame.missing.size()) {
+            ORO_TRY(fits, bring(frame.missing));
+        }
+        if (!fits) return own_plan(camera, tile, tau_px, model);
     }
 }
 

@@ -5,12 +5,15 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/frame/frame_plan.h"
 #include "core/frame/region_pages.h"
+#include "core/frame/seen_ground.h"
 #include "render/clusters/cluster_scene.h"
 #include "render/scene/drape_store.h"
 #include "render/scene/page_store.h"
@@ -64,8 +67,11 @@ class Scene {
     // is ready: true when the next plan may be better. Does not wait for pages that are not ready; asks for
     // none once the frame's own fill the GPU. Errors: a page that cannot be read, the device.
     Result<bool> advance(std::span<const PageIndex> missing);
+    // What a frame of this scene has shown (FrameReport::sights): from the next plan on ground that is hidden
+    // comes last, and where the GPU is full gives way to what shows. True where that is news.
+    bool saw(std::span<const FrameSights> sights);
     // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
-    // hold, `missing` names the rest.
+    // hold, `missing` names the rest; drawing it, saw() and another plan may bring what of that shows.
     Result<FramePlan> settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                    const WorldModel& model = {});
 
@@ -92,9 +98,22 @@ class Scene {
 
   private:
     Scene(std::unique_ptr<RegionPages> pages, PageStore store)
-        : pages_(std::move(pages)), store_(std::move(store)) {}
-    // Number of pages that there was room for; `all`: for every one that was ready.
-    Result<std::size_t> send_ready(bool wait, bool& all);
+        : pages_(std::move(pages)), store_(std::move(store)), seen_(*pages_) {}
+    // Number of pages that there was room for, of those that were ready; whether it was short for hidden ones
+    // alone, or for those that show.
+    struct Sent {
+        std::size_t count{};
+        bool hidden_left{}, shown_left{};
+    };
+    Result<Sent> send_ready(bool wait);
+    // Waits for all of them: false where there was no room.
+    Result<bool> bring(std::span<const PageIndex> pages);
+    Result<FramePlan> plan_of_pages(const Camera& camera, const Tile& tile, double tau_px,
+                                    const WorldModel& model);
+    Result<void> add_casters(const Camera& camera, const Tile& tile, FramePlan& plan);
+    // Those of missing pages that may show.
+    [[nodiscard]] std::vector<PageIndex> shown_of(std::span<const PageIndex> missing) const;
+    [[nodiscard]] bool is_hidden(const PageIndex& page) const;
     Result<FramePlan> own_plan(const Camera& camera, const Tile& tile, double tau_px,
                                const WorldModel& model);
     Result<FramePlan> own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
@@ -111,7 +130,11 @@ class Scene {
     Buffer undulation_;
     std::uint64_t number_{};  // FramePlan::heights
     std::uint64_t bytes_sent_{};
-    bool full_{false};  // of the last frame's pages
+    SeenGround seen_;
+    std::set<std::tuple<int, int, int>> hidden_;  // of what the last plan misses
+    bool full_{false};                            // of the last frame's pages
+    bool full_for_hidden_{false};                 // at least for those
+    bool can_give_way_{false};                    // hidden pages of the last plan could, for missing ones
     CastRequest cast_;
     std::optional<double> top_m_;  // of the region, once it was asked for
     std::optional<ClusterScene> clusters_;

@@ -8,6 +8,7 @@
 #include "shaders/choose/select.glsl"
 #include "shaders/choose/verdict.glsl"
 #include "shaders/choose/choose.glsl"
+#include "shaders/choose/sights.glsl"
 #include "shaders/choose/lists.glsl"
 #include "shaders/choose/rounds.glsl"
 
@@ -53,6 +54,11 @@ void main() {
         if (kept && waits) now = was_seen(page_number, page, node);
         write_bits(FRAME.kept, page_number, kept);
         write_bits(FRAME.drawn, page_number, now);
+        if (FRAME.sights != uvec2(0u)) {
+            bool asked = kept || (chosen.verdict != is_not_chosen && stands_for_finer(page, lane) &&
+                                  may_be_in_picture(page, PageBlocks(page.block).at[0].meshlets[lane]));
+            write_bits_at(FRAME.sights, page_number * sight_words, asked);
+        }
     }
     draw_nodes(page_number, now, chosen.edges);
 }

@@ -81,8 +81,8 @@ bool is_behind(BoxOnPicture box) {
     return true;
 }
 
-// Whether a page's node is hidden.
-bool is_hidden(FramePage page, uint node) {
+// Whether a page's node is hidden, and all that is no farther than more_m from it.
+bool is_hidden(FramePage page, uint node, float more_m) {
     PageBlocks block = PageBlocks(page.block);
     vec3 centre_m = block.at[0].meshlets[node].centre;
     float radius_m = block.at[0].meshlets[node].radius;
@@ -96,7 +96,7 @@ bool is_hidden(FramePage page, uint node) {
     // that its corners span.
     vec3 size_m = abs(centre_m) + abs(page.origin_view);
     float slack_m = FRAME.placing_slack_m + 1.0e-2 + 1.0e-6 * (size_m.x + size_m.y + size_m.z + radius_m);
-    slack_m += 0.5 * abs(FRAME.refraction_per_m) * radius_m * radius_m;
+    slack_m += 0.5 * abs(FRAME.refraction_per_m) * radius_m * radius_m + more_m;
     BoxOnPicture box;
     return box_on_picture(centre, half_axes, slack_m, box) && is_behind(box);
 }

@@ -6,20 +6,22 @@ shared uint bits_here[accepted_words];
 shared uint count_here;
 shared uint first_here;
 
-bool bit_of(uvec2 words, uint page_number, uint node) {
-    return (Words(words).at[page_number * accepted_words + node / 32u] >> (node % 32u) & 1u) != 0u;
-}
+bool bit_at(uvec2 words, uint first, uint node) { return (Words(words).at[first + node / 32u] >> (node % 32u) & 1u) != 0u; }
+bool bit_of(uvec2 words, uint page_number, uint node) { return bit_at(words, page_number * accepted_words, node); }
 
-// Writes a page's bits: one from each invocation of its workgroup.
-void write_bits(uvec2 words, uint page_number, bool bit) {
+// Writes words of bits, one from each invocation of the workgroup.
+void write_bits_at(uvec2 words, uint first, bool bit) {
     uint lane = gl_LocalInvocationIndex;
     barrier();
     if (lane < accepted_words) bits_here[lane] = 0u;
     barrier();
     if (bit) atomicOr(bits_here[lane / 32u], 1u << (lane % 32u));
     barrier();
-    if (lane < accepted_words) Words(words).at[page_number * accepted_words + lane] = bits_here[lane];
+    if (lane < accepted_words) Words(words).at[first + lane] = bits_here[lane];
 }
+
+// ... those of a page.
+void write_bits(uvec2 words, uint page_number, bool bit) { write_bits_at(words, page_number * accepted_words, bit); }
 
 // Whether a round looks at the page with that number among those that have something to draw.
 bool is_looked_at(uint number, uint count) {

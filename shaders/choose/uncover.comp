@@ -8,12 +8,24 @@
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/bend.glsl"
 #include "shaders/choose/occlusion.glsl"
+#include "shaders/choose/select.glsl"
+#include "shaders/choose/sights.glsl"
 
 layout(local_size_x = 256) in;
 
 shared uint tested_here;
 shared uint hidden_here;
 shared uint later_here;
+
+// Whether anything finer may show that a node stands for: that is within its error of the full resolution, as it is itself.
+bool finer_may_show(uint page_number, uint node, bool shows) {
+    if (!bit_at(FRAME.sights, page_number * sight_words, node)) return false;
+    FramePage page = frame_pages().at[page_number];
+    if (!stands_for_finer(page, node)) return false;
+    if (shows || (page.cull & cull_by_occlusion) == 0u) return true;
+    float error_m = PageBlocks(page.block).at[0].meshlets[node].error_m;
+    return error_m >= unfit_error_m || !is_hidden(page, node, 2.0 * error_m);
+}
 
 void main() {
     uint lane = gl_LocalInvocationIndex;
@@ -28,7 +40,7 @@ void main() {
     bool hidden = false;
     if (asks) {
         FramePage page = frame_pages().at[page_number];
-        hidden = (page.cull & cull_by_occlusion) != 0u && is_hidden(page, lane);
+        hidden = (page.cull & cull_by_occlusion) != 0u && is_hidden(page, lane, 0.0);
         if (is_last) atomicAdd(tested_here, 1u);
         if (is_last && hidden && !drawn) atomicAdd(hidden_here, 1u);
     }
@@ -36,6 +48,11 @@ void main() {
     if (now) atomicAdd(later_here, 1u);
     if (is_last) write_bits(FRAME.seen, page_number, kept && !hidden);
     else write_bits(FRAME.drawn, page_number, drawn || now);
+    if (is_last && FRAME.sights != uvec2(0u)) {
+        bool shows = kept && !hidden;
+        write_bits_at(FRAME.sights, page_number * sight_words + accepted_words, shows);
+        write_bits_at(FRAME.sights, page_number * sight_words + 2u * accepted_words, finer_may_show(page_number, lane, shows));
+    }
     draw_nodes(page_number, now, now ? edges_of(page_number * meshlets_per_page + lane) & 15u : 0u);
     barrier();
     if (lane != 0u) return;

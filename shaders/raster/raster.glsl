@@ -6,6 +6,8 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Visibility { uint64_t at[]; };
 
+layout(constant_id = 3) const bool counts_overdraw = false;  // into FRAME.overdraw
+
 const int subpixels = 256;
 const float farthest_px = 16384.0;  // outside the picture; what reaches farther is clipped first
 
@@ -82,6 +84,7 @@ int edge_bias(ivec2 from, ivec2 to) {
 void keep_nearest(ivec2 pixel, float depth, uint id) {
     Visibility visibility = Visibility(FRAME.visibility);
     uint at = uint(pixel.y) * FRAME.width_px + uint(pixel.x);
+    if (counts_overdraw) atomicAdd(Words(FRAME.overdraw).at[at], 1u);
     // Where two are as near the lower id wins.
     uint64_t candidate = (uint64_t(floatBitsToUint(depth)) << 32) | uint64_t(~id);
     // Most that is behind costs a load and no exchange. The load is atomic, too: others write while it reads.

@@ -1,6 +1,6 @@
 #version 460
 // Colours pixels by what draws them, in the place of the ground's own colours (FrameConstants.show): which round, level, meshlet,
-// triangle, cluster or group. The table of level colours and those of the rounds are also core's, for legends (core/frame/frame_colours.h).
+// triangle, cluster or group, or how many triangles. The tables of colours are also core's, for legends (core/frame/frame_colours.h).
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/clusters/drawn.glsl"
@@ -44,5 +44,7 @@ void main() {
         return;
     }
     uint triangle = triangle_of_id(id), node = triangle / meshlet_triangles;
-    imageStore(picture, pixel, vec4(FRAME.clusters.on != 0u ? colour_on_clusters(triangle, node) : colour_on_pages(triangle, node), 1.0));
+    vec3 colour = FRAME.clusters.on != 0u ? colour_on_clusters(triangle, node) : colour_on_pages(triangle, node);
+    if (FRAME.show == show_overdraw) colour = shown_overdraw(Words(FRAME.overdraw).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]);
+    imageStore(picture, pixel, vec4(colour, 1.0));
 }

@@ -22,6 +22,16 @@ ORO_FUNCTION vec3 shown_cluster_level(uint level) {
 // Whether the rounds before the last one had drawn it.
 ORO_FUNCTION vec3 shown_round(bool before) { return before ? vec3(0.36f, 0.64f, 0.40f) : vec3(0.96f, 0.57f, 0.18f); }
 
+// By how many triangles cover a pixel: 1, 2, 3 and 4, 5 to 8, 9 to 16, more.
+ORO_FUNCTION vec3 shown_overdraw(uint count) {
+    if (count <= 1u) return vec3(0.18f, 0.30f, 0.52f);
+    if (count == 2u) return vec3(0.20f, 0.56f, 0.60f);
+    if (count <= 4u) return vec3(0.45f, 0.73f, 0.42f);
+    if (count <= 8u) return vec3(0.93f, 0.82f, 0.33f);
+    if (count <= 16u) return vec3(0.93f, 0.52f, 0.20f);
+    return vec3(0.78f, 0.18f, 0.22f);
+}
+
 // A colour of its own for each number, none of them dark. Source of the mixing: C. Wellons, hash-prospector (public domain), lowbias32.
 ORO_FUNCTION vec3 shown_by_hash(uint number) {
     uint x = number;

@@ -1,6 +1,7 @@
 // What other ground hides is left out, and nothing that shows: from eyes in motion the ids in every pixel are
 // those of frames that draw all, on both paths.
 #include "core/terrain/ground.h"
+#include "render/frame/picture_renderer.h"
 #include "tests/support/occlusion_pairs.h"
 #include "tests/support/rough_terrain.h"
 
@@ -144,6 +145,56 @@ TEST_P(Occluded, FramesHoldWhileDataStreamIn) {
     }
     std::printf("seed %u: %d frames, %d of them while pages were missing\n", seed, frames, unsettled);
     EXPECT_GT(unsettled, 3);
+}
+
+// With room for the pages that show, and not for those that other ground hides, a settled picture is that
+// with room for all.
+TEST_P(Occluded, HiddenPagesNeedNoRoom) {
+    const HeightField field = test::rough_field(47.0, 8.0, 1200, 1200);
+    struct Settled {
+        std::vector<std::uint8_t> rgb;
+        bool settled{};
+        std::size_t pages{};
+    };
+    const auto draw = [&](std::size_t room, const Camera& camera, int samples) {
+        Scene scene = scene_of(field, 1.0, room * page_bytes({}));
+        PictureOptions options;
+        options.path = GetParam();
+        options.samples = samples;
+        Settled picture;
+        const RowSink sink = [&](std::span<const std::uint8_t> row) {
+            picture.rgb.insert(picture.rgb.end(), row.begin(), row.end());
+            return Result<void>();
+        };
+        const auto report = render_picture(*gpu_, scene, camera, {}, options, sink);
+        EXPECT_TRUE(report.ok()) << report.error().line();
+        picture.settled = report->settled;
+        picture.pages = scene.store().size();
+        return picture;
+    };
+    int with_fewer = 0;
+    for (int i = 0; i < 4; ++i) {
+        Camera camera;
+        camera.width_px = 3 * width_px;
+        camera.height_px = 3 * height_px;
+        camera.eye = {46.45 + 0.05 * i, 8.42 + 0.06 * i, 0.0};
+        camera.eye.h_m = *ground_h_m(field, camera.eye.lat_deg, camera.eye.lon_deg) + 2.0;
+        camera.attitude = {80.0 * i, 0.0, 0.0};
+        const int samples = i == 3 ? 3 : 1;
+        const Settled whole = draw(1000, camera, samples);
+        ASSERT_TRUE(whole.settled);
+        std::printf("eye %d: %zu pages", i, whole.pages);
+        for (const std::size_t room : {whole.pages * 7 / 8, whole.pages * 5 / 8}) {
+            const Settled part = draw(room, camera, samples);
+            std::printf(", %s with room for %zu", part.settled ? "settled" : "not settled", room);
+            EXPECT_LE(part.pages, room);
+            if (!part.settled) break;
+            EXPECT_EQ(part.rgb, whole.rgb) << "eye " << i << ", room for " << room;
+            ++with_fewer;
+        }
+        std::printf("\n");
+    }
+    EXPECT_GE(with_fewer, 5) << "or hidden pages took room";
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, Occluded, ::testing::Values(RasterPath::mesh, RasterPath::compute),

@@ -8,10 +8,10 @@ namespace {
 
 class Store : public test::GpuTest {
   protected:
-    static std::vector<LoadedPage> some(int first, int count) {
+    static std::vector<LoadedPage> some(int first, int count, bool hidden = false) {
         std::vector<LoadedPage> pages;
         for (int i = first; i < first + count; ++i)
-            pages.push_back({{0, i, 0}, std::make_unique<gpu::PageBlock>(), nullptr, nullptr});
+            pages.push_back({{0, i, 0}, std::make_unique<gpu::PageBlock>(), nullptr, nullptr, hidden});
         return pages;
     }
 };
@@ -32,6 +32,31 @@ TEST_F(Store, NeverHoldsMoreThanItsCapacity) {
     EXPECT_EQ(*store->send(some(300, 149)), 149U);
     EXPECT_NE(store->address({0, 60, 0}), 0U) << "it is in use";
     EXPECT_EQ(*store->send(some(300, 1)), 1U) << "it is here already";
+}
+
+// What other ground hides gives way before what shows, and takes no slot of what was shown lately.
+TEST_F(Store, HiddenPagesGiveWayFirst) {
+    auto store = PageStore::create(*gpu_, 20);
+    ASSERT_TRUE(store.ok()) << store.error().line();
+    EXPECT_EQ(*store->send(some(0, 20)), 20U);
+    EXPECT_FALSE(store->has_room());
+    for (int frame = 0; frame < 5; ++frame) {
+        store->begin_frame();
+        for (int i = 0; i < 20; ++i) EXPECT_NE(store->address({0, i, 0}), 0U);
+        for (int i = 10; i < 15; ++i) store->note_hidden({0, i, 0});
+    }
+    EXPECT_EQ(*store->send(some(100, 1)), 0U) << "the frame uses all, hidden ones, too";
+    store->begin_frame();
+    EXPECT_EQ(*store->send(some(100, 5)), 5U);
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(store->address({0, i, 0}) != 0, i < 10 || i >= 15) << "page " << i;
+    store->begin_frame();
+    EXPECT_EQ(*store->send(some(200, 5, true)), 0U) << "all were shown a frame ago";
+    EXPECT_EQ(*store->send(some(300, 5)), 5U) << "what shows may have their place";
+    for (std::uint64_t i = 0; i < PageStore::shown_lately; ++i) store->begin_frame();
+    EXPECT_EQ(*store->send(some(400, 5, true)), 5U) << "that was long ago";
+    store->begin_frame();
+    EXPECT_EQ(*store->send(some(500, 5)), 5U);
+    for (int i = 400; i < 405; ++i) EXPECT_EQ(store->address({0, i, 0}), 0U) << "never shown: first to go";
 }
 
 // Two regions' pages in the memory of one: who looks elsewhere makes room for the other.

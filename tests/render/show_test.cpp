@@ -160,6 +160,51 @@ TEST_P(ShownParts, ALevelOfClustersIsDrawnAlone) {
     }
 }
 
+// Over level ground, from straight above, one triangle covers each pixel, wherever triangles meet; behind a
+// ridge more do. Both ways of drawing count the same, but where their grids put an edge through another
+// pixel's middle.
+TEST_P(ShownParts, OverdrawCountsTriangles) {
+    constexpr std::uint32_t side_px = 96;
+    const auto picture_of = [&](const HeightField& field, const Camera& camera, RasterPath path) {
+        auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {std::uint64_t{64} << 20U, 0});
+        FrameRendererOptions options;
+        options.extent = {side_px, side_px};
+        options.path = path;
+        options.show = gpu::show_overdraw;
+        options.occlusion = OcclusionUse::off;
+        auto renderer = FrameRenderer::create(*gpu_, options);
+        EXPECT_TRUE(renderer.ok()) << renderer.error().line();
+        auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
+        for (int frame = 0; frame < 2; ++frame) EXPECT_TRUE(renderer->draw(*plan, {}).ok());
+        return *renderer->read_picture(side_px, side_px);
+    };
+    const auto code = [](gpu::uint triangles) {
+        return static_cast<int>(std::lround(255.0F * colour_of_overdraw(triangles).x));
+    };
+    HeightField level = test::rough_field(47.0, 8.0, 300, 300);
+    std::ranges::fill(level.H_m, 500.0F);
+    Camera camera;
+    camera.eye = {46.88, 8.12, 3000.0};
+    camera.attitude = {10.0, -90.0, 0.0};
+    camera.width_px = camera.height_px = side_px;
+    const std::vector<std::uint8_t> even = picture_of(level, camera, GetParam());
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < even.size(); i += 4) wrong += std::abs(even[i] - code(1)) > 1;
+    EXPECT_EQ(wrong, 0U);
+    const HeightField rough = test::rough_field(47.0, 8.0, 500, 500);
+    camera.eye = {46.75, 8.2, *ground_h_m(rough, 46.75, 8.2) + 300.0};
+    camera.attitude = {40.0, -5.0, 0.0};
+    const std::vector<std::uint8_t> one = picture_of(rough, camera, RasterPath::mesh),
+                                    other = picture_of(rough, camera, RasterPath::compute);
+    std::size_t differ = 0, several = 0;
+    for (std::size_t i = 0; i < one.size(); i += 4) {
+        differ += one[i] != other[i];
+        several += one[i + 3] != 0 && std::abs(one[i] - code(1)) > 1;
+    }
+    EXPECT_LT(differ, std::size_t{side_px} * side_px / 50);
+    EXPECT_GT(several, std::size_t{side_px} * side_px / 8);
+}
+
 INSTANTIATE_TEST_SUITE_P(Paths, ShownParts, ::testing::Values(RasterPath::mesh, RasterPath::compute),
                          [](const auto& path) {
                              return std::string(path.param == RasterPath::mesh ? "mesh" : "compute");

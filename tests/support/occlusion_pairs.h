@@ -71,6 +71,7 @@ class OcclusionPair {
         options.occlusion = OcclusionUse::off;
         plain_.emplace(made(gpu, options));
         options.occlusion = OcclusionUse::on;
+        options.leave_out_small = true;
         options.nearest_pyramid = wrong;
         with_.emplace(made(gpu, options));
     }

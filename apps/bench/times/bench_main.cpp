@@ -1,0 +1,288 @@
+// orograph-bench: how fast this machine's GPU draws a region file from fixed or random eyes, or terrain by a
+// formula. Links core and render alone.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "apps/bench/times/bench_random.h"
+#include "apps/bench/times/bench_region.h"
+#include "apps/bench/times/bench_tables.h"
+#include "apps/bench/times/bench_times.h"
+#include "apps/report/json_fields.h"
+#include "apps/report/json_object.h"
+#include "apps/report/option_words.h"
+#include "apps/styles/style_json.h"
+#include "core/base/elapsed.h"
+#include "core/light/sun_position.h"
+#include "core/lod/ground_means.h"
+
+namespace oro {
+namespace {
+
+using nlohmann::ordered_json;
+
+Result<void> read_style(BenchOptions& options) {
+    if (options.style_file.empty()) return {};
+    ORO_TRY(const std::string text, read_text_file(options.style_file));
+    ORO_TRY(const Style style, style_of_text(text, options.style_file));
+    options.style = style.frame;
+    options.style.sun_enu = gpu::vec3(enu_towards(options.sun_azimuth_deg, options.sun_elevation_deg));
+    options.style.sun_hidden = options.sun_elevation_deg < 0.0 ? 1.0F : 0.0F;
+    return {};
+}
+
+void print_times(const std::string& name, const ordered_json& json) {
+    std::printf("%-6s", name.c_str());
+    for (const auto& [key, value] : json.items()) {
+        std::printf(
+            " %s %s", key.c_str(),
+            value.is_number_float() ? (std::to_string(value.get<double>())).c_str() : value.dump().c_str());
+    }
+    std::printf("\n");
+}
+
+// The ways of drawing that are asked for.
+Result<std::vector<RasterPath>> paths_of(const BenchOptions& options, const DeviceReport& device) {
+    std::vector<RasterPath> paths;
+    for (const std::string& name : options.pipeline == "both" ? std::vector<std::string>{"compute", "mesh"}
+                                                              : std::vector<std::string>{options.pipeline}) {
+        ORO_TRY(const RasterPath path, raster_path_for(name, device));
+        paths.push_back(path);
+    }
+    return paths;
+}
+
+// Of all eyes: the median, 95 % of them and the worst, and which the worst are.
+ordered_json spread_json(const std::vector<BenchEye>& eyes, const std::vector<BenchTimes>& times,
+                         double BenchTimes::*time_s) {
+    std::vector<double> values;
+    for (const BenchTimes& one : times) values.push_back(1e3 * (one.*time_s));
+    const SpreadOfEyes spread = spread_of(values);
+    ordered_json json = ordered_json::object();
+    json["median_ms"] = spread.median;
+    json["at_95_percent_ms"] = spread.high;
+    json["worst_ms"] = spread.worst;
+    json["worst_eyes"] = ordered_json::array();
+    for (const std::size_t eye : spread.worst_eyes) {
+        const BenchTimes& one = times[eye];
+        ordered_json worst = ordered_json::object();
+        worst["eye"] = eyes[eye].name;
+        worst["gpu_ms"] = 1e3 * one.gpu_s;
+        worst["raster_ms"] = 1e3 * one.raster_s;
+        worst["triangles"] = one.last.counts.triangles_drawn;
+        json["worst_eyes"].push_back(std::move(worst));
+    }
+    return json;
+}
+
+void print_spread(const ordered_json& of_frame, const ordered_json& of_raster) {
+    std::printf("  frame: median %.3f ms, 95 %% %.3f, worst %.3f; raster: %.3f, %.3f, %.3f\n",
+                of_frame["median_ms"].get<double>(), of_frame["at_95_percent_ms"].get<double>(),
+                of_frame["worst_ms"].get<double>(), of_raster["median_ms"].get<double>(),
+                of_raster["at_95_percent_ms"].get<double>(), of_raster["worst_ms"].get<double>());
+    for (const ordered_json& eye : of_frame["worst_eyes"])
+        std::printf("  %.3f ms (raster %.3f, %u triangles): %s\n", eye["gpu_ms"].get<double>(),
+                    eye["raster_ms"].get<double>(), eye["triangles"].get<unsigned>(),
+                    eye["eye"].get<std::string>().c_str());
+}
+
+// All eyes by one way of drawing.
+Result<ordered_json> run_path(const Gpu& gpu, RasterPath path, Scene& scene,
+                              const std::vector<BenchEye>& eyes, const BenchOptions& options) {
+    ORO_TRY(FrameRenderer renderer, renderer_for(gpu, path, options));
+    ordered_json json = ordered_json::object();
+    double peak = 0.0;
+    if (options.floor) {
+        ORO_TRY(peak, peak_triangles_per_s(gpu, path, options));
+        json["peak_triangles_per_s"] = peak;
+    }
+    if (!options.json) std::printf("%s path\n", name_of(path).c_str());
+    json["eyes"] = ordered_json::object();
+    std::vector<BenchTimes> all;
+    for (const BenchEye& eye : eyes) {
+        ORO_TRY(const BenchTimes times, time_frames(scene, renderer, eye.camera, options));
+        all.push_back(times);
+        ordered_json one = times_json(times);
+        if (options.floor) {
+            const double floor_s = times.last.counts.triangles_drawn / peak + times.shade_s;
+            one["floor_ms"] = 1e3 * floor_s;
+            one["times_floor"] = times.gpu_s / floor_s;
+        }
+        if (options.compare_occlusion) {
+            ORO_TRY(const std::uint64_t differ,
+                    pixels_without_occlusion(gpu, path, scene, renderer, eye.camera, options));
+            one["pixels_that_differ"] = differ;
+        }
+        if (!options.json && options.random_eyes == 0) print_times(eye.name, one);
+        json["eyes"][eye.name] = std::move(one);
+    }
+    if (options.random_eyes == 0) return json;
+    json["frame"] = spread_json(eyes, all, &BenchTimes::gpu_s);
+    json["raster"] = spread_json(eyes, all, &BenchTimes::raster_s);
+    if (!options.json) print_spread(json["frame"], json["raster"]);
+    return json;
+}
+
+ordered_json asked_json(const BenchOptions& options, const DeviceReport& device, Scene& scene) {
+    ordered_json json = ordered_json::object();
+    json["device"] = device.name;
+    json["driver"] = device.driver;
+    json["region"] = options.region.empty() ? std::to_string(options.patches) + " patches" : options.region;
+    json["size_px"] = json_list(options.width_px, options.height_px);
+    json["mesh"] = options.mesh;
+    json["tau_px"] = options.tau_px;
+    json["frames"] = options.frames;
+    json["occlusion"] = options.occlusion;
+    json["small_triangles"] = options.leave_out_small ? "skip" : "draw";
+    if (options.random_eyes > 0) json["seed"] = options.seed;
+    const HeightQuantization& coding = scene.store().coding();
+    json["page_bytes"] = page_bytes(coding);
+    json["bytes_a_post"] = bytes_a_post(coding);
+    return json;
+}
+
+Result<void> run_bench(const BenchOptions& options) {
+#ifndef NDEBUG
+    return Error{ErrorKind::failed, "orograph-bench",
+                 "is a debug build; times would mean nothing (use the release preset)"};
+#endif
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    if (options.tables) return print_tables(*gpu, options);
+    ORO_TRY(const std::vector<RasterPath> paths, paths_of(options, gpu->report()));
+    const auto opening = Clock::now();
+    ORO_TRY(BenchRegion region, open_bench_region(options));
+    const double open_s = seconds_since(opening);
+    ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, region));
+    ORO_TRY(Scene scene, scene_of(*gpu, options, region));
+    if (asks_for_means(options.style) && !scene.pages().knows_means())
+        std::fputs("orograph-bench: note: the region has too many posts for means of the ground\n", stderr);
+    ordered_json json = asked_json(options, gpu->report(), scene);
+    json["open_ms"] = 1e3 * open_s;
+    if (!options.json) {
+        std::printf(
+            "%s (%s), %d x %d px, tau %g px, medians of %d frames; opened in %.1f ms; %.2f bytes a post\n",
+            gpu->report().name.c_str(), gpu->report().driver.c_str(), options.width_px, options.height_px,
+            options.tau_px, options.frames, 1e3 * open_s, bytes_a_post(scene.store().coding()));
+        if (options.random_eyes > 0)
+            std::printf("%d random eyes, seed %llu\n", options.random_eyes,
+                        static_cast<unsigned long long>(options.seed));
+    }
+    for (const RasterPath path : paths) {
+        ORO_TRY(ordered_json one, run_path(*gpu, path, scene, eyes, options));
+        if (paths.size() > 1) {
+            json[name_of(path)] = std::move(one);
+            continue;
+        }
+        json["pipeline"] = name_of(path);
+        for (auto& [key, value] : one.items()) json[key] = std::move(value);
+    }
+    if (options.json) std::printf("%s\n", json.dump().c_str());
+    return {};
+}
+
+Result<void> set_size(const std::string& text, BenchOptions& options) {
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &options.width_px, &options.height_px, &read) != 2 ||
+        read != static_cast<int>(text.size()) || options.width_px < 1 || options.height_px < 1 ||
+        options.width_px > 8192 || options.height_px > 8192)
+        return Error{ErrorKind::usage, "--size",
+                     "'" + text + "' is not WIDTHxHEIGHT in pixels, each 1 to 8192"};
+    return {};
+}
+
+// Words that become options once all are read.
+struct BenchWords {
+    std::string size{"1920x1080"}, heights{"32"}, small{"draw"};
+};
+
+void add_what_is_drawn(CLI::App& app, BenchOptions& options, BenchWords& words) {
+    app.add_option("REGION", options.region,
+                   "A region file (orograph bake makes one); without: terrain by a formula");
+    app.add_option("--path", options.path, "Eyes to draw from: a .json file like those in data/paths");
+    app.add_option("--patches", options.patches, "Of the formula's terrain: meshlets along each side")
+        ->check(CLI::Range(1, 1280));
+    app.add_option("--tau", options.tau_px, "Largest error, pixels; 0: full resolution")
+        ->check(CLI::Range(0.0, 1000.0));
+    app.add_option("--size", words.size, "Picture size, WIDTHxHEIGHT pixels");
+    app.add_option("--frames", options.frames, "Frames that count, after a second of frames that do not")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--warm-up", options.warm_up_s, "Seconds of frames that do not count, for each eye")
+        ->check(CLI::Range(0.0, 60.0));
+}
+
+void add_ways_of_drawing(CLI::App& app, BenchOptions& options, BenchWords& words) {
+    std::vector<std::string> paths = words_of(raster_requests);
+    paths.emplace_back("both");
+    app.add_option("--pipeline", options.pipeline, "mesh, compute, auto, or both in turn")
+        ->check(CLI::IsMember(paths));
+    app.add_option("--mesh", options.mesh, "What triangles are taken from: grid or clusters")
+        ->check(CLI::IsMember({"grid", "clusters"}));
+    app.add_option(
+           "--occlusion", options.occlusion,
+           "Leave out what other ground hides: on, off, or auto (where it pays). The picture is the same")
+        ->check(CLI::IsMember({"on", "off", "auto"}));
+    app.add_flag("--compare-occlusion", options.compare_occlusion,
+                 "Count the pixels whose triangle is another without occlusion, from eight eyes in motion");
+    app.add_option("--gpu-memory", options.gpu_memory_mb, "Megabytes of terrain on the GPU at most")
+        ->check(CLI::Range(0, 1000000));
+    app.add_option("--heights", words.heights, "Bits that the GPU keeps of a height: 32 or 16")
+        ->check(CLI::IsMember({"32", "16"}));
+    app.add_option(
+           "--small-triangles", words.small,
+           "Mesh path: draw triangles that cover no pixel's centre, or skip them. The picture is the same")
+        ->check(CLI::IsMember({"draw", "skip"}));
+}
+
+void add_modes(CLI::App& app, BenchOptions& options) {
+    app.add_option("--random-eyes", options.random_eyes,
+                   "So many eyes over posts of the region in place of --path: 2 m to 400 km above ground, "
+                   "log-uniform, with any heading; tells the median, 95 % and the worst")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--seed", options.seed, "Of random eyes: one seed, the same eyes");
+    app.add_flag(
+        "--tables", options.tables,
+        "Print tables of the eyes of --path: triangles and times without level of detail, with it and with "
+        "occlusion; by how heights are kept; mesh shaders against compute at tau 1/4 to 4");
+    app.add_flag("--floor", options.floor,
+                 "Measure the path's peak triangle rate, too, and tell times as multiples of the least that "
+                 "it allows");
+    app.add_option(
+        "--style", options.style_file,
+        "A style: a .json file like those in data/styles. Without it: plain colours of the benchmark's own, "
+        "without "
+        "shadows, air or means of the ground; orograph's default, natural, is data/styles/natural.json");
+    app.add_option("--sun-azimuth", options.sun_azimuth_deg, "Of that style, degrees clockwise from north")
+        ->check(CLI::Range(-360.0, 360.0));
+    app.add_option("--sun-elevation", options.sun_elevation_deg, "Of that style, degrees above level")
+        ->check(CLI::Range(-90.0, 90.0));
+    app.add_flag("--json", options.json, "Print one JSON object");
+}
+
+}  // namespace
+}  // namespace oro
+
+int main(int argc, char** argv) {
+    CLI::App app{"Times how fast this machine's GPU draws: medians of GPU timestamps.", "orograph-bench"};
+    oro::BenchOptions options;
+    oro::BenchWords words;
+    oro::add_what_is_drawn(app, options, words);
+    oro::add_ways_of_drawing(app, options, words);
+    oro::add_modes(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0) return app.exit(e);
+        std::fprintf(stderr, "orograph-bench: %s\n", e.what());
+        return static_cast<int>(oro::ErrorKind::usage);
+    }
+    options.heights = words.heights == "16" ? oro::HeightStorage::i16 : oro::HeightStorage::f32;
+    options.leave_out_small = words.small == "skip";
+    oro::Result<void> done = oro::set_size(words.size, options);
+    if (done.ok()) done = oro::read_style(options);
+    if (done.ok()) done = oro::run_bench(options);
+    if (done.ok()) return 0;
+    std::fprintf(stderr, "orograph-bench: %s\n", done.error().line().c_str());
+    return static_cast<int>(done.error().kind);
+}

@@ -1,0 +1,40 @@
+// What orograph-bench is asked for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/bench/bench_style.h"
+#include "core/terrain/height_quantization.h"
+#include "render/device/raster_request.h"
+
+namespace oro {
+
+struct BenchOptions {
+    std::string region;  // a region file; "": terrain by a formula
+    std::string path;    // of eyes
+    int patches{64};     // of the formula's terrain: along each side, 8 x 8 quads each
+    int frames{30};
+    double warm_up_s{1.0};   // of frames that do not count, before those of an eye
+    std::string style_file;  // "": bench_style()
+    gpu::FrameStyle style{bench_style()};
+    double sun_azimuth_deg{315.0};
+    double sun_elevation_deg{45.0};
+    int width_px{1920};
+    int height_px{1080};
+    std::string pipeline{raster_requests.front().first};  // or "both"
+    std::string occlusion{"auto"};
+    bool compare_occlusion{false};
+    double tau_px{1.0};
+    int gpu_memory_mb{0};
+    std::string mesh{"grid"};
+    HeightStorage heights{HeightStorage::f32};
+    bool leave_out_small{false};  // mesh path: triangles that cover no pixel's centre
+    int random_eyes{0};           // 0: those of `path`
+    std::uint64_t seed{1};        // of these
+    bool tables{false};
+    bool floor{false};
+    bool json{false};
+};
+
+}  // namespace oro

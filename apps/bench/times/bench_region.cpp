@@ -1,0 +1,56 @@
+#include "apps/bench/times/bench_region.h"
+
+#include "apps/bench/times/bench_random.h"
+#include "apps/bench/times/bench_terrain.h"
+#include "core/baked/file_pages.h"
+#include "core/base/parallel.h"
+#include "core/cluster_frame/region_clusters.h"
+#include "core/lod/ground_means.h"
+
+namespace oro {
+
+Result<BenchRegion> open_bench_region(const BenchOptions& options) {
+    BenchRegion region;
+    if (options.region.empty()) {
+        region.made = made_region(options.patches);
+        region.pages = pages_in_memory(region.made, 1.0, thread_count());
+        return region;
+    }
+    ORO_TRY(region.file, open_baked_file(options.region));
+    region.pages = pages_of_file(region.file.region);
+    return region;
+}
+
+Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion& region) {
+    const bool clusters = options.mesh == "clusters";
+    if (clusters && !region.file.clusters)
+        return Error{ErrorKind::usage, "--mesh clusters",
+                     "the region has none: orograph bake --mesh clusters makes them"};
+    const std::uint64_t bytes =
+        gpu_bytes(gpu, static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U) / (clusters ? 2 : 1);
+    SceneMemory memory;
+    memory.gpu = bytes;
+    ORO_TRY(Scene scene, Scene::create(gpu, std::move(region.pages), memory, options.heights,
+                                       asks_for_means(options.style)));
+    if (!clusters) return scene;
+    ORO_TRY(const HeightField field, field_in_memory(*region.file.region));
+    ORO_TRY(std::unique_ptr<RegionClusters> graph,
+            clusters_of_file(region.file.clusters, region.file.region->fingerprint(), field,
+                             scene.pages().facts().shape.occluder));
+    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(graph), bytes));
+    scene.draw_clusters(std::move(made));
+    return scene;
+}
+
+Result<std::vector<BenchEye>> eyes_of(const BenchOptions& options, const BenchRegion& region) {
+    if (!region.file.region)
+        return std::vector<BenchEye>{{"above", eye_above(region.made, options.width_px, options.height_px)}};
+    if (options.random_eyes > 0)
+        return random_eyes(*region.pages, options.random_eyes, options.seed, options.width_px,
+                           options.height_px);
+    if (options.path.empty()) return Error{ErrorKind::usage, "--path", "is missing: name a file with eyes"};
+    return read_bench_path(options.path, region.file.region->outline().undulation, options.width_px,
+                           options.height_px);
+}
+
+}  // namespace oro

@@ -1,0 +1,27 @@
+// What a benchmark draws: a region file or terrain by a formula, and from where.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "apps/bench/bench_path.h"
+#include "apps/bench/times/bench_options.h"
+#include "core/baked/clustered_file.h"
+#include "core/frame/region_pages.h"
+#include "core/terrain/post_grid.h"
+#include "render/scene/scene.h"
+
+namespace oro {
+
+// A region file, or one that is made.
+struct BenchRegion {
+    HeightField made;
+    BakedFile file;
+    std::unique_ptr<RegionPages> pages;
+};
+Result<BenchRegion> open_bench_region(const BenchOptions& options);
+// Takes the region's pages. Half of the GPU's memory is for clusters, where there are some.
+Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion& region);
+Result<std::vector<BenchEye>> eyes_of(const BenchOptions& options, const BenchRegion& region);
+
+}  // namespace oro

@@ -1,0 +1,20 @@
+#include "render/frame/settled_frame.h"
+
+#include <utility>
+
+namespace oro {
+
+Result<SettledFrame> draw_settled(Scene& scene, FrameRenderer& renderer, const Camera& camera,
+                                  const Tile& tile, double tau_px, const WorldModel& model,
+                                  const gpu::FrameStyle& style) {
+    for (int frame = 1;; ++frame) {
+        ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, tau_px, model));
+        const bool whole = plan.is_settled(), shows_all = plan.shows_all();
+        ORO_TRY(FrameReport report, renderer.draw(std::move(plan), style));
+        const bool is_news = !whole && scene.saw(report.sights);
+        if (is_news && frame < most_settling_frames) continue;
+        return SettledFrame{std::move(report), whole || (shows_all && !is_news)};
+    }
+}
+
+}  // namespace oro
