@@ -164,7 +164,6 @@ TEST_P(ShownParts, ALevelOfClustersIsDrawnAlone) {
 // ridge more do. Both ways of drawing count the same, but where their grids put an edge through another
 // pixel's middle.
 TEST_P(ShownParts, OverdrawCountsTriangles) {
-    constexpr std::uint32_t side_px = 96;
     const auto picture_of = [&](const HeightField& field, const Camera& camera, RasterPath path) {
         auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {std::uint64_t{64} << 20U, 0});
         FrameRendererOptions options;
