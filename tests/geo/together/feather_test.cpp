@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <random>
 
 #include "geo/together/coverage_rim.h"
@@ -17,6 +18,15 @@ namespace {
 
 const std::vector<char>* left_out_of(const RegionCuts& cuts, std::size_t grid) {
     return cuts.grids[grid].left_out.empty() ? nullptr : &cuts.grids[grid].left_out;
+}
+
+// The third grid lies over the second, and that over the first.
+std::optional<double> H_below_m(const std::vector<const Region*>& grids, const RegionCuts& cuts,
+                                std::size_t number, const PostPlace& at) {
+    std::optional<double> H_m;
+    for (std::size_t below = number; below-- > 0 && !H_m;)
+        H_m = grids[below]->field.surface_H_m(at.lat_deg, at.lon_deg, left_out_of(cuts, below));
+    return H_m;
 }
 
 // By a search over all posts of the rim, and a weight of its own.
@@ -54,12 +64,7 @@ TEST(Feather, IsWhatDistancesToTheRimSay) {
                 continue;
             }
             const PostPlace at = own.grid.place_at(row, column);
-            // The third grid lies over the second, and that over the first.
-            std::optional<double> below_m;
-            if (number == 2)
-                below_m = changed[1]->field.surface_H_m(at.lat_deg, at.lon_deg, left_out_of(cuts, 1));
-            if (!below_m)
-                below_m = changed[0]->field.surface_H_m(at.lat_deg, at.lon_deg, left_out_of(cuts, 0));
+            const std::optional<double> below_m = H_below_m(changed, cuts, number, at);
             if (!below_m) {
                 EXPECT_EQ(own.H_at_post_m(row, column), now.H_at_post_m(row, column));
                 continue;
