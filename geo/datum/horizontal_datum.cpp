@@ -101,9 +101,9 @@ std::optional<Spot> taken_by(PJ_CONTEXT* context, const PJ* operation, double x,
     return Spot{lon[0], lat[0]};
 }
 
-// The operation that puts posts where they are put.
-void find_operation(PJ_CONTEXT* context, const std::vector<ProjObject>& operations, double x, double y,
-                    const Spot& spot, HorizontalDatum& found) {
+// The operation that puts posts where they are put, or null.
+const PJ* operation_at(PJ_CONTEXT* context, const std::vector<ProjObject>& operations, double x, double y,
+                       const Spot& spot) {
     const PJ* chosen = nullptr;
     for (const ProjObject& operation : operations) {
         if (!grids_of(context, operation.get()).missing.empty()) continue;
@@ -113,6 +113,10 @@ void find_operation(PJ_CONTEXT* context, const std::vector<ProjObject>& operatio
         if (!chosen || (!covers(context, chosen, spot) && covers(context, operation.get(), spot)))
             chosen = operation.get();
     }
+    return chosen;
+}
+
+void tell_operation(PJ_CONTEXT* context, const PJ* chosen, HorizontalDatum& found) {
     if (!chosen) return;
     found.ballpark = proj_coordoperation_has_ballpark_transformation(context, chosen) != 0;
     const char* const name = proj_get_name(chosen);
@@ -165,7 +169,7 @@ HorizontalDatum horizontal_datum(const std::string& crs_wkt, double x, double y,
     const std::optional<Spot> spot = placed(crs_wkt, x, y);
     if (!spot || !to) return found;
     const auto operations = operations_between(context, crs.get(), to.get(), unwrapped, true);
-    find_operation(context, operations, x, y, *spot, found);
+    tell_operation(context, operation_at(context, operations, x, y, *spot), found);
     // Degrees of its own datum, from the map's coordinates, that are WGS84's as they are.
     const auto own = operations_between(context, plain.get(), geographic.get(), unwrapped, true);
     const auto in_own = own.empty() ? std::nullopt : taken_by(context, own.front().get(), x, y);
@@ -174,6 +178,18 @@ HorizontalDatum horizontal_datum(const std::string& crs_wkt, double x, double y,
     find_missing(context, operations, *spot, found.one_to_two_metres ? std::optional(2.0) : found.accuracy_m,
                  found);
     return found;
+}
+
+std::string pipeline_at(const std::string& crs_wkt, double x, double y, const BoundingBox& unwrapped) {
+    const ProjContext owned = new_proj_context();
+    PJ_CONTEXT* const context = owned.get();
+    const ProjObject crs(proj_create(context, crs_wkt.c_str())), to(proj_create(context, "EPSG:4326"));
+    const std::optional<Spot> spot = placed(crs_wkt, x, y);
+    if (!crs || !spot || !to) return "";
+    const auto operations = operations_between(context, crs.get(), to.get(), unwrapped, true);
+    const PJ* const chosen = operation_at(context, operations, x, y, *spot);
+    const char* const pipeline = chosen ? proj_as_proj_string(context, chosen, PJ_PROJ_5, nullptr) : nullptr;
+    return pipeline ? pipeline : "";
 }
 
 Result<void> find_horizontal_datums(std::span<Source> sources, bool strict, std::vector<std::string>& notes) {

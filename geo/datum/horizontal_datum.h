@@ -17,6 +17,10 @@ namespace oro {
 HorizontalDatum horizontal_datum(const std::string& crs_wkt, double x, double y,
                                  const BoundingBox& unwrapped);
 
+// The operation by which posts near that place are put on WGS84, as PROJ writes it, axes in the CRS's own
+// order; "" where PROJ lists none. Near other places PROJ may take another.
+std::string pipeline_at(const std::string& crs_wkt, double x, double y, const BoundingBox& unwrapped);
+
 // Puts the horizontal datum of each source into its report, and what a user must know of it into the notes.
 // Errors, with strict: a source whose datum PROJ knows no way from, or for which it lacks a grid that it
 // would be more accurate with.

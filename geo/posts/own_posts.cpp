@@ -10,6 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/net/page_on_net.h"
+#include "geo/datum/horizontal_datum.h"
 #include "geo/measures/stored_values.h"
 #include "geo/posts/laying.h"
 #include "geo/region/region_grid.h"
@@ -28,10 +29,11 @@ struct LatticeWindow {
 // Exact places of the posts of a lattice; may be asked from several threads.
 class SourcePlaces {
   public:
-    explicit SourcePlaces(const Source& source)
+    // pipeline: by this alone. Without, PROJ takes what is best for each place.
+    explicit SourcePlaces(const Source& source, const std::string& pipeline = "")
         : source_(source),
           crs_(spatial_reference(source.crs_wkt)),
-          outwards_(crs_ ? OCTNewCoordinateTransformation(crs_.get(), wgs84_degrees().get()) : nullptr) {}
+          outwards_(way_from(crs_.get(), pipeline)) {}
     [[nodiscard]] bool usable() const { return outwards_ != nullptr; }
 
     // Of posts of a window whose rows may run the other way.
@@ -66,6 +68,17 @@ class SourcePlaces {
     }
 
   private:
+    static CoordinateTransformation way_from(OGRSpatialReferenceH crs, const std::string& pipeline) {
+        if (crs == nullptr) return nullptr;
+        const SpatialReference degrees = wgs84_degrees();
+        if (pipeline.empty())
+            return CoordinateTransformation(OCTNewCoordinateTransformation(crs, degrees.get()));
+        OGRCoordinateTransformationOptionsH const options = OCTNewCoordinateTransformationOptions();
+        OCTCoordinateTransformationOptionsSetOperation(options, pipeline.c_str(), 0);
+        CoordinateTransformation way(OCTNewCoordinateTransformationEx(crs, degrees.get(), options));
+        OCTDestroyCoordinateTransformationOptions(options);
+        return way;
+    }
     // One that no other thread has.
     [[nodiscard]] CoordinateTransformation taken() const {
         const std::lock_guard lock(lending_);
@@ -97,12 +110,37 @@ Result<bool> runs_northwards(const SourcePlaces& source, const LatticeWindow& wi
     return glm::dot(glm::cross(at[1] - at[0], at[2] - at[0]), at[0]) > 0.0;
 }
 
-Result<std::shared_ptr<const GridNet>> net_of(const SourcePlaces& places, const LatticeWindow& window,
-                                              bool upside_down) {
+using FittedNet = Result<std::shared_ptr<const GridNet>>;
+FittedNet net_by(const SourcePlaces& places, const LatticeWindow& window, bool upside_down) {
     return GridNet::fit(window.rows, window.columns,
                         [&](std::span<const PostNumber> posts, std::span<PostPlace> there) {
                             return places.places(window, upside_down, posts, there);
                         });
+}
+
+// Where PROJ's best operation is another in another part of the source, places jump there by as much as the
+// two differ (0.8 m within Austria). Then the operation for the source's middle puts all of it.
+FittedNet net_of(const SourcePlaces& places, const Source& source, const LatticeWindow& window,
+                 bool upside_down) {
+    FittedNet net = net_by(places, window, upside_down);
+    if (net.ok() || net.error().where != "grid of posts") return net;
+    const auto& m = source.crs_from_post;
+    const double column = 0.5 * (source.report.columns - 1), row = 0.5 * (source.report.rows - 1);
+    const std::string pipeline = pipeline_at(source.crs_wkt, m[0] + m[1] * column + m[2] * row,
+                                             m[3] + m[4] * column + m[5] * row, unwrapped(source.report.box));
+    if (pipeline.empty()) return net;
+    const SourcePlaces by_one(source, pipeline);
+    // Not one that reads the source's coordinates in another way: operations differ by metres.
+    constexpr double some_metres_deg = 1.0e-3;
+    const std::array<PostNumber, 1> middle{{{0.5 * (window.rows - 1), 0.5 * (window.columns - 1)}}};
+    std::array<PostPlace, 1> usual{}, own{};
+    if (!by_one.usable() || !places.places(window, upside_down, middle, usual).ok() ||
+        !by_one.places(window, upside_down, middle, own).ok() ||
+        !(std::abs(usual[0].lat_deg - own[0].lat_deg) < some_metres_deg) ||
+        !(std::abs(std::remainder(usual[0].lon_deg - own[0].lon_deg, 360.0)) < some_metres_deg))
+        return net;
+    FittedNet by_one_net = net_by(by_one, window, upside_down);
+    return by_one_net.ok() ? std::move(by_one_net) : std::move(net);
 }
 
 // Where a source's first post lies on the lattice of another; nothing where it is not on it.
@@ -217,7 +255,7 @@ Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<
     const auto northwards = runs_northwards(places, window);
     if (!northwards.ok()) return not_kept(northwards.error().line());
     own.upside_down = *northwards;
-    auto fitted = net_of(places, window, own.upside_down);
+    auto fitted = net_of(places, first, window, own.upside_down);
     if (!fitted.ok())
         return not_kept(fitted.error().where == "grid of posts"
                             ? "the posts of " + first.report.path + ": " + fitted.error().what
