@@ -159,7 +159,8 @@ TEST(FoundViews, GroundFromBelowThroughAHole) {
 }
 
 // An image, taken for heights, is all walls: at the foot of one of 87 degrees ground was 0.780 px off, and
-// 0.683 allowed, which left out that verticals at its foot and its head are not parallel.
+// 0.683 allowed, which left out that verticals at its foot and its head are not parallel. With cells split by
+// their posts it is 0.404.
 TEST(FoundViews, AtTheFootOfAWall) {
     const auto folder = oro::test::real_data("drape");
     if (!folder) GTEST_SKIP() << "needs drape";
@@ -167,7 +168,7 @@ TEST(FoundViews, AtTheFootOfAWall) {
                                  "45.9590879,6.6841606", "--above", "2.27", "--heading", "225", "--pitch",
                                  "-21", "--fov", "83.5", "--refraction", "0.13", "--tau", "0", "--resample"},
                                 "80x128");
-    EXPECT_GT(error.at("displacement_px").at("max").get<double>(), 0.5);
+    EXPECT_GT(error.at("displacement_px").at("max").get<double>(), 0.35);
     EXPECT_LE(error.at("largest_px").get<double>(), error.at("slack_px").get<double>());
 }
 

@@ -82,8 +82,9 @@ json planned(const Outcome& outcome) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const json said = json::parse(outcome.out, nullptr, false);
     EXPECT_TRUE(said.is_object()) << outcome.out;
-    expect_numbers(said, "",
-                   {"size", "spread_px", "dominates", "dominates_kind", "modelled", "needed", "bbox", "sun"});
+    expect_numbers(
+        said, "",
+        {"size", "spread_px", "dominates", "dominates_kind", "modelled", "needed", "bbox", "sun", "meshes"});
     return said.is_object() ? said : json::object();
 }
 

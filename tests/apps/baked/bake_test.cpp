@@ -70,7 +70,7 @@ TEST_F(Bake, InfoTellsTheSameAsOfItsSources) {
     EXPECT_EQ(baked_one["region"], tiles["region"]);
     EXPECT_EQ(baked_one["file"]["bytes"], fs::file_size(file));
     EXPECT_EQ(baked_one["file"]["levels"], 3);
-    EXPECT_EQ(baked_one["file"]["version"], 1);
+    EXPECT_EQ(baked_one["file"]["version"], 3);
     EXPECT_EQ(baked_one["checked"], false);
     EXPECT_TRUE(tiles["file"].is_null());
     EXPECT_EQ(tiles["checked"], true);
