@@ -25,7 +25,7 @@ void add_counts(PictureReport& sum, const FrameReport& part) {
 }
 
 // A tile more.
-void add(PictureReport& sum, const PictureReport& tile) {
+void add_tile(PictureReport& sum, const PictureReport& tile) {
     sum.meshlets_beyond_frustum += tile.meshlets_beyond_frustum;
     sum.meshlets_beyond_horizon += tile.meshlets_beyond_horizon;
     sum.mesh_groups += tile.mesh_groups;
@@ -85,7 +85,7 @@ Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle
         ORO_TRY(drawn, draw_samples(scene, camera, style, options, tile, renderer));
     }
     drawn.report.settled = drawn.report.settled && !drawn.is_news;
-    add(report, drawn.report);
+    add_tile(report, drawn.report);
     return {};
 }
 

@@ -63,18 +63,17 @@ Outcome plan(const Words& more) {
     return run_orograph(words);
 }
 
-// Every number in it is finite: JSON has no others, and writes null for them. `may_be_null` are the fields
+// Every number in it is finite: JSON has no others, and writes null for them. `nullable` are the fields
 // that say nothing where there is nothing to say.
-void expect_numbers(const json& value, const std::string& name, const std::set<std::string>& may_be_null) {
+void expect_numbers(const json& value, const std::string& name, const std::set<std::string>& nullable) {
     if (value.is_number()) {
         EXPECT_TRUE(std::isfinite(value.get<double>())) << name;
     }
-    EXPECT_TRUE(!value.is_null() || may_be_null.contains(name)) << name << " is null";
-    if (value.is_array()) {
-        for (const json& one : value) expect_numbers(one, name, may_be_null);
-    }
+    EXPECT_TRUE(!value.is_null() || nullable.contains(name)) << name << " is null";
+    if (value.is_array())
+        for (const json& one : value) expect_numbers(one, name, nullable);
     if (value.is_object()) {
-        for (const auto& [key, one] : value.items()) expect_numbers(one, key, may_be_null);
+        for (const auto& [key, one] : value.items()) expect_numbers(one, key, nullable);
     }
 }
 
