@@ -27,13 +27,13 @@ void set(FrameSights& sights, std::size_t page, int row, int column, bool shown)
 }
 
 // One page of which all nodes were asked for.
-FrameSights asked(const PageIndex& page, float eye = 0.0F) {
+FrameSights asked(const PageIndex& page, float eye_x = 0.0F) {
     FrameSights sights;
     sights.pages = {page};
     sights.words.resize(gpu::sight_words);
     for (int row = 0; row < 16; ++row)
         for (int column = 0; column < 16; ++column) set(sights, 0, row, column, false);
-    sights.view.eye_high.x = eye;
+    sights.view.eye_high.x = eye_x;
     return sights;
 }
 
