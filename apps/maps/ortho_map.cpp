@@ -78,24 +78,6 @@ void aim_light(const View& view, const Geodetic& eye, gpu::FrameStyle& style) {
     style.sun_enu = gpu::vec3(glm::transpose(ecef_from_enu(eye.lat_deg, eye.lon_deg)) * sun);
 }
 
-void add_report(const PictureReport& part, PictureReport& sum) {
-    sum.meshlets_drawn += part.meshlets_drawn;
-    sum.meshlets_beyond_frustum += part.meshlets_beyond_frustum;
-    sum.meshlets_beyond_horizon += part.meshlets_beyond_horizon;
-    sum.mesh_groups += part.mesh_groups;
-    sum.triangles_drawn += part.triangles_drawn;
-    sum.pages_drawn += part.pages_drawn;
-    sum.pages_beyond_frustum += part.pages_beyond_frustum;
-    sum.pages_beyond_horizon += part.pages_beyond_horizon;
-    sum.settled = sum.settled && part.settled;
-    sum.images_settled = sum.images_settled && part.images_settled;
-    sum.choose_s += part.choose_s;
-    sum.raster_s += part.raster_s;
-    sum.shade_s += part.shade_s;
-    sum.tiles += part.tiles;
-    sum.path = part.path;
-}
-
 // Draws a square's picture and lays its pixels into a band of the map's rows.
 class SquarePainter {
   public:
@@ -117,11 +99,12 @@ class SquarePainter {
         gpu::FrameStyle style = style_.frame;
         aim_light(view_, square.camera.eye, style);
         Drawn drawn(square.camera.width_px, square.camera.height_px);
-        ORO_TRY(const PictureReport part, render_picture(gpu_, scene_, square.camera, style, options_,
-                                                         [&](std::span<const std::uint8_t> row) {
-                                                             return drawn.take(row), Result<void>();
-                                                         }));
-        add_report(part, report);
+        ORO_TRY(PictureReport part, render_picture(gpu_, scene_, square.camera, style, options_,
+                                                   [&](std::span<const std::uint8_t> row) {
+                                                       return drawn.take(row), Result<void>();
+                                                   }));
+        part.ground_px = 0;  // the map's own pixels are counted, not those of what it is made of
+        report.add(part);
         in_parallel(square.height_px, thread_count(), [&](int y) {
             for (int x = 0; x < square.width_px; ++x) {
                 const std::size_t i = square.number(x, y);

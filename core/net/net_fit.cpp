@@ -119,13 +119,9 @@ Result<double> GridNet::patch_error_m(const ExactPlaces& exact, int row, int col
                                               number(across_, column, i % side)};
     ORO_CHECK(exact(posts, places));
     double most_m = 0.0;
-    Terms down, right;
     for (std::size_t i = 0; i < posts.size(); ++i) {
-        chebyshev(down_.in_patch(posts[i].row, row), down);
-        chebyshev(across_.in_patch(posts[i].column, column), right);
-        glm::dvec3 sum(0.0);
-        for (std::size_t j = 0; j < terms * terms; ++j)
-            sum += down[j / terms] * right[j % terms] * patch(row, column).coefficients[j];
+        const glm::dvec3 sum = polynomial_at(patch(row, column), down_.in_patch(posts[i].row, row),
+                                             across_.in_patch(posts[i].column, column));
         const double off_m = wgs84_a_m * glm::distance(glm::normalize(sum), normal_of_place(places[i]));
         most_m = off_m <= most_m ? most_m : off_m;  // and what is no number
     }

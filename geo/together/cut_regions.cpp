@@ -186,17 +186,17 @@ std::vector<const Region*> finer_than(const Region& region, const Region& one) {
     return finer;
 }
 
+Result<CutOut> cut_of(const Region& region, const Region& one) {
+    std::vector<const HeightField*> finer;
+    for (const Region* other : finer_than(region, one)) finer.push_back(&other->field);
+    if (finer.empty()) return CutOut{};
+    return cut_out(one.field, finer);
+}
+
 Result<RegionCuts> cut_regions(const Region& region) {
     RegionCuts cuts;
     for (const Region* one : all_grids(region)) {
-        std::vector<const HeightField*> finer;
-        for (const Region* other : finer_than(region, *one)) finer.push_back(&other->field);
-        CutOut none;
-        if (finer.empty()) {
-            cuts.grids.push_back(std::move(none));
-            continue;
-        }
-        ORO_TRY(CutOut cut, cut_out(one->field, finer));
+        ORO_TRY(CutOut cut, cut_of(region, *one));
         cuts.grids.push_back(std::move(cut));
     }
     ORO_TRY(cuts.bridges, gap_bridges(region));

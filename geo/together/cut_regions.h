@@ -16,6 +16,9 @@ std::vector<const Region*> all_grids(const Region& region);
 // Those that cut a part out of one of them, in the order that CutOut counts them from 1.
 std::vector<const Region*> finer_than(const Region& region, const Region& one);
 
+// What those cut out of it; empty where there are none. Errors: as cut_out().
+Result<CutOut> cut_of(const Region& region, const Region& one);
+
 // What makes the grids of a region one surface.
 struct RegionCuts {
     std::vector<CutOut> grids;       // what is cut out of each (all_grids()) by those with a smaller rank

@@ -118,10 +118,7 @@ Result<void> feather(Region& region, double width_m) {
     for (Region& other : region.beside) grids.push_back({&other, {}});
     std::ranges::stable_sort(grids, {}, [](const GridBelow& one) { return one.grid->rank; });
     for (GridBelow& one : grids) {
-        std::vector<const HeightField*> finer;
-        for (const Region* other : finer_than(region, *one.grid)) finer.push_back(&other->field);
-        if (finer.empty()) continue;
-        ORO_TRY(CutOut cut, cut_out(one.grid->field, finer));
+        ORO_TRY(CutOut cut, cut_of(region, *one.grid));
         one.left_out = std::move(cut.left_out);
     }
     for (std::size_t i = grids.size() - 1; i-- > 0;)

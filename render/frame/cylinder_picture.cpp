@@ -6,29 +6,6 @@
 #include "core/frame/ridge_lines.h"
 
 namespace oro {
-namespace {
-
-void add(PictureReport& sum, const PictureReport& part) {
-    sum.meshlets_drawn += part.meshlets_drawn;
-    sum.meshlets_beyond_frustum += part.meshlets_beyond_frustum;
-    sum.meshlets_beyond_horizon += part.meshlets_beyond_horizon;
-    sum.mesh_groups += part.mesh_groups;
-    sum.triangles_drawn += part.triangles_drawn;
-    sum.ground_px += part.ground_px;
-    sum.pages_drawn += part.pages_drawn;
-    sum.pages_beyond_frustum += part.pages_beyond_frustum;
-    sum.pages_beyond_horizon += part.pages_beyond_horizon;
-    sum.settled = sum.settled && part.settled;
-    sum.images_settled = sum.images_settled && part.images_settled;
-    sum.choose_s += part.choose_s;
-    sum.raster_s += part.raster_s;
-    sum.shade_s += part.shade_s;
-    sum.tiles += part.tiles;
-    sum.path = part.path;
-}
-
-}  // namespace
-
 Result<CylinderPicture> render_cylinder(const Gpu& gpu, Scene& scene, const Geodetic& eye,
                                         const Cylinder& around, const CylinderCut& cut,
                                         const gpu::FrameStyle& style, const PictureOptions& options,
@@ -60,7 +37,7 @@ Result<CylinderPicture> render_cylinder(const Gpu& gpu, Scene& scene, const Geod
                     [&](double share) {
                         if (progress) progress((done + share) / static_cast<double>(tiles.size()));
                     }));
-        add(picture.report, report);
+        picture.report.add(report);
         if (extras.ridges)
             draw_ridges({renderer.depths(), tile.camera.width_px, tile.camera.height_px}, drawn,
                         thread_count());

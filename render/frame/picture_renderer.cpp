@@ -24,24 +24,6 @@ void add_counts(PictureReport& sum, const FrameReport& part) {
     sum.pages_drawn += part.counts.pages_live;
 }
 
-// A tile more.
-void add_tile(PictureReport& sum, const PictureReport& tile) {
-    sum.meshlets_beyond_frustum += tile.meshlets_beyond_frustum;
-    sum.meshlets_beyond_horizon += tile.meshlets_beyond_horizon;
-    sum.mesh_groups += tile.mesh_groups;
-    sum.meshlets_drawn += tile.meshlets_drawn;
-    sum.triangles_drawn += tile.triangles_drawn;
-    sum.pages_drawn += tile.pages_drawn;
-    sum.pages_beyond_frustum += tile.pages_beyond_frustum;
-    sum.pages_beyond_horizon += tile.pages_beyond_horizon;
-    sum.settled = sum.settled && tile.settled;
-    sum.images_settled = sum.images_settled && tile.images_settled;
-    sum.choose_s += tile.choose_s;
-    sum.raster_s += tile.raster_s;
-    sum.shade_s += tile.shade_s;
-    ++sum.tiles;
-}
-
 // What all samples of a tile took, and whether they told anything new of what shows.
 struct TileSamples {
     PictureReport report;
@@ -85,7 +67,9 @@ Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle
         ORO_TRY(drawn, draw_samples(scene, camera, style, options, tile, renderer));
     }
     drawn.report.settled = drawn.report.settled && !drawn.is_news;
-    add_tile(report, drawn.report);
+    drawn.report.tiles = 1;
+    drawn.report.path = report.path;
+    report.add(drawn.report);
     return {};
 }
 
@@ -135,6 +119,25 @@ Tile with_margin(const Tile& own, int margin_px, const Camera& camera) {
 }
 
 }  // namespace
+
+void PictureReport::add(const PictureReport& part) {
+    meshlets_drawn += part.meshlets_drawn;
+    meshlets_beyond_frustum += part.meshlets_beyond_frustum;
+    meshlets_beyond_horizon += part.meshlets_beyond_horizon;
+    mesh_groups += part.mesh_groups;
+    triangles_drawn += part.triangles_drawn;
+    ground_px += part.ground_px;
+    pages_drawn += part.pages_drawn;
+    pages_beyond_frustum += part.pages_beyond_frustum;
+    pages_beyond_horizon += part.pages_beyond_horizon;
+    settled = settled && part.settled;
+    images_settled = images_settled && part.images_settled;
+    choose_s += part.choose_s;
+    raster_s += part.raster_s;
+    shade_s += part.shade_s;
+    tiles += part.tiles;
+    path = part.path;
+}
 
 VkExtent2D tile_extent(const Gpu& gpu, const Camera& camera, int largest_tile_px) {
     int side = static_cast<int>(std::min<std::uint32_t>(gpu.report().max_picture_side_px, preferred_tile_px));

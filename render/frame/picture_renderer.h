@@ -42,6 +42,9 @@ struct PictureReport {
     std::uint64_t pages_beyond_horizon{};
     int tiles{};
     RasterPath path{RasterPath::mesh};
+
+    // Adds what a part of the picture took; the path is the part's.
+    void add(const PictureReport& part);
 };
 
 // Takes the next row of the picture, width * 3 bytes of sRGB.

@@ -70,11 +70,14 @@ uvec2 first_post(uint meshlet) {
     return uvec2(meshlet / meshlets_per_side, meshlet % meshlets_per_side) * meshlet_quads;
 }
 
-// Whether a quad of a page (row, column) is split from its south-west to its north-east post. What is drawn asks triangle_posts().
+// Whether a quad is split from its south-west to its north-east post, by its number in a meshlet of a page, row by row; by its row and
+// column in the page. What is drawn asks triangle_posts().
+bool rises_in_meshlet(PageBlocks block, uint meshlet, uint quad) {
+    return (block.at[0].rises[meshlet * 2u + quad / 32u] >> (quad % 32u) & 1u) != 0u;
+}
 bool rises_at(PageBlocks block, uvec2 quad) {
     uint meshlet = quad.x / meshlet_quads * meshlets_per_side + quad.y / meshlet_quads;
-    uint bit = quad.x % meshlet_quads * meshlet_quads + quad.y % meshlet_quads;
-    return (block.at[0].rises[meshlet * 2u + bit / 32u] >> (bit % 32u) & 1u) != 0u;
+    return rises_in_meshlet(block, meshlet, quad.x % meshlet_quads * meshlet_quads + quad.y % meshlet_quads);
 }
 
 // The posts of one of a quad's two triangles (0: that with its western edge) as (row, column), counter-clockwise seen from above;

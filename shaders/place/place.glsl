@@ -137,7 +137,7 @@ uvec2 vertex_post(FramePage page, uint meshlet, uvec2 vertex, uint edges) {
 void triangle_posts(FramePage page, uint meshlet, uint triangle, uint edges, out uvec2 a, out uvec2 b, out uvec2 c) {
     uint cell = triangle >> 1u;
     uvec2 nw = uvec2(cell / meshlet_quads, cell % meshlet_quads);
-    bool rises = (PageBlocks(page.block).at[0].rises[meshlet * 2u + cell / 32u] >> (cell % 32u) & 1u) != 0u;
+    bool rises = rises_in_meshlet(PageBlocks(page.block), meshlet, cell);
     if (rises && edges != 0u) rises = drawn_rising(rises, nw, quads_of(page, meshlet), edges);
     quad_posts(nw, rises, triangle & 1u, a, b, c);
 }

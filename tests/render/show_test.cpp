@@ -15,7 +15,18 @@
 namespace oro {
 namespace {
 
-class ShownParts : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {};
+constexpr std::uint32_t side_px = 96;
+
+class ShownParts : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
+  protected:
+    Result<FrameRenderer> renderer_showing(gpu::uint show) {
+        FrameRendererOptions options;
+        options.extent = {side_px, side_px};
+        options.path = GetParam();
+        options.show = show;
+        return FrameRenderer::create(*gpu_, options);
+    }
+};
 
 // Of a pixel's triangle, by its id.
 gpu::vec3 expected_colour(gpu::uint show, std::uint32_t id, const FramePlan& plan) {
@@ -25,8 +36,6 @@ gpu::vec3 expected_colour(gpu::uint show, std::uint32_t id, const FramePlan& pla
     const float light = 0.85F + 0.15F * colour_of_number(node).x;
     return light * colour_of_level(plan.pages[node / gpu::meshlets_per_page].level);
 }
-
-constexpr std::uint32_t side_px = 96;
 
 Camera camera_over(const HeightField& field) {
     Camera camera;
@@ -50,11 +59,7 @@ TEST_P(ShownParts, HaveTheColoursOfTheirNumbersAndLevels) {
     const Camera camera = camera_over(field);
     for (const gpu::uint show :
          {gpu::show_visible, gpu::show_levels, gpu::show_meshlets, gpu::show_triangles}) {
-        FrameRendererOptions options;
-        options.extent = {side_px, side_px};
-        options.path = GetParam();
-        options.show = show;
-        auto renderer = FrameRenderer::create(*gpu_, options);
+        auto renderer = renderer_showing(show);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
         auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
         ASSERT_TRUE(plan.ok()) << plan.error().line();
@@ -104,11 +109,7 @@ TEST_P(ShownParts, OfClustersHaveTheColoursOfTheGraph) {
     std::set<gpu::uint> levels;
     for (const gpu::uint show :
          {gpu::show_levels, gpu::show_meshlets, gpu::show_triangles, gpu::show_clusters, gpu::show_groups}) {
-        FrameRendererOptions options;
-        options.extent = {side_px, side_px};
-        options.path = GetParam();
-        options.show = show;
-        auto renderer = FrameRenderer::create(*gpu_, options);
+        auto renderer = renderer_showing(show);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
         auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 2.0);
         ASSERT_TRUE(plan.ok()) << plan.error().line();
@@ -141,10 +142,7 @@ TEST_P(ShownParts, ALevelOfClustersIsDrawnAlone) {
     std::uint64_t last = ~std::uint64_t{0};
     for (const std::uint32_t level : {0U, 2U, 6U, 80U}) {
         test::draw_by_clusters(*gpu_, terrain, *scene, std::uint64_t{64} << 20U, level);
-        FrameRendererOptions options;
-        options.extent = {side_px, side_px};
-        options.path = GetParam();
-        auto renderer = FrameRenderer::create(*gpu_, options);
+        auto renderer = renderer_showing(gpu::show_colours);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
         auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
         ASSERT_TRUE(plan.ok()) << plan.error().line();

@@ -24,6 +24,14 @@ class ClusterChoices : public ::testing::Test {
         EXPECT_TRUE(made.ok()) << made.error().line();
         return std::move(made).value();
     }
+    // All of the terrain is in view.
+    static Camera from_above() {
+        Camera camera;
+        camera.width_px = camera.height_px = 100;
+        camera.eye = {46.9, 8.13, 200000.0};
+        camera.attitude.pitch_deg = -90.0;
+        return camera;
+    }
     ClusterChoice choose(RegionClusters& clusters, const Camera& camera, double tau_px,
                          const WorldModel& model = {}, std::optional<std::uint32_t> level = {}) {
         auto choice = choose_clusters(clusters, camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
@@ -80,10 +88,7 @@ TEST_F(ClusterChoices, IsTheCutButForWhatCannotBeSeen) {
 // By level it is the discrete cut, in whatever view; and each cluster is told with its group.
 TEST_F(ClusterChoices, OfALevelAreAllOfIt) {
     const auto region = clusters();
-    Camera camera;
-    camera.width_px = camera.height_px = 100;
-    camera.eye = {46.9, 8.13, 200000.0};
-    camera.attitude.pitch_deg = -90.0;
+    const Camera camera = from_above();
     for (const std::uint32_t level : {0U, 1U, 3U, 8U, 80U}) {
         const ClusterChoice choice = choose(*region, camera, 1.0, {}, level);
         const std::set<std::uint32_t> chosen(choice.clusters.begin(), choice.clusters.end());
@@ -151,10 +156,7 @@ TEST_F(ClusterChoices, TheRuleIsThatOfNodes) {
 // A cluster of the original that tau 0 draws is the original.
 TEST_F(ClusterChoices, WithoutAnErrorTheOriginalIsDrawn) {
     const auto region = clusters();
-    Camera camera;
-    camera.width_px = camera.height_px = 100;
-    camera.eye = {46.9, 8.13, 200000.0};
-    camera.attitude.pitch_deg = -90.0;
+    const Camera camera = from_above();
     const ClusterChoice choice = choose(*region, camera, 0.0);
     std::size_t triangles = 0;
     for (const std::uint32_t cluster : choice.clusters)
