@@ -37,6 +37,7 @@ int exit_code(const oro::Result<void>& result) {
     std::cout.flush();
     errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return 0;
+    oro::end_if_reader_has_gone();
     return told({oro::ErrorKind::failed, "standard output",
                  "cannot be written: " + std::generic_category().message(errno != 0 ? errno : EIO)});
 }

@@ -9,14 +9,21 @@
 namespace oro {
 namespace {
 
+void end_by(int signal) {
+    remove_unfinished_files();
+    std::signal(signal, SIG_DFL);
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, signal);
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+    std::raise(signal);
+}
+
 // A thread that does nothing but wait for a signal may do anything when it comes; a handler could not.
 void wait_and_clean_up(sigset_t signals) {
     int signal = 0;
     if (sigwait(&signals, &signal) != 0) return;
-    remove_unfinished_files();
-    std::signal(signal, SIG_DFL);
-    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
-    std::raise(signal);
+    end_by(signal);
 }
 
 }  // namespace
@@ -38,6 +45,11 @@ void clean_up_when_interrupted() {
     } catch (const std::system_error&) {  // no thread to be had: the signals end the program at once
         pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
     }
+}
+
+void end_if_reader_has_gone() {
+    sigset_t pending;
+    if (sigpending(&pending) == 0 && sigismember(&pending, SIGPIPE) == 1) end_by(SIGPIPE);
 }
 
 }  // namespace oro

@@ -9,4 +9,8 @@ namespace oro {
 // started.
 void clean_up_when_interrupted();
 
+// Where standard output was a pipe whose reader has gone (`orograph info | head`), the program ends as other
+// programs do then: by SIGPIPE, without a word. Else returns. To be called by the thread that wrote.
+void end_if_reader_has_gone();
+
 }  // namespace oro

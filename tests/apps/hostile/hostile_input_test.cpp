@@ -68,6 +68,20 @@ TEST_F(HostileInput, StandardOutputThatIsFullOrClosed) {
     }
 }
 
+// 141 is how shells tell of SIGPIPE: `orograph info | head` is nobody's mistake.
+TEST_F(HostileInput, AReaderThatHasReadEnough) {
+    for (const Words& words :
+         {Words{"info", bundled()}, Words{"info", bundled(), "--json"}, Words{"shot", "--help"}}) {
+        SCOPED_TRACE(words.front());
+        Words shell{"bash", "-c", R"({ sleep 0.2; "$@"; } | true; echo "${PIPESTATUS[0]}")", "bash",
+                    OROGRAPH_PROGRAM};
+        shell.insert(shell.end(), words.begin(), words.end());
+        const Outcome outcome = run_program(shell);
+        EXPECT_EQ(outcome.out, "141\n");
+        EXPECT_EQ(outcome.err, "");
+    }
+}
+
 // A closed standard error must not become the picture's file, with messages in it.
 TEST_F(HostileInput, ClosedStandardError) {
     const Outcome open = run_orograph(
