@@ -41,15 +41,21 @@ SeamQuad quad_of(const SeamPiece& piece) {
     }
     return quad;
 }
-// A closer's upright part, whose top reaches upwards, and what reaches down and under from its foot.
-std::array<SeamQuad, 2> quads_of(const SeamCloser& closer) {
+// A closer's upright part, whose top reaches upwards, and what reaches down and to both sides from its foot:
+// seen along the upright part, its top is its foot, and the higher ground's edge is beside it.
+constexpr std::size_t quads_a_closer = 3;
+std::array<SeamQuad, quads_a_closer> quads_of(const SeamCloser& closer) {
     const glm::dvec3 still(0.0);
+    const auto from_foot = [&](const glm::dvec3& reach) -> SeamQuad {
+        return {{closer.foot[0], closer.foot[0], closer.foot[1], closer.foot[1]},
+                4,
+                {closer.foot[0].normal, closer.foot[1].normal, still, still, reach}};
+    };
     return {{{{closer.top[0], closer.foot[0], closer.foot[1], closer.top[1]},
               4,
               {closer.top[0].normal, closer.top[1].normal, still, closer.up, still}},
-             {{closer.foot[0], closer.foot[0], closer.foot[1], closer.foot[1]},
-              4,
-              {closer.foot[0].normal, closer.foot[1].normal, still, still, 0.5 * closer.side - closer.up}}}};
+             from_foot(0.5 * closer.side - closer.up),
+             from_foot(-0.5 * closer.side - closer.up)}};
 }
 
 // The plane that touches the Earth's normals in the middle of a seam.
