@@ -18,9 +18,12 @@ namespace {
 // Posts of one grid as they are drawn; each is placed once.
 class DrawnPosts {
   public:
-    DrawnPosts(const HeightField& field, double exaggeration) : field_(field), exaggeration_(exaggeration) {}
+    DrawnPosts(const HeightField& field, const CutOut& cut, double exaggeration)
+        : field_(field), cut_(cut), exaggeration_(exaggeration) {}
 
-    // The normal is that of the smooth ground: from the posts around, on the sides where there are any.
+    // The normal is that of the smooth ground: from the posts around, on the sides where there are any. Of
+    // what is cut out there are none, as for the pages beside it: the light is the same on both sides of an
+    // edge.
     const SeamCorner& at(GridPost post) {
         const auto [found, is_new] = drawn_.try_emplace(number(post));
         if (is_new) {
@@ -40,9 +43,10 @@ class DrawnPosts {
         return post_ecef(field_, post.row, post.column, exaggeration_).m;
     }
     [[nodiscard]] glm::dvec3 normal(GridPost post, const glm::dvec3& here) const {
+        const bool stays = !is_left_out(post);
         const auto place_or_here = [&](int down, int right) {
             const GridPost beside{post.row + down, post.column + right};
-            return is_there(beside) ? place(beside) : here;
+            return is_there(beside) && !(stays && is_left_out(beside)) ? place(beside) : here;
         };
         const glm::dvec3 up = glm::normalize(here);
         const glm::dvec3 down_row = place_or_here(1, 0) - place_or_here(-1, 0),
@@ -55,7 +59,11 @@ class DrawnPosts {
         return post.row >= 0 && post.column >= 0 && post.row < field_.grid.rows() &&
                post.column < field_.grid.columns() && !is_void(field_.H_at_post_m(post.row, post.column));
     }
+    [[nodiscard]] bool is_left_out(GridPost post) const {
+        return !cut_.left_out.empty() && cut_.left_out[number(post)] != 0;
+    }
     const HeightField& field_;
+    const CutOut& cut_;
     double exaggeration_;
     std::unordered_map<std::size_t, SeamCorner> drawn_;
 };
@@ -78,19 +86,24 @@ SeamCloser closer_between(const std::array<SeamCorner, 2>& one, const std::array
 // The corners of one grid's cut as they are drawn.
 class SeamBuilder {
   public:
-    SeamBuilder(const Region& region, const Region& one, double exaggeration) {
-        posts_.emplace_back(one.field, exaggeration);
-        for (const Region* finer : finer_than(region, one)) posts_.emplace_back(finer->field, exaggeration);
+    SeamBuilder(const std::vector<const Region*>& grids, const RegionCuts& cuts, std::size_t one,
+                double exaggeration)
+        : cut_(cuts.grids[one]) {
+        posts_.emplace_back(grids[one]->field, cut_, exaggeration);
+        for (std::size_t i = 0; i < grids.size(); ++i)
+            if (grids[i]->rank < grids[one]->rank)
+                posts_.emplace_back(grids[i]->field, cuts.grids[i], exaggeration);
     }
-    void add(const CutOut& cut, Seam& seam);
+    void add(Seam& seam);
 
   private:
     SeamCorner corner(const SeamPoint& point);
     // Where two points of the cut grid are the same.
     using Key = std::pair<std::int64_t, std::int64_t>;
     static Key key(const SeamPoint& point);
-    void close_outer_sides(const CutOut& cut, Seam& seam);
+    void close_outer_sides(Seam& seam);
 
+    const CutOut& cut_;
     std::vector<DrawnPosts> posts_;
 };
 
@@ -120,15 +133,15 @@ SeamBuilder::Key SeamBuilder::key(const SeamPoint& point) {
 
 // Sides of pieces that neither another piece nor a wall shares: there the grid's own triangles go on, as
 // placed by another program.
-void SeamBuilder::close_outer_sides(const CutOut& cut, Seam& seam) {
+void SeamBuilder::close_outer_sides(Seam& seam) {
     std::map<std::pair<Key, Key>, int> shared;
-    for (const SeamTriangle& piece : cut.ground)
+    for (const SeamTriangle& piece : cut_.ground)
         for (std::size_t i = 0; i < 3; ++i) ++shared[{key(piece.points[i]), key(piece.points[(i + 1) % 3])}];
-    for (const SeamWall& wall : cut.walls) {
+    for (const SeamWall& wall : cut_.walls) {
         ++shared[{key(wall.cut[0]), key(wall.cut[1])}];
         ++shared[{key(wall.cut[1]), key(wall.cut[0])}];
     }
-    for (const SeamTriangle& piece : cut.ground) {
+    for (const SeamTriangle& piece : cut_.ground) {
         for (std::size_t i = 0; i < 3; ++i) {
             const SeamPoint &from = piece.points[i], &to = piece.points[(i + 1) % 3];
             if (shared.contains({key(to), key(from)})) continue;
@@ -139,28 +152,29 @@ void SeamBuilder::close_outer_sides(const CutOut& cut, Seam& seam) {
     }
 }
 
-void SeamBuilder::add(const CutOut& cut, Seam& seam) {
-    for (const SeamTriangle& piece : cut.ground)
+void SeamBuilder::add(Seam& seam) {
+    for (const SeamTriangle& piece : cut_.ground)
         seam.pieces.push_back({{corner(piece.points[0]), corner(piece.points[1]), corner(piece.points[2])}});
-    for (const SeamWall& wall : cut.walls)
+    for (const SeamWall& wall : cut_.walls)
         seam.closers.push_back(closer_between({corner(wall.cut[0]), corner(wall.cut[1])},
                                               {corner(wall.over[0]), corner(wall.over[1])}));
-    close_outer_sides(cut, seam);
+    close_outer_sides(seam);
 }
 
 // What joins grids, and what closes its sides to them.
-void add_bridges(const std::vector<const Region*>& grids, const std::vector<GapBridge>& bridges,
-                 double exaggeration, Seam& seam) {
+void add_bridges(const std::vector<const Region*>& grids, const RegionCuts& cuts, double exaggeration,
+                 Seam& seam) {
     std::vector<DrawnPosts> posts;
-    for (const Region* const grid : grids) posts.emplace_back(grid->field, exaggeration);
+    for (std::size_t i = 0; i < grids.size(); ++i)
+        posts.emplace_back(grids[i]->field, cuts.grids[i], exaggeration);
     const auto corner = [&](const BridgePost& post) { return posts[post.grid].at(post.post); };
     using Key = std::tuple<std::size_t, int, int>;
     const auto key = [](const BridgePost& post) { return Key{post.grid, post.post.row, post.post.column}; };
     std::set<std::pair<Key, Key>> sides;
-    for (const GapBridge& bridge : bridges)
+    for (const GapBridge& bridge : cuts.bridges)
         for (std::size_t i = 0; i < 3; ++i)
             sides.insert({key(bridge.posts[i]), key(bridge.posts[(i + 1) % 3])});
-    for (const GapBridge& bridge : bridges) {
+    for (const GapBridge& bridge : cuts.bridges) {
         seam.pieces.push_back({{corner(bridge.posts[0]), corner(bridge.posts[1]), corner(bridge.posts[2])}});
         for (std::size_t i = 0; i < 3; ++i) {
             const BridgePost &from = bridge.posts[i], &to = bridge.posts[(i + 1) % 3];
@@ -206,9 +220,8 @@ Result<RegionCuts> cut_regions(const Region& region) {
 Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggeration) {
     Seam seam;
     const std::vector<const Region*> grids = all_grids(region);
-    for (std::size_t i = 0; i < grids.size(); ++i)
-        SeamBuilder(region, *grids[i], exaggeration).add(cuts.grids[i], seam);
-    add_bridges(grids, cuts.bridges, exaggeration, seam);
+    for (std::size_t i = 0; i < grids.size(); ++i) SeamBuilder(grids, cuts, i, exaggeration).add(seam);
+    add_bridges(grids, cuts, exaggeration, seam);
     return seam;
 }
 
