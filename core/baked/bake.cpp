@@ -57,6 +57,7 @@ class Bake {
 
     [[nodiscard]] PyramidHooks hooks() {
         PyramidHooks hooks;
+        hooks.bounding = MeshletBounding::spheres;  // a file holds no more
         hooks.recall = [this](const PageIndex& index, PyramidHooks::Measured& measured) {
             return recall(index, measured);
         };

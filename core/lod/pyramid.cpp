@@ -209,7 +209,8 @@ void LevelBuilder::build(std::size_t number, const PyramidHooks& hooks, PyramidP
                          gpu::PageBlock& block) {
     const auto columns = static_cast<std::size_t>(grid_.pages().columns);
     const PageIndex index{static_cast<int>(number / columns), static_cast<int>(number % columns), level_};
-    page.summary = build_page(region_, shape_, page_heights(region_, heights_, index), index, block);
+    page.summary =
+        build_page(region_, shape_, page_heights(region_, heights_, index), index, block, hooks.bounding);
     PyramidHooks::Measured measured;
     const bool known = hooks.recall && hooks.recall(index, measured);
     if (known) stitched_m_[number] = measured.stitched;

@@ -98,6 +98,7 @@ struct PyramidHooks {
                                const StitchedDeviations& stitched)>
         sink;
     static constexpr int pages_at_a_time = 32;
+    MeshletBounding bounding{MeshletBounding::whole};
 };
 
 // Builds all levels of a region with up to `threads` threads (at least 1); the result does not depend on

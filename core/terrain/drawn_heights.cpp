@@ -7,13 +7,10 @@
 #include "core/base/parallel.h"
 
 namespace oro {
-namespace {
 
 bool at_pole(const PostGrid& grid, int row) {
     return !grid.net && std::abs(row_lat_deg(grid, row)) == 90.0;
 }
-
-}  // namespace
 
 std::int32_t height_steps(double h_m) {
     constexpr double limit = highest_height_steps;

@@ -49,6 +49,9 @@ DrawnHeights drawn_heights(const HeightField& field, double exaggeration, int th
 // exactly on the pole.
 double row_lat_deg(const PostGrid& grid, std::int64_t row);
 
+// Whether all posts of a row are a pole.
+bool at_pole(const PostGrid& grid, int row);
+
 // The column whose H and N stand for all posts that are the same point as one that is not void: column 0 for
 // the last one of a region that goes round the Earth, and at a pole the first that is not void.
 int canonical_column(const HeightField& field, int row, int column);

@@ -45,8 +45,14 @@ struct PlacedPosts {
 class PageBuilder {
   public:
     PageBuilder(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights, PageIndex index,
-                gpu::PageBlock& block, PlacedPosts& placed)
-        : grid_(grid), shape_(shape), heights_(heights), block_(block), posts_(grid, index), placed_(placed) {
+                MeshletBounding bounding, gpu::PageBlock& block, PlacedPosts& placed)
+        : grid_(grid),
+          shape_(shape),
+          heights_(heights),
+          bounding_(bounding),
+          block_(block),
+          posts_(grid, index),
+          placed_(placed) {
         summary_.index = index;
     }
 
@@ -69,6 +75,7 @@ class PageBuilder {
     void bound_meshlets();
     void bound_page();
     void bound_meshlet(int number);
+    void bound_by_horizon(int number, std::span<const HorizonPoint> points);
     int mark_triangles(int number);
     gpu::uint box_around(std::span<const glm::dvec3> points, const gpu::MeshletBounds& bounds) const;
     HorizonPoint horizon_point_at(const glm::dvec3& position_m) const;
@@ -82,6 +89,7 @@ class PageBuilder {
     const PostGrid& grid_;
     const RegionShape& shape_;
     const PageHeights& heights_;
+    MeshletBounding bounding_;
     gpu::PageBlock& block_;
     PagePosts posts_;
     PageSummary summary_{};
@@ -280,12 +288,17 @@ void PageBuilder::bound_meshlet(int number) {
         }
     }
     const Sphere sphere = sphere_around(std::span(points).first(count));
-    const HorizonCone cone = horizon_cone(std::span(horizon).first(count));
     bounds.centre = sphere.centre;
     bounds.radius = sphere.radius;
     bounds.lod_radius = sphere.radius;
+    if (bounding_ == MeshletBounding::spheres) return;
     block_.boxes[number] = box_around(std::span(points).first(count), bounds);
-    bounds.horizon_angle_rad =
+    bound_by_horizon(number, std::span(horizon).first(count));
+}
+
+void PageBuilder::bound_by_horizon(int number, std::span<const HorizonPoint> points) {
+    const HorizonCone cone = horizon_cone(points);
+    block_.meshlets[number].horizon_angle_rad =
         std::nextafter(static_cast<float>(cone.angle_rad), std::numeric_limits<float>::infinity());
     directions_[static_cast<std::size_t>(number)] = cone.direction;
 }
@@ -311,7 +324,7 @@ void PageBuilder::bound_page() {
     summary_.radius_m = sphere.radius;
     const HorizonCone cone = horizon_cone(std::span(placed_.horizon).first(count));
     summary_.horizon = {summary_.ecef_from_page * cone.direction, cone.angle_rad};
-    for (std::size_t i = 0; i < directions_.size(); ++i) {
+    for (std::size_t i = 0; bounding_ == MeshletBounding::whole && i < directions_.size(); ++i) {
         if (block_.meshlets[i].radius < 0.0F) continue;
         block_.meshlets[i].horizon_offset =
             gpu::vec3(summary_.ecef_from_page * (directions_[i] - cone.direction));
@@ -350,9 +363,9 @@ void set_page_frame(PageSummary& summary) {
 }
 
 PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,
-                       PageIndex index, gpu::PageBlock& block) {
+                       PageIndex index, gpu::PageBlock& block, MeshletBounding bounding) {
     const Lent<std::unique_ptr<PlacedPosts>, std::make_unique<PlacedPosts>> placed;
-    return PageBuilder(grid, shape, heights, index, block, *placed.get()).build();
+    return PageBuilder(grid, shape, heights, index, bounding, block, *placed.get()).build();
 }
 
 PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,

@@ -70,9 +70,13 @@ PageElevations page_elevations(const HeightField& field, PageIndex index);
 PageHeights page_heights(const PostGrid& grid, const UndulationField& undulation, double exaggeration,
                          const PageElevations& elevations, PageIndex index);
 
+// What bounds each meshlet: all that a picture asks for, or spheres alone, without horizon cones and boxes. A
+// tenth of the time, for who only measures.
+enum class MeshletBounding { whole, spheres };
 // Fills `block` for a page of any level and gives its summary. The nodes' errors are left to the pyramid.
 PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,
-                       PageIndex index, gpu::PageBlock& block);
+                       PageIndex index, gpu::PageBlock& block,
+                       MeshletBounding bounding = MeshletBounding::whole);
 // The same from the field's own posts.
 PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
                        gpu::PageBlock& block);

@@ -57,6 +57,27 @@ PageDiagonals diagonals_of(const PostGrid& grid, const PageElevations& elevation
     return rises;
 }
 
+// Heights of a row's posts, each that which is drawn for all posts of its place. What a row is, is asked
+// once.
+class RowElevations {
+  public:
+    RowElevations(const HeightField& field, int row)
+        : field_(&field), row_(row), all_(row >= 0 && at_pole(field.grid, row)) {
+        twin_ = field.grid.goes_round() ? field.grid.columns() - 1 : -1;
+    }
+    [[nodiscard]] int row() const { return row_; }
+    [[nodiscard]] float H_m(int column) const {
+        if (all_ || column == twin_)
+            return field_->H_at_post_m(row_, canonical_column(*field_, row_, column));
+        return field_->H_at_post_m(row_, column);
+    }
+
+  private:
+    const HeightField* field_;
+    int row_, twin_;
+    bool all_;
+};
+
 }  // namespace
 
 PageLayout page_layout(const PostGrid& grid) {
@@ -75,10 +96,16 @@ PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, Page
 
 PageElevations page_elevations(const HeightField& field, PageIndex index) {
     PageElevations page;
-    for_each_post(PagePosts(field.grid, index), [&](std::size_t i, const std::optional<PageIndex>& post) {
-        page.H_m[i] = post ? field.H_at_post_m(post->row, canonical_column(field, post->row, post->column))
-                           : void_height_m;
-    });
+    const PagePosts page_posts(field.grid, index);
+    for (int row = -1; row <= posts; ++row) {
+        RowElevations elevations(field, -1);
+        for (int column = -1; column <= posts; ++column) {
+            const std::optional<PageIndex> post = page_posts.region_post(row, column);
+            if (post && elevations.row() != post->row) elevations = RowElevations(field, post->row);
+            page.H_m[static_cast<std::size_t>((row + 1) * stride + column + 1)] =
+                post ? elevations.H_m(post->column) : void_height_m;
+        }
+    }
     // The post after a last column that is the first one.
     const LevelGrid level = level_grid(field.grid, index.level);
     const int after = level.column.quads + 1 - index.column * quads;
