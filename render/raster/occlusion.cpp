@@ -10,9 +10,6 @@ namespace {
 
 // Without a last frame: the nearest 16th of the pages that have something to draw, then a quarter, then all.
 constexpr gpu::uint first_share = gpu::round_shares / 16, second_share = gpu::round_shares / 4;
-// Of if_it_pays: the slower way is tried again after so many frames, twice as many each time that it is
-// slower still.
-constexpr std::uint32_t first_patience = 16, most_patience = 1024;
 
 gpu::FrameRound round_of(gpu::uint first, gpu::uint last, bool is_last) {
     gpu::FrameRound round{};
@@ -64,22 +61,6 @@ bool Occlusion::shows_much_of(const FramePlan& plan) const {
     return moved_m <= 100.0F + 0.05F * std::abs(now.eye_h_m);
 }
 
-// Both ways are tried, and then that which took less time goes on. Other views begin anew, with occlusion:
-// where a view is seen once, that is what it costs least with by the mesh path.
-bool Occlusion::goes_without() {
-    if (with_s_ == 0.0) return false;
-    if (without_s_ == 0.0) return true;
-    const bool without_is_faster = without_s_ < with_s_;
-    if (wait_ > 0) {
-        --wait_;
-        return without_is_faster;
-    }
-    // With it twice: what the first such frame knows of what is seen may be old.
-    if (trials_ == 0) trials_ = without_is_faster ? 2 : 1;
-    if (--trials_ == 0) wait_ = patience_ = std::min(2 * patience_, most_patience);
-    return !without_is_faster;
-}
-
 void Occlusion::begin(const FramePlan& plan, bool remembers) {
     rounds_.assign(1, round_of(0, gpu::round_shares, true));
     may_tie_ = uses_last_frame_ = false;
@@ -93,13 +74,11 @@ void Occlusion::begin(const FramePlan& plan, bool remembers) {
     last_ = plan.constants;
     for (const FramePlan& other : plan.beside) last_.page_count += other.constants.page_count;
     if (last_.page_count == 0) return;  // nothing hides anything
-    if (!much) {
-        with_s_ = without_s_ = 0.0;
-        patience_ = wait_ = first_patience;
-        trials_ = 0;
-    }
+    // Other views begin with occlusion: where a view is seen once, that is what it costs least with by the
+    // mesh path.
+    if (!much) faster_.forget();
     // While pages are missing, what is seen decides which come first.
-    if (use_ == OcclusionUse::if_it_pays && much && plan.is_settled() && goes_without()) return;
+    if (use_ == OcclusionUse::if_it_pays && much && plan.is_settled() && faster_.goes_without()) return;
     uses_last_frame_ = much && remembers;
     if (uses_last_frame_) {
         rounds_ = {round_of(0, 0, false), round_of(0, gpu::round_shares, true)};
@@ -130,10 +109,8 @@ void Occlusion::record_pyramid(VkCommandBuffer commands, const Pipelines& pipeli
 }
 
 void Occlusion::end(double raster_s) {
-    if (!is_on())
-        without_s_ = raster_s;
-    else if (was_on_)
-        with_s_ = raster_s;
+    // What the first frame in rounds after one without knows of what is seen may be old: it is not counted.
+    if (!is_on() || was_on_) faster_.took(is_on(), raster_s);
     was_on_ = is_on();
 }
 

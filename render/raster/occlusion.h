@@ -8,6 +8,7 @@
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
 #include "render/frame/pipelines.h"
+#include "render/raster/faster_way.h"
 
 namespace oro {
 
@@ -15,7 +16,7 @@ namespace oro {
 enum class OcclusionUse {
     off,
     on,
-    if_it_pays  // as it took less time when both were tried; now and then the other is tried again
+    if_it_pays  // as it took less time when both were tried (faster_way.h)
 };
 
 class Occlusion {
@@ -50,12 +51,8 @@ class Occlusion {
     bool may_tie_{}, uses_last_frame_{};
     std::vector<gpu::FrameRound> rounds_;
     gpu::FrameConstants
-        last_{};  // of the last frame that was drawn in rounds; its page_count 0: there is none
-    // Of if_it_pays: what a frame took with it and without, 0 where it was not tried; frames until the slower
-    // is tried again, and after how many that is.
-    [[nodiscard]] bool goes_without();
-    double with_s_{}, without_s_{};
-    std::uint32_t wait_{}, patience_{}, trials_{};
+        last_{};        // of the last frame that was drawn in rounds; its page_count 0: there is none
+    FasterWay faster_;  // of if_it_pays
     bool was_on_{};
     Buffer pyramid_, ids_before_;
 };
