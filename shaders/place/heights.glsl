@@ -9,6 +9,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Pa
     uint codes[];
 };
 
+// Whether the frame's pages may have packed heights: programs without the code for them take fewer registers.
+layout(constant_id = 100) const bool heights_packed = false;  // render/frame/pipelines.cpp
+
 // As unpacked_height of core/packed/packed_heights.cpp.
 int packed_height(PackedPages page, uvec2 place) {
     uvec2 at = place / packed_side, within = place % packed_side;
@@ -32,7 +35,7 @@ int packed_height(PackedPages page, uvec2 place) {
 
 // A height of a page by its row and column among its 131 x 131, in steps of height_step_m; void_height where there is none.
 int stored_height(PageBlocks block, uvec2 place) {
-    if (FRAME.height_bits == height_bits_packed) return packed_height(PackedPages(block), place);
+    if (heights_packed && FRAME.height_bits == height_bits_packed) return packed_height(PackedPages(block), place);
     uint number = place.x * height_stride + place.y;
     if (FRAME.height_bits == 32u) return block.at[0].heights[number];
     int code = bitfieldExtract(block.at[0].heights[number >> 1u], int(number & 1u) * 16, 16);
