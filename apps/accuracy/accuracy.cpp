@@ -83,7 +83,9 @@ void apply_bundle(const AccuracyBundle& bundle, View& view) {
 }
 
 bool is_drawn_as(const AccuracyBundle& bundle, const View& view) {
-    return view.tau_px == bundle.tau_px && view.heights == bundle.heights && view.model.air == bundle.air;
+    // Packed heights are those of f32.
+    const bool same_heights = (view.heights == HeightStorage::i16) == (bundle.heights == HeightStorage::i16);
+    return view.tau_px == bundle.tau_px && same_heights && view.model.air == bundle.air;
 }
 
 void forget_other_bundle(View& view) {

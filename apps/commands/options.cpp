@@ -179,9 +179,10 @@ void add_model_options(OptionGroup& detail, ViewOptions& options) {
     detail.choice("--geoid", options.geoid, geoid_words(),
                   "egm96 (default): sea level is where the EGM96 model has it. none: it is the ellipsoid "
                   "itself, to show how far off that is.");
-    detail.choice("--heights", options.heights, heights_words(),
-                  "How the GPU keeps heights: f32 in steps of 0.5 mm (default), or i16 in half the memory "
-                  "and coarser steps.");
+    detail.choice(
+        "--heights", options.heights, heights_words(),
+        "How the GPU keeps heights: f32 in steps of 0.5 mm (default), packed for the same picture in "
+        "less than half of the memory, or i16 in half the memory and coarser steps.");
     detail.choice(
         "--accuracy", options.accuracy, accuracy_words(),
         "Set several options together: " + bundle_words() + ". Options given one by one win over it.");

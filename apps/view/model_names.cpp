@@ -25,7 +25,8 @@ constexpr Names<Precision, 3> precisions{
 constexpr Names<bool, 2> geoids{{{"egm96", true}, {"none", false}}};
 constexpr Names<Air, 1> airs{{{"standard", standard_air}}};
 constexpr Names<AirLaw, 2> air_laws{{{"constant", AirLaw::constant}, {"standard", AirLaw::standard}}};
-constexpr Names<HeightStorage, 2> storages{{{"f32", HeightStorage::f32}, {"i16", HeightStorage::i16}}};
+constexpr Names<HeightStorage, 3> storages{
+    {{"f32", HeightStorage::f32}, {"packed", HeightStorage::packed}, {"i16", HeightStorage::i16}}};
 constexpr Names<Sea, 3> seas{{{"level", Sea::level}, {"low", Sea::low}, {"voids", Sea::voids}}};
 constexpr Names<Rim, 2> rims{{{"skirt", Rim::skirt}, {"none", Rim::none}}};
 constexpr Names<std::optional<bool>, 3> labels_of_view{{{"style", {}}, {"on", true}, {"off", false}}};

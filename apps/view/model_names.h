@@ -13,7 +13,7 @@ namespace oro {
 Result<Earth> earth_named(const std::string& name);            // "ellipsoid", "sphere", "flat"
 Result<Precision> precision_named(const std::string& name);    // "relative", "naive"
 Result<bool> geoid_named(const std::string& name);             // "egm96": true, "none"
-Result<HeightStorage> heights_named(const std::string& name);  // "f32", "i16"
+Result<HeightStorage> heights_named(const std::string& name);  // "f32", "packed", "i16"
 Result<Sea> sea_named(const std::string& name);                // "level", "low", "voids"
 Result<Rim> rim_named(const std::string& name);                // "skirt", "none"
 Result<Show> show_named(const std::string& name);              // "visible", "levels", ...

@@ -9,6 +9,7 @@
 #include "core/lod/levels.h"
 #include "core/net/page_on_net.h"
 #include "core/terrain/drawn_heights.h"
+#include "shaders/packed_heights.h"
 
 namespace oro {
 namespace {
@@ -276,7 +277,7 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.eye_h_m = static_cast<float>(camera.eye.h_m);
     constants.earth_radius_m = static_cast<float>(seen_earth_radius_m(model, camera.eye));
     set_model(model, camera, constants);
-    constants.height_bits = coding.sixteen ? 16U : 32U;
+    constants.height_bits = coding.sixteen ? 16U : coding.packed ? gpu::height_bits_packed : 32U;
     constants.height_shift = static_cast<gpu::uint>(coding.shift);
     constants.height_offset = coding.offset_steps;
     constants.width_px = static_cast<gpu::uint>(tile.width_px);

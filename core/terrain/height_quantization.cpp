@@ -7,7 +7,7 @@
 namespace oro {
 
 HeightQuantization sixteen_bits(std::int32_t lowest_steps, std::int32_t highest_steps) {
-    HeightQuantization coding{true, 0, 0};
+    HeightQuantization coding{true, 0, 0, false};
     const std::int64_t range = std::int64_t{highest_steps} - lowest_steps;
     while (range > std::int64_t{65534} << coding.shift) ++coding.shift;
     coding.offset_steps = static_cast<std::int32_t>((std::int64_t{highest_steps} + lowest_steps) / 2);
@@ -15,7 +15,8 @@ HeightQuantization sixteen_bits(std::int32_t lowest_steps, std::int32_t highest_
 }
 
 Result<HeightQuantization> height_quantization(const RegionPages& pages, HeightStorage storage) {
-    if (storage == HeightStorage::f32) return HeightQuantization{};
+    if (storage != HeightStorage::i16)
+        return HeightQuantization{false, 0, 0, storage == HeightStorage::packed};
     double lowest_m = std::numeric_limits<double>::infinity(), highest_m = -lowest_m;
     const PageLayout layout = pages.layout(0);
     for (int row = 0; row < layout.rows; ++row) {

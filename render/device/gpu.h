@@ -86,6 +86,7 @@ struct PipelinesKey {
     bool record_positions{};
     bool leave_out_small{};
     bool overdraw{};
+    bool packed_heights{};
     auto operator<=>(const PipelinesKey&) const = default;
 };
 

@@ -115,7 +115,8 @@ Result<void> DepthPainter::draw_tile(Scene& scene, const Camera& camera, const g
     ORO_TRY(const std::vector<DrawnPoint> points, read_points(*renderer_, camera, tile));
     place_tile(points, tile, camera.width_px, 1, picture.points);
     add(picture.report, report);
-    picture.page_bytes += report.pages * page_bytes(scene.store().coding());
+    picture.page_bytes +=
+        static_cast<std::uint64_t>(static_cast<double>(report.pages) * scene.store().bytes_a_page());
     ++picture.tiles;
     ORO_TRY(const std::vector<std::uint8_t> rgba,
             renderer_->read_picture(static_cast<std::uint32_t>(tile.width_px),

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "render/frame/frame_layout.h"
+#include "shaders/packed_heights.h"
 
 namespace oro {
 namespace {
@@ -42,6 +43,16 @@ Result<void> number_pages(FramePlan& plan) {
     return {};
 }
 
+PipelineWants wants_of(const FrameRendererOptions& options, bool packed_heights) {
+    return {options.record_positions,           options.keep_triangles,
+            options.show != gpu::show_colours,  options.leave_out_small && !options.record_positions,
+            options.show == gpu::show_overdraw, packed_heights};
+}
+
+bool has_packed_heights(const FramePlan& plan) {
+    return plan.constants.height_bits == gpu::height_bits_packed;
+}
+
 }  // namespace
 
 Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererOptions& options) {
@@ -55,11 +66,7 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
             ErrorKind::failed, gpu.report().name,
             "cannot count triangles by mesh shaders (fragmentStoresAndAtomics is missing); --pipeline "
             "compute can"};
-    ORO_TRY(
-        renderer.pipelines_,
-        shared_pipelines(gpu, options.path,
-                         {options.record_positions, options.keep_triangles, options.show != gpu::show_colours,
-                          options.leave_out_small && !options.record_positions, overdraw}));
+    ORO_TRY(renderer.pipelines_, shared_pipelines(gpu, options.path, wants_of(options, false)));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
     ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
     constexpr VkBufferUsageFlags counted =
@@ -116,6 +123,14 @@ Result<void> FrameRenderer::create_sets() {
         ORO_CHECK(grid.create_set(
             *gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get(), depth_.view.get()}));
     return {};
+}
+
+// Those for the way in which the frame's heights are kept.
+Result<void> FrameRenderer::choose_pipelines(const FramePlan& plan) {
+    const bool packed = has_packed_heights(plan) || std::ranges::any_of(plan.beside, has_packed_heights);
+    if (packed == pipelines_->packed_heights) return {};
+    ORO_TRY(pipelines_, shared_pipelines(*gpu_, options_.path, wants_of(options_, packed)));
+    return create_sets();
 }
 
 // Room for all that a frame's grids share.
@@ -245,6 +260,7 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     assert(sample_count == 1 ||
            (options_.several_samples && !options_.smooth_edges && options_.show == gpu::show_colours));
     ORO_CHECK(number_pages(plan));
+    ORO_CHECK(choose_pipelines(plan));
     ORO_CHECK(reserve(plan));
     occlusion_->begin(plan, remembers(plan));
     if (occlusion_->is_on() && !occlusion_->uses_last_frame())

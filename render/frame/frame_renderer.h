@@ -102,6 +102,7 @@ class FrameRenderer {
     explicit FrameRenderer(const Gpu& gpu) : gpu_(&gpu) {}
     Result<void> create_images();
     Result<void> create_sets();
+    Result<void> choose_pipelines(const FramePlan& plan);
     Result<void> reserve(const FramePlan& plan);
     // What a frame is asked for besides its plan.
     struct FrameAsked {

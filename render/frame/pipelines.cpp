@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "shaders/shared.h"
 #include "spirv/accept_comp.h"
@@ -43,6 +45,33 @@ Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t>
     gpu.name(VK_OBJECT_TYPE_SHADER_MODULE, handle, name);
     return OwnedShader(gpu.device(), handle);
 }
+
+// A program's own constants, and that which all programs that read heights have (shaders/place/heights.glsl).
+class AllConstants {
+  public:
+    AllConstants(const VkSpecializationInfo* own, bool packed_heights) {
+        if (own != nullptr) {
+            entries_.assign(own->pMapEntries, own->pMapEntries + own->mapEntryCount);
+            const auto* const values = static_cast<const std::byte*>(own->pData);
+            values_.assign(values, values + own->dataSize);
+        }
+        constexpr std::uint32_t heights_packed = 100;
+        const VkBool32 value = packed_heights ? VK_TRUE : VK_FALSE;
+        entries_.push_back({heights_packed, static_cast<std::uint32_t>(values_.size()), sizeof(value)});
+        const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
+        values_.insert(values_.end(), bytes, bytes + sizeof(value));
+        info_ = {static_cast<std::uint32_t>(entries_.size()), entries_.data(), values_.size(),
+                 values_.data()};
+    }
+    AllConstants(const AllConstants&) = delete;
+    AllConstants& operator=(const AllConstants&) = delete;
+    [[nodiscard]] const VkSpecializationInfo* info() const { return &info_; }
+
+  private:
+    std::vector<VkSpecializationMapEntry> entries_;
+    std::vector<std::byte> values_;
+    VkSpecializationInfo info_{};
+};
 
 Result<void> create_layouts(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
     std::array<VkDescriptorSetLayoutBinding, 5> bindings{};
@@ -197,8 +226,9 @@ Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& p
                                          &task_constants};
     const VkSpecializationInfo mesh_info{4, stage_constants_map.data(), sizeof(mesh_constants),
                                          &mesh_constants};
+    const AllConstants mesh_all(&mesh_info, pipelines.packed_heights);
     const std::array stages{stage(VK_SHADER_STAGE_TASK_BIT_EXT, task, &task_info),
-                            stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, &mesh_info),
+                            stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, mesh_all.info()),
                             stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
     return create_raster_pipeline(gpu, pipelines, stages, ties, ties ? "terrain ties" : "terrain");
 }
@@ -292,6 +322,7 @@ Result<void> create_compute_path(const Gpu& gpu, bool overdraw, Pipelines& pipel
 
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants) {
     Pipelines pipelines;
+    pipelines.packed_heights = wants.packed_heights;
     ORO_CHECK(create_layouts(gpu, path, pipelines));
     ORO_CHECK(path == RasterPath::mesh ? create_mesh_path(gpu, wants, pipelines)
                                        : create_compute_path(gpu, wants.overdraw, pipelines));
@@ -336,7 +367,8 @@ Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& p
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.flags = flags;
-    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, constants);
+    const AllConstants all(constants, pipelines.packed_heights);
+    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, all.info());
     info.layout = pipelines.layout.get();
     VkPipeline handle{};
     ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
@@ -348,7 +380,7 @@ Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath p
                                                     const PipelineWants& wants) {
     const bool small = wants.leave_out_small && path == RasterPath::mesh;
     std::shared_ptr<Pipelines>& kept =
-        gpu.kept_pipelines({path, wants.record_positions, small, wants.overdraw});
+        gpu.kept_pipelines({path, wants.record_positions, small, wants.overdraw, wants.packed_heights});
     if (!kept) {
         ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants));
         kept = std::make_shared<Pipelines>(std::move(pipelines));

@@ -37,6 +37,7 @@ struct ShadingKind {
 };
 
 struct Pipelines {
+    bool packed_heights{};  // as PipelineWants
     // 0 ids, 1 sum, 2 picture: storage images of the shading pass; 3 FrameConstants; depth_binding: the mesh
     // path's depth, sampled
     OwnedSetLayout set;
@@ -72,6 +73,7 @@ struct PipelineWants {
     bool show{false};              // `show` is there
     bool leave_out_small{false};   // mesh path: triangles that cover no pixel's centre are not drawn
     bool overdraw{false};          // triangles are counted into FrameConstants.overdraw
+    bool packed_heights{false};    // pages may have packed heights: their code would cost others registers
 };
 
 // Made once and kept until the device ends, with all that has been added since: drivers take longer to make

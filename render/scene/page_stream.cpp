@@ -4,14 +4,17 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/packed/packed_heights.h"
 
 namespace oro {
 
-PageStream::PageStream(const RegionPages& pages, int threads, std::size_t capacity, const PageParts& parts)
+PageStream::PageStream(const RegionPages& pages, int threads, std::size_t capacity, const PageParts& parts,
+                       bool packs)
     : pages_(pages),
       most_threads_(std::max(1, threads)),
       capacity_(std::max<std::size_t>(1, capacity)),
-      parts_(parts) {}
+      parts_(parts),
+      packs_(packs) {}
 
 PageStream::~PageStream() {
     for (std::jthread& thread : threads_) thread.request_stop();
@@ -84,6 +87,8 @@ void PageStream::load_next(std::unique_lock<std::mutex>& lock) {
             loaded.places = std::make_unique<gpu::PagePlaces>();
             done = pages_.load_places(page, *loaded.block, *loaded.places);
         }
+        if (packs_ && done.ok())
+            loaded.heights = packed_heights(loaded.block->heights, pages_.facts().shape.exaggeration);
         lock.lock();
         if (done.ok()) {
             ready_.push_back(std::move(loaded));

@@ -23,8 +23,10 @@ class PageStream {
     // `capacity`: pages that may be under way or ready at a time, at least 1; 80 KB each. `pages` outlives
     // the stream. Threads begin with the first page that is wanted. Where fewer are to be had, or none, it
     // does with those: without any, take() loads pages itself.
-    // parts: pages come with these, too; means are 222 KB more, places 200 KB.
-    PageStream(const RegionPages& pages, int threads, std::size_t capacity, const PageParts& parts = {});
+    // parts: pages come with these, too; means are 222 KB more, places 200 KB. packs: they come with packed
+    // heights.
+    PageStream(const RegionPages& pages, int threads, std::size_t capacity, const PageParts& parts = {},
+               bool packs = false);
     ~PageStream();
     PageStream(const PageStream&) = delete;
     PageStream& operator=(const PageStream&) = delete;
@@ -49,6 +51,7 @@ class PageStream {
     int most_threads_;  // to be begun; 0: they are
     std::size_t capacity_;
     PageParts parts_;
+    bool packs_;
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;
     std::deque<PageIndex> wanted_;

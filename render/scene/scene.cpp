@@ -22,9 +22,9 @@ Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
     return buffer;
 }
 
-// Device address of what lies behind a page's block.
-gpu::uvec2 behind(const gpu::FramePage& page, std::uint64_t offset) {
-    return address_words((std::uint64_t{page.block.y} << 32U | page.block.x) + offset);
+// Device address of what lies so far before a page's block.
+gpu::uvec2 before(const gpu::FramePage& page, std::uint64_t bytes) {
+    return address_words((std::uint64_t{page.block.y} << 32U | page.block.x) - bytes);
 }
 
 }  // namespace
@@ -50,7 +50,8 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, 
     scene.number_ = ++scenes;
     const std::uint64_t under_way = (memory.main > 0 ? memory.main : default_main_bytes) / memory.shares;
     const std::size_t page_size = page_bytes({}, parts);
-    scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, parts);
+    scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, parts,
+                                                 coding.packed);
     const UndulationField& undulation = scene.pages_->facts().undulation;
     if (!undulation.N_m.empty()) {
         ORO_TRY(scene.undulation_, create_undulation(gpu, undulation));
@@ -103,7 +104,7 @@ bool Scene::saw(std::span<const FrameSights> sights) {
 // without: what comes next may take their place.
 Result<FramePlan> Scene::plan_of_pages(const Camera& camera, const Tile& tile, double tau_px,
                                        const WorldModel& model) {
-    const double spacing_px = store_.means_offset() > 0 ? gpu::means_spacing_px : gpu::shading_spacing_px;
+    const double spacing_px = store_.means_before() > 0 ? gpu::means_spacing_px : gpu::shading_spacing_px;
     const auto planned = [&](const Residency& residency) {
         store_.begin_frame();
         return plan_frame(*pages_, residency, camera, tile, tau_px, model, store_.coding(), spacing_px,
@@ -159,12 +160,12 @@ Result<FramePlan> Scene::own_plan(const Camera& camera, const Tile& tile, double
     for (const PageIndex& page : std::span(plan.missing).last(plan.missing_hidden))
         hidden_.insert({page.level, page.row, page.column});
     plan.wants_sights = !plan.missing.empty() || !store_.has_room();
-    if (store_.means_offset() > 0) {
+    if (store_.means_before() > 0) {
         plan.constants.has_means = 1;
-        for (gpu::FramePage& page : plan.pages) page.means = behind(page, store_.means_offset());
+        for (gpu::FramePage& page : plan.pages) page.means = before(page, store_.means_before());
     }
-    if (store_.places_offset() > 0) {
-        for (gpu::FramePage& page : plan.pages) page.places = behind(page, store_.places_offset());
+    if (store_.places_before() > 0) {
+        for (gpu::FramePage& page : plan.pages) page.places = before(page, store_.places_before());
     }
     plan.constants.undulation.N_m = address_words(undulation_.address);
     plan.heights = number_;
@@ -177,7 +178,6 @@ Result<Scene::Sent> Scene::send_ready(bool wait) {
     std::ranges::stable_partition(ready, [](const LoadedPage& page) { return !page.is_hidden; });
     Sent sent;
     ORO_TRY(sent.count, store_.send(ready));
-    bytes_sent_ += sent.count * page_bytes(store_.coding());
     if (sent.count < ready.size()) (ready[sent.count].is_hidden ? sent.hidden_left : sent.shown_left) = true;
     return sent;
 }
@@ -242,20 +242,25 @@ Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, do
     return plan;
 }
 
-// Pages become ready in any order, so no more are asked for than there is room for.
+// Pages become ready in any order, so no more are asked for than there is room for. Where they differ in size
+// there may be room for others then.
 Result<bool> Scene::bring(std::span<const PageIndex> all_pages) {
-    const std::span<const PageIndex> pages = all_pages.first(std::min(all_pages.size(), store_.room()));
-    stream_->want(pages);
-    for (std::size_t count = 0; count < pages.size();) {
-        ORO_TRY(const Sent sent, send_ready(true));
-        count += sent.count;
-        if (sent.hidden_left || sent.shown_left) {
-            stream_->want({});
-            return false;
+    while (!all_pages.empty()) {
+        const std::span<const PageIndex> pages = all_pages.first(std::min(all_pages.size(), store_.room()));
+        stream_->want(pages);
+        if (pages.empty()) return false;
+        for (std::size_t count = 0; count < pages.size();) {
+            ORO_TRY(const Sent sent, send_ready(true));
+            count += sent.count;
+            if (sent.hidden_left || sent.shown_left) {
+                stream_->want({});
+                return false;
+            }
+            if (sent.count == 0) break;
         }
-        if (sent.count == 0) break;
+        all_pages = all_pages.subspan(pages.size());
     }
-    return pages.size() == all_pages.size();
+    return true;
 }
 
 Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,

@@ -92,7 +92,7 @@ class Scene {
 
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
     [[nodiscard]] PageStore& store() { return store_; }
-    [[nodiscard]] std::uint64_t bytes_sent() const { return bytes_sent_; }
+    [[nodiscard]] std::uint64_t bytes_sent() const { return store_.bytes_sent(); }
     // From one height that the GPU can keep to the next; posts are at most half of it from their own.
     [[nodiscard]] double height_step_m() const { return store_.coding().step_m(); }
 
@@ -129,7 +129,6 @@ class Scene {
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
     std::uint64_t number_{};  // FramePlan::heights
-    std::uint64_t bytes_sent_{};
     SeenGround seen_;
     std::set<std::tuple<int, int, int>> hidden_;  // of what the last plan misses
     bool full_{false};                            // of the last frame's pages

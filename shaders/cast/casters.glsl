@@ -35,9 +35,9 @@ CasterCell unsplit_caster_cell(PageBlocks block, uint level, ivec2 post) {
     CasterCell cell;
     cell.from = ivec2(number << level);
     cell.to = min(cell.from + (1 << level), ivec2(FRAME.last_row, FRAME.last_column));
-    uint place = ((number.x & 127u) + 1u) * height_stride + (number.y & 127u) + 1u;
-    cell.heights = ivec4(stored_height(block, place), stored_height(block, place + 1u), stored_height(block, place + height_stride),
-                         stored_height(block, place + height_stride + 1u));
+    uvec2 place = (number & 127u) + 1u;
+    cell.heights = ivec4(stored_height(block, place), stored_height(block, place + uvec2(0u, 1u)),
+                         stored_height(block, place + uvec2(1u, 0u)), stored_height(block, place + 1u));
     cell.rises = false;
     return cell;
 }

@@ -4,15 +4,7 @@
 #include "shaders/place/bend.glsl"
 #include "shaders/place/seam.glsl"
 
-// A height of a page by its place among page_heights, in steps of height_step_m; void_height where there is none.
-int stored_height(PageBlocks block, uint place) {
-    if (FRAME.height_bits == 32u) return block.at[0].heights[place];
-    int code = bitfieldExtract(block.at[0].heights[place >> 1u], int(place & 1u) * 16, 16);
-    if (code == void_code) return void_height;
-    return (code << FRAME.height_shift) + FRAME.height_offset;
-}
-
-int post_height(PageBlocks block, uvec2 post) { return stored_height(block, (post.x + 1u) * height_stride + post.y + 1u); }
+#include "shaders/place/heights.glsl"
 
 // The sum of a 64-bit and a 32-bit whole number of steps, rounded once if it fits 32 bits, and by its value alone otherwise. Metres.
 float lattice_m(uint low, uint high, int more) {

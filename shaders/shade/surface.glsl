@@ -26,7 +26,7 @@ struct SurfacePoint {
 };
 
 int height_or(PageBlocks block, ivec2 post, int otherwise) {
-    int height = stored_height(block, uint(post.x + 1) * height_stride + uint(post.y + 1));
+    int height = stored_height(block, uvec2(post + 1));
     return height == void_height ? otherwise : height;
 }
 

@@ -37,7 +37,7 @@ TEST(RefusedOptions, Choices) {
         {{{"plan", file, "--earth", "round"}, "--earth round: choose ellipsoid, sphere or flat"},
          {{"plan", file, "--precision", "double"}, "--precision double: choose relative or naive"},
          {{"plan", file, "--geoid", "egm2008"}, "--geoid egm2008: choose egm96 or none"},
-         {{"plan", file, "--heights", "f64"}, "--heights f64: choose f32 or i16"},
+         {{"plan", file, "--heights", "f64"}, "--heights f64: choose f32, packed or i16"},
          {{"plan", file, "--accuracy", "best"}, "--accuracy best: choose draft, balanced or survey"},
          {{"shot", file, "--pipeline", "cpu"}, "--pipeline cpu: choose auto, mesh or compute"},
          {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft or cm"},

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <random>
+#include <tuple>
 
+#include "core/frame/casters.h"
 #include "core/terrain/height_quantization.h"
 #include "tests/support/drawn_scene.h"
 #include "tests/support/rough_terrain.h"
@@ -13,6 +16,19 @@ namespace oro {
 namespace {
 
 constexpr int side_px = 128;
+
+gpu::FrameStyle lit_style(bool casts) {
+    gpu::FrameStyle style{};
+    style.tint_count = 1;
+    style.tints[0].colour = gpu::vec3(0.8F);
+    style.sun_enu = glm::normalize(gpu::vec3(0.7F, 0.4F, 0.3F));
+    style.ambient = 0.2F;
+    style.relief = 1.0F;
+    style.haze_distance_m = 1e9F;
+    style.sky_scale_height_m = 8000.0F;
+    style.shadows = style.sky_openness = casts ? 1U : 0U;
+    return style;
+}
 
 class HeightsOnGpu : public test::GpuTest {
   protected:
@@ -56,6 +72,7 @@ class HeightsOnGpu : public test::GpuTest {
     }
 
     HeightField field_;
+    std::mt19937 random_{76};
 };
 
 TEST_F(HeightsOnGpu, TakeHalfTheBytes) {
@@ -130,6 +147,39 @@ TEST_F(HeightsOnGpu, BothPathsDrawTheSame) {
     std::printf("%zu of %zu pixels differ\n", different, pixels);
     EXPECT_LE(different, pixels / 1000);
     EXPECT_LT(background, pixels / 2);
+}
+
+// Packed ones are those of 32 bits: not one pixel's triangle, depth or colour is another, by either path.
+// Half of the views have shadows and the sky's openness, which read heights in ways of their own.
+TEST_F(HeightsOnGpu, PackedDrawTheSamePictures) {
+    for (float& H_m : field_.H_m)
+        if (!is_void(H_m) && random_() % 5 != 0) H_m = std::round(H_m);
+    Scene whole = scene(HeightStorage::f32), packed = scene(HeightStorage::packed);
+    std::ptrdiff_t background = 0;
+    for (const RasterPath path : {RasterPath::mesh, RasterPath::compute}) {
+        FrameRenderer renderer = this->renderer(path);
+        for (int i = 0; i < 24; ++i) {
+            const Camera eye = camera(std::pow(1.5, i), 37.0 * i, i % 3 == 0 ? -90.0 : -20.0);
+            const gpu::FrameStyle style = lit_style(i % 4 >= 2);
+            const auto drawn = [&](Scene& from) {
+                from.cast(cast_request(style));
+                EXPECT_TRUE(renderer.draw(plan(from, eye, i % 2 ? 1.0 : 0.0), style).ok());
+                return std::tuple(*renderer.read_ids(side_px, side_px),
+                                  *renderer.read_depths(side_px, side_px),
+                                  *renderer.read_picture(side_px, side_px));
+            };
+            const auto [ids, depths, colours] = drawn(whole);
+            const auto [packed_ids, packed_depths, packed_colours] = drawn(packed);
+            EXPECT_EQ(ids, packed_ids) << "eye " << i;
+            EXPECT_EQ(depths, packed_depths) << "eye " << i;
+            EXPECT_EQ(colours, packed_colours) << "eye " << i;
+            background += std::count(ids.begin(), ids.end(), 0U);
+        }
+    }
+    EXPECT_LT(background, 48 * side_px * side_px / 2);
+    EXPECT_LT(packed.store().bytes_a_post(), 2.6) << "a fifth of the posts have no whole metres";
+    EXPECT_EQ(whole.store().bytes_a_post(), 4.0 * 17161 / 16384);
+    EXPECT_EQ(packed.height_step_m(), 1.0 / 2048.0);
 }
 
 TEST_F(HeightsOnGpu, VoidsStayVoid) {

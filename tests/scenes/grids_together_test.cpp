@@ -19,6 +19,7 @@
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/height_storage.h"
 #include "tests/support/three_grids.h"
 
 namespace oro {
@@ -65,7 +66,8 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         scene_->draw_beside(scene_of(std::move(pages).value()));
     }
     Scene scene_of(std::unique_ptr<RegionPages> pages) {
-        auto scene = Scene::create(*gpu_, std::move(pages), {std::uint64_t{64} << 20U, 0});
+        auto scene =
+            Scene::create(*gpu_, std::move(pages), {std::uint64_t{64} << 20U, 0}, test::asked_heights());
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         return std::move(scene).value();
     }

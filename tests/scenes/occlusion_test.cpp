@@ -3,6 +3,7 @@
 #include "core/seam/seam_pages.h"
 #include "core/terrain/ground.h"
 #include "geo/together/cut_regions.h"
+#include "tests/support/height_storage.h"
 #include "tests/support/occlusion_pairs.h"
 #include "tests/support/test_data.h"
 #include "tests/support/three_grids.h"
@@ -15,7 +16,8 @@ constexpr int width_px = 251, height_px = 142;
 class OccludedScene : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
   protected:
     Scene scene_of(std::unique_ptr<RegionPages> pages) {
-        auto scene = Scene::create(*gpu_, std::move(pages), {std::uint64_t{384} << 20U, 0});
+        auto scene =
+            Scene::create(*gpu_, std::move(pages), {std::uint64_t{384} << 20U, 0}, test::asked_heights());
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         return std::move(scene).value();
     }

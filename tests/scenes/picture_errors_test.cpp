@@ -11,6 +11,7 @@
 #include "geo/region/region.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/height_storage.h"
 #include "tests/support/net_terrain.h"
 #include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"
@@ -65,7 +66,8 @@ class ErrorsOfPictures : public test::GpuTest {
     }
 
     void look(const char* name, const HeightField& field, int views) {
-        auto made = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {std::uint64_t{512} << 20U, 0});
+        auto made = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {std::uint64_t{512} << 20U, 0},
+                                  test::asked_heights());
         ASSERT_TRUE(made.ok()) << made.error().line();
         Scene scene = std::move(made).value();
         const TrueSurface surface(field, 1.0, thread_count());

@@ -12,6 +12,7 @@
 #include "geo/region/region.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/height_storage.h"
 #include "tests/support/net_terrain.h"
 #include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"
@@ -158,8 +159,8 @@ class ShadowsOfPictures : public test::GpuTest {
     }
 
     void look_over(const char* name, const HeightField& field, int views) {
-        auto made =
-            Scene::create(*gpu_, pages_in_memory(field, 1.0, thread_count()), {std::uint64_t{1} << 30U, 0});
+        auto made = Scene::create(*gpu_, pages_in_memory(field, 1.0, thread_count()),
+                                  {std::uint64_t{1} << 30U, 0}, test::asked_heights());
         ASSERT_TRUE(made.ok()) << made.error().line();
         Scene scene = std::move(made).value();
         const TrueSurface surface(field, 1.0, thread_count());

@@ -8,6 +8,7 @@
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/height_storage.h"
 
 namespace oro::test {
 
@@ -26,7 +27,7 @@ class DrawnScene {
   public:
     DrawnScene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, RasterPath path, int width_px,
                int height_px, std::uint64_t gpu_memory_bytes = std::uint64_t{256} << 20U) {
-        auto scene = Scene::create(gpu, std::move(pages), {gpu_memory_bytes, 0});
+        auto scene = Scene::create(gpu, std::move(pages), {gpu_memory_bytes, 0}, asked_heights());
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         scene_.emplace(std::move(scene).value());
         FrameRendererOptions options;

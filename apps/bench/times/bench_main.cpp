@@ -125,7 +125,7 @@ Result<ordered_json> run_path(const Gpu& gpu, RasterPath path, Scene& scene,
     return json;
 }
 
-ordered_json asked_json(const BenchOptions& options, const DeviceReport& device, Scene& scene) {
+ordered_json asked_json(const BenchOptions& options, const DeviceReport& device) {
     ordered_json json = ordered_json::object();
     json["device"] = device.name;
     json["driver"] = device.driver;
@@ -137,9 +137,9 @@ ordered_json asked_json(const BenchOptions& options, const DeviceReport& device,
     json["occlusion"] = options.occlusion;
     json["small_triangles"] = options.leave_out_small ? "skip" : "draw";
     if (options.random_eyes > 0) json["seed"] = options.seed;
-    const HeightQuantization& coding = scene.store().coding();
-    json["page_bytes"] = page_bytes(coding);
-    json["bytes_a_post"] = bytes_a_post(coding);
+    json["heights"] = options.heights == HeightStorage::i16      ? "16"
+                      : options.heights == HeightStorage::packed ? "packed"
+                                                                 : "32";
     return json;
 }
 
@@ -158,13 +158,12 @@ Result<void> run_bench(const BenchOptions& options) {
     ORO_TRY(Scene scene, scene_of(*gpu, options, region));
     if (asks_for_means(options.style) && !scene.pages().knows_means())
         std::fputs("orograph-bench: note: the region has too many posts for means of the ground\n", stderr);
-    ordered_json json = asked_json(options, gpu->report(), scene);
+    ordered_json json = asked_json(options, gpu->report());
     json["open_ms"] = 1e3 * open_s;
     if (!options.json) {
-        std::printf(
-            "%s (%s), %d x %d px, tau %g px, medians of %d frames; opened in %.1f ms; %.2f bytes a post\n",
-            gpu->report().name.c_str(), gpu->report().driver.c_str(), options.width_px, options.height_px,
-            options.tau_px, options.frames, 1e3 * open_s, bytes_a_post(scene.store().coding()));
+        std::printf("%s (%s), %d x %d px, tau %g px, medians of %d frames; opened in %.1f ms\n",
+                    gpu->report().name.c_str(), gpu->report().driver.c_str(), options.width_px,
+                    options.height_px, options.tau_px, options.frames, 1e3 * open_s);
         if (options.random_eyes > 0)
             std::printf("%d random eyes, seed %llu\n", options.random_eyes,
                         static_cast<unsigned long long>(options.seed));
@@ -178,7 +177,13 @@ Result<void> run_bench(const BenchOptions& options) {
         json["pipeline"] = name_of(path);
         for (auto& [key, value] : one.items()) json[key] = std::move(value);
     }
-    if (options.json) std::printf("%s\n", json.dump().c_str());
+    json["page_bytes"] = scene.store().bytes_a_page();
+    json["bytes_a_post"] = scene.store().bytes_a_post();
+    if (options.json)
+        std::printf("%s\n", json.dump().c_str());
+    else
+        std::printf("%.2f bytes a post, bounds of nodes apart; %.0f bytes a page\n",
+                    scene.store().bytes_a_post(), scene.store().bytes_a_page());
     return {};
 }
 
@@ -227,8 +232,10 @@ void add_ways_of_drawing(CLI::App& app, BenchOptions& options, BenchWords& words
                  "Count the pixels whose triangle is another without occlusion, from eight eyes in motion");
     app.add_option("--gpu-memory", options.gpu_memory_mb, "Megabytes of terrain on the GPU at most")
         ->check(CLI::Range(0, 1000000));
-    app.add_option("--heights", words.heights, "Bits that the GPU keeps of a height: 32 or 16")
-        ->check(CLI::IsMember({"32", "16"}));
+    app.add_option("--heights", words.heights,
+                   "Bits that the GPU keeps of a height: 32 or 16; packed: as few as the same heights as "
+                   "with 32 need")
+        ->check(CLI::IsMember({"32", "16", "packed"}));
     app.add_option(
            "--small-triangles", words.small,
            "Mesh path: draw triangles that cover no pixel's centre, or skip them. The picture is the same")
@@ -277,7 +284,9 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "orograph-bench: %s\n", e.what());
         return static_cast<int>(oro::ErrorKind::usage);
     }
-    options.heights = words.heights == "16" ? oro::HeightStorage::i16 : oro::HeightStorage::f32;
+    options.heights = words.heights == "16"       ? oro::HeightStorage::i16
+                      : words.heights == "packed" ? oro::HeightStorage::packed
+                                                  : oro::HeightStorage::f32;
     options.leave_out_small = words.small == "skip";
     oro::Result<void> done = oro::set_size(words.size, options);
     if (done.ok()) done = oro::read_style(options);

@@ -17,7 +17,7 @@ constexpr std::array paths{std::pair{"compute", RasterPath::compute}, std::pair{
 
 struct DrawnEye {
     BenchTimes times;
-    std::size_t page_bytes{};
+    double page_bytes{};
 };
 
 // One eye by one way of drawing, in a scene of its own settings.
@@ -25,7 +25,7 @@ Result<DrawnEye> time_eye(const Gpu& gpu, RasterPath path, Scene& scene, const B
                           const BenchOptions& options) {
     ORO_TRY(FrameRenderer renderer, renderer_for(gpu, path, options));
     ORO_TRY(BenchTimes times, time_frames(scene, renderer, eye.camera, options));
-    return DrawnEye{std::move(times), page_bytes(scene.store().coding())};
+    return DrawnEye{std::move(times), scene.store().bytes_a_page()};
 }
 
 Result<Scene> scene_for(const Gpu& gpu, const BenchOptions& options) {
@@ -59,6 +59,7 @@ Result<void> print_detail(const Gpu& gpu, BenchOptions options, const std::vecto
 // Heights as they are kept on the GPU, without level of detail and with it.
 Result<void> print_heights(const Gpu& gpu, BenchOptions options, const std::vector<BenchEye>& eyes) {
     constexpr std::array storages{std::pair{"32 bits", HeightStorage::f32},
+                                  std::pair{"packed", HeightStorage::packed},
                                   std::pair{"16 bits", HeightStorage::i16}};
     std::printf(
         "\n| heights | bytes a page | a post, node bounds apart | eye | path | no LOD: ms | raster | LOD: ms "
@@ -74,8 +75,8 @@ Result<void> print_heights(const Gpu& gpu, BenchOptions options, const std::vect
                     options.tau_px = i == 0 ? 0.0 : tau_px;
                     ORO_TRY(drawn[i], time_eye(gpu, path, scene, eye, options));
                 }
-                std::printf("| %s | %zu | %.2f | %s | %s | %.3f | %.3f | %.3f | %.3f |\n", kept,
-                            drawn[0].page_bytes, bytes_a_post(scene.store().coding()), eye.name.c_str(), name,
+                std::printf("| %s | %.0f | %.2f | %s | %s | %.3f | %.3f | %.3f | %.3f |\n", kept,
+                            drawn[0].page_bytes, scene.store().bytes_a_post(), eye.name.c_str(), name,
                             1e3 * drawn[0].times.gpu_s, 1e3 * drawn[0].times.raster_s,
                             1e3 * drawn[1].times.gpu_s, 1e3 * drawn[1].times.raster_s);
                 std::fflush(stdout);

@@ -75,6 +75,21 @@ TEST_F(ModelOptions, HalfTheHeightsHalfTheBytes) {
     EXPECT_EQ(i16["models"]["height_step_m"].get<double>(), 0.015625);  // 840 m: 65,534 / 128 = 512
 }
 
+TEST_F(ModelOptions, PackedHeightsDrawTheSamePicture) {
+    for (const std::string pipeline : {"compute", "mesh"}) {
+        const json f32 = shoot(folder / "a.png", {"--pipeline", pipeline, "--overwrite"});
+        const json packed =
+            shoot(folder / "b.png", {"--pipeline", pipeline, "--heights", "packed", "--overwrite"});
+        EXPECT_EQ(packed["models"]["heights"], "packed");
+        EXPECT_EQ(packed["models"]["height_step_m"], f32["models"]["height_step_m"]);
+        EXPECT_LT(packed["pages"]["bytes_on_gpu"].get<double>(), f32["pages"]["bytes_on_gpu"].get<double>());
+        EXPECT_TRUE(oro::test::pixels_of(folder / "b.png").rgb == oro::test::pixels_of(folder / "a.png").rgb);
+        EXPECT_EQ(json::parse(oro::test::view_in(folder / "b.png"))["heights"], "packed");
+        const Outcome again = run_orograph({"shot", "--view", folder / "b.png", "-q"});
+        EXPECT_EQ(again.exit_code, 0) << "compared with its file: " << again.err;
+    }
+}
+
 // N is about -31 m there: without it the eye stands as high over ground that is 31 m higher.
 TEST_F(ModelOptions, WithoutGeoidHeightsAreAboveTheEllipsoid) {
     const json with = shoot(folder / "a.png", {}), without = shoot(folder / "b.png", {"--geoid", "none"});

@@ -1,6 +1,10 @@
 // Slots for pages: never more than the budget, and the longest unused goes first.
 #include "render/scene/page_store.h"
 
+#include <algorithm>
+#include <map>
+#include <random>
+
 #include "tests/support/gpu_fixture.h"
 
 namespace oro {
@@ -57,6 +61,42 @@ TEST_F(Store, HiddenPagesGiveWayFirst) {
     store->begin_frame();
     EXPECT_EQ(*store->send(some(500, 5)), 5U);
     for (int i = 400; i < 405; ++i) EXPECT_EQ(store->address({0, i, 0}), 0U) << "never shown: first to go";
+}
+
+// Packed heights take as many bytes as they need: 13,340 before them, and addresses at multiples of 16.
+TEST_F(Store, HoldsPagesOfSeveralSizes) {
+    constexpr std::uint64_t budget = 1'000'000;
+    const HeightQuantization packed{false, 0, 0, true};
+    auto store = PageStore::create(*gpu_, std::make_shared<PageBudget>(budget), packed);
+    ASSERT_TRUE(store.ok()) << store.error().line();
+    std::mt19937 random(77);
+    std::vector<std::size_t> words(400);
+    for (std::size_t& count : words) count = 1158 + random() % 17000;
+    std::size_t most = 0;
+    for (int first = 0; first < 400; first += 10) {
+        store->begin_frame();
+        std::vector<LoadedPage> pages = some(first, 10);
+        for (int i = 0; i < 10; ++i)
+            pages[static_cast<std::size_t>(i)].heights.resize(words[static_cast<std::size_t>(first + i)]);
+        EXPECT_EQ(*store->send(pages), 10U) << "at most 820,000 bytes";
+        std::map<std::uint64_t, std::uint64_t> ends;
+        for (int i = 0; i < first + 10; ++i) {
+            const std::uint64_t from = store->address({0, i, 0});
+            if (from == 0) continue;
+            EXPECT_EQ(from % 16, 0U);
+            ends[from] = from + 13340 + 4 * words[static_cast<std::size_t>(i)];
+        }
+        ASSERT_EQ(ends.size(), store->size());
+        std::uint64_t last = 0;
+        for (const auto& [from, end] : ends) {
+            EXPECT_GE(from, last);
+            last = end;
+        }
+        most = std::max(most, ends.size());
+        EXPECT_LE(store->bytes(), budget);
+    }
+    EXPECT_GT(most, 18U) << "47,000 bytes each";
+    EXPECT_NEAR(store->bytes_a_post(), 4.0 * (1158 + 8500) / 16384, 0.15);
 }
 
 // Two regions' pages in the memory of one: who looks elsewhere makes room for the other.
