@@ -6,9 +6,13 @@
 namespace oro {
 namespace {
 
+// Lengths here are from 1e-10 to 1e10: no square overflows, and std::hypot takes as long as all the rest.
+double length_of(double x, double y) {
+    return std::sqrt(x * x + y * y);
+}
 // A direction in the meridian plane: sine and cosine of a geodetic latitude.
 SineCosine unit(double sine, double cosine) {
-    const double length = std::hypot(sine, cosine);
+    const double length = length_of(sine, cosine);
     return {sine / length, cosine / length};
 }
 
@@ -78,7 +82,7 @@ Ecef ecef_from_geodetic(const Geodetic& point) {
 }
 
 Geodetic geodetic_from_ecef(const Ecef& point) {
-    const double rho_m = std::hypot(point.m.x, point.m.y);
+    const double rho_m = length_of(point.m.x, point.m.y);
     const double z_m = point.m.z;
     SineCosine lat = latitude_by_vermeille(rho_m / wgs84_a_m, z_m / wgs84_a_m);
     double h_m = 0.0;
@@ -93,6 +97,8 @@ Geodetic geodetic_from_ecef(const Ecef& point) {
         if (!(radius_m > 1.0e3)) break;  // within the evolute
         const double turn_rad = north_m / radius_m;
         lat = unit(lat.sine + turn_rad * lat.cosine, lat.cosine - turn_rad * lat.sine);
+        constexpr double squared_is_nothing_rad = 1.0e-10;
+        if (std::abs(turn_rad) < squared_is_nothing_rad) break;
     }
     if (rho_m == 0.0) lat = {lat.sine, 0.0};
     const double root = std::sqrt(1.0 - wgs84_e2 * lat.sine * lat.sine);

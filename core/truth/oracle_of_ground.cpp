@@ -57,7 +57,9 @@ std::unique_ptr<const PieceTree> tree_of(const TrueGround& ground, const Sight& 
     triangles.reserve(ground.pieces().size());
     for (const GroundPiece& piece : ground.pieces())
         if (!crosses_cut(sight, piece)) triangles.push_back(seen_corners(sight, piece));
-    return std::make_unique<const PieceTree>(std::move(triangles));
+    const Geodetic& first = ground.pieces().front().corners[0];
+    return std::make_unique<const PieceTree>(std::move(triangles),
+                                             ecef_from_enu(first.lat_deg, first.lon_deg));
 }
 
 }  // namespace

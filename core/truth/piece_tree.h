@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
@@ -11,7 +12,8 @@ namespace oro {
 
 class PieceTree {
   public:
-    explicit PieceTree(std::vector<std::array<glm::dvec3, 3>> triangles);
+    // Boxes lie along the columns of `frame`: around upright steps they are smallest where one of them is up.
+    PieceTree(std::vector<std::array<glm::dvec3, 3>> triangles, const glm::dmat3& frame);
 
     // How far along a line (`direction` of length 1) its first triangle is, less than reach_m and not before
     // its start, from either side. Error: rounding of doubles, so that a line through a common side of two
@@ -21,13 +23,19 @@ class PieceTree {
 
   private:
     struct Node {
-        glm::dvec3 low{}, high{};
-        std::uint32_t first{};  // of its triangles; of others the first of two nodes below
-        std::uint32_t count{};  // of its triangles; 0: it has two nodes
+        glm::dvec3 low{}, high{};  // in the frame, widened by what rounding takes from a line
+        std::uint32_t first{};     // of its triangles; of others the first of two nodes below
+        std::uint32_t count{};     // of its triangles; 0: it has two nodes
     };
-    void split(std::uint32_t node, std::uint32_t first, std::uint32_t last);
+    // In the frame.
+    struct Bounds {
+        glm::dvec3 low{}, high{}, middle{};
+        std::uint32_t triangle{};
+    };
+    void split(std::uint32_t node, std::vector<Bounds>& bounds, std::uint32_t first, std::uint32_t last);
 
-    std::vector<std::array<glm::dvec3, 3>> triangles_;
+    glm::dmat3 frame_from_ecef_;
+    std::vector<std::array<glm::dvec3, 3>> triangles_;  // ECEF axes
     std::vector<Node> nodes_;
 };
 

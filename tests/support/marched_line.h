@@ -54,13 +54,14 @@ class MarchedLine {
         double least_m = std::numeric_limits<double>::infinity();
         Numbers before = numbers(0.0);
         for (int i = 1; i <= steps; ++i) {
-            const double share = static_cast<double>(i) / steps;
-            const Numbers here = numbers(share);
-            if (i < steps) least_m = std::min(least_m, clearance_m(share));
-            for (int axis = 0; axis < 4; ++axis) {
+            const double from = static_cast<double>(i - 1) / steps, share = static_cast<double>(i) / steps;
+            const Place place = at(share);
+            const Numbers here = numbers(place);
+            if (i < steps) least_m = std::min(least_m, clearance_m(place));
+            for (std::size_t axis = 0; axis < 4; ++axis) {
                 if (std::floor(before[axis]) != std::floor(here[axis]))
                     least_m = std::min(
-                        least_m, clearance_m(crossing(axis, static_cast<double>(i - 1) / steps, share)));
+                        least_m, clearance_m(crossing(axis, {from, before[axis]}, {share, here[axis]})));
             }
             before = here;
         }
@@ -99,23 +100,35 @@ class MarchedLine {
         return {row, column, row - column, row + column};
     }
     [[nodiscard]] Numbers numbers(double share) const { return numbers(at(share)); }
-    // Where one of the numbers passes a whole one: on its far side by less than 1e-12 of the way.
-    [[nodiscard]] double crossing(int axis, double low, double high) const {
-        const auto cell = [&](double share) {
-            return std::floor(numbers(share)[static_cast<std::size_t>(axis)]);
-        };
-        const double first = cell(low);
-        for (int i = 0; i < 40; ++i) {
-            const double middle = 0.5 * (low + high);
-            (cell(middle) == first ? low : high) = middle;
+    // A share of the way, and one of the numbers there.
+    struct Mark {
+        double share, number;
+    };
+    // Where one of the numbers passes a whole one: on its far side by less than 1e-12 of the way. Between two
+    // marks a number all but runs along a straight line, so where that passes is asked, and a little to
+    // either side; halving needs 40 places.
+    [[nodiscard]] double crossing(std::size_t axis, Mark low, Mark high) const {
+        constexpr double exact = 1.0e-12, beside = 4.0e-13;
+        const double first = std::floor(low.number);
+        const double whole = high.number > low.number ? first + 1.0 : first;
+        for (int i = 0; i < 60 && high.share - low.share > exact; ++i) {
+            const double straight =
+                low.share + (high.share - low.share) * (whole - low.number) / (high.number - low.number);
+            double next = 0.5 * (low.share + high.share);
+            if (i % 4 == 0) next = straight;
+            if (i % 4 == 1) next = straight - beside;
+            if (i % 4 == 2) next = straight + beside;
+            if (!(next > low.share && next < high.share)) next = 0.5 * (low.share + high.share);
+            const Mark middle{next, numbers(next)[axis]};
+            (std::floor(middle.number) == first ? low : high) = middle;
         }
-        return high;
+        return high.share;
     }
 
   public:
     // Height of the line over the ground at a share of its length; infinite over none.
-    [[nodiscard]] double clearance_m(double share) const {
-        const Place place = at(share);
+    [[nodiscard]] double clearance_m(double share) const { return clearance_m(at(share)); }
+    [[nodiscard]] double clearance_m(const Place& place) const {
         const auto ground_m = ground_h_m(place);
         return ground_m ? place.h_m - *ground_m : std::numeric_limits<double>::infinity();
     }
