@@ -117,7 +117,7 @@ struct PageBlock {
     uint rises[512];
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
-    // (core/terrain/height_quantization.h).
+    // (core/terrain/height_quantization.h). Packed ones lie as shared_heights.h says.
     int heights[17161];
 };
 
@@ -305,7 +305,7 @@ struct FrameConstants {
     vec3 eye_high;            // ... the eye's ECEF as float32
     vec3 eye_low;             // ... and the rest,
     vec2 eye_meridian;        // ... cosine and sine of its longitude
-    uint height_bits;         // 32 or 16, see PageBlock
+    uint height_bits;         // 32, 16 or height_bits_packed, see PageBlock
     uint height_shift;        // of 16: steps = code << shift + offset
     int height_offset;
     uint has_net;        // 1: posts are where PagePlaces has them, not where row and column terms say

@@ -9,7 +9,7 @@
 #include "core/lod/levels.h"
 #include "core/net/page_on_net.h"
 #include "core/terrain/drawn_heights.h"
-#include "shaders/packed_heights.h"
+#include "shaders/shared_heights.h"
 
 namespace oro {
 namespace {

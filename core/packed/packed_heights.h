@@ -1,4 +1,4 @@
-// A page's heights in fewer bits, without any loss: as the GPU keeps them (shaders/packed_heights.h).
+// A page's heights in fewer bits, without any loss: as the GPU keeps them (shaders/shared_heights.h).
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "shaders/packed_heights.h"
+#include "shaders/shared_heights.h"
 
 namespace oro {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "render/frame/frame_layout.h"
-#include "shaders/packed_heights.h"
+#include "shaders/shared_heights.h"
 
 namespace oro {
 namespace {

@@ -1,5 +1,5 @@
 // Heights of a page's posts, however they are kept (FrameConstants.height_bits). Needs frame.glsl.
-#include "shaders/packed_heights.h"
+#include "shaders/shared_heights.h"
 
 // A page whose heights are packed: what lies in the place of PageBlock.heights.
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer PackedPages {

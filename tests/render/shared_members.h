@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shaders/shared.h"
+#include "shaders/shared_heights.h"
 
 namespace oro {
 
@@ -37,6 +38,10 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(PageBlock, boxes),
         ORO_MEMBER(PageBlock, rises),
         ORO_MEMBER(PageBlock, heights),
+        ORO_MEMBER(PackedBlock, base),
+        ORO_MEMBER(PackedBlock, along_rows),
+        ORO_MEMBER(PackedBlock, along_columns),
+        ORO_MEMBER(PackedBlock, codes),
         ORO_MEMBER(FramePage, view_from_page),
         ORO_MEMBER(FramePage, origin_view),
         ORO_MEMBER(FramePage, planes),

@@ -1,7 +1,7 @@
 // How a page's heights lie on the GPU when they are packed: in the place of PageBlock::heights, in as few bits as
 // each 8 x 8 posts need. Compiled as C++ and as GLSL, as shared.h is. core/packed/packed_heights.h packs them.
-#ifndef OROGRAPH_SHADERS_PACKED_HEIGHTS_H
-#define OROGRAPH_SHADERS_PACKED_HEIGHTS_H
+#ifndef OROGRAPH_SHADERS_SHARED_HEIGHTS_H
+#define OROGRAPH_SHADERS_SHARED_HEIGHTS_H
 
 #include "shaders/shared.h"
 
