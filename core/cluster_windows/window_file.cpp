@@ -12,7 +12,7 @@ namespace oro {
 namespace {
 
 // Header: magic, size of the index, its checksum, their own. Then blocks, and the index.
-constexpr std::array<unsigned char, 8> magic = {0x89, 'O', 'R', 'W', '\r', '\n', 0x1a, 2};
+constexpr std::array<unsigned char, 8> magic = {0x89, 'O', 'R', 'W', '\r', '\n', 0x1a, 3};
 constexpr std::size_t header_bytes = 32;
 constexpr std::size_t tile_bytes = 16;
 constexpr std::uint64_t most_index_bytes = std::uint64_t{1} << 32U;
@@ -82,7 +82,7 @@ void visit_index(Visit& visit, WindowIndex& index) {
         visit(leaf.column);
         tile(leaf.user);
     });
-    visit_all(visit, index.groups, 92, [&](WindowGroup& group) {
+    visit_all(visit, index.groups, 124, [&](WindowGroup& group) {
         visit(group.level);
         tile(group.tile);
         visit(group.made);
@@ -91,6 +91,9 @@ void visit_index(Visit& visit, WindowIndex& index) {
         for (double* const number :
              {&group.error_m, &group.centre.m.x, &group.centre.m.y, &group.centre.m.z, &group.radius_m})
             visit(*number);
+        for (std::int64_t* const place : {&group.extent.first_row, &group.extent.last_row,
+                                          &group.extent.first_column, &group.extent.last_column})
+            visit(*place);
         visit(group.offset);
         visit(group.bytes);
         visit(group.checksum);

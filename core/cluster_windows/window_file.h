@@ -31,6 +31,7 @@ struct WindowGroup {
     double error_m{};
     Ecef centre;
     double radius_m{};
+    PlaneBox extent;  // of all that it covers
     // Of what it made: the tiles of the groups that use them, but at the last level, then a payload
     // (core/cluster_file/group_code.h) with the window's own posts.
     std::uint64_t offset{};
@@ -44,7 +45,8 @@ struct WindowLocks {
     std::uint64_t twice{};
 };
 
-// All but what groups made.
+// All but what groups made. A window that was built out of what an earlier level made tells of the groups of
+// that level, too, as the groups of the next say how what they made is split.
 struct WindowIndex {
     std::uint64_t plan{};  // tells what was to be built, of what, from anything else
     PostCounts posts;      // of the window
