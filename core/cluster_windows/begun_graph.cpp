@@ -1,6 +1,7 @@
 #include "core/cluster_windows/begun_graph.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -88,18 +89,31 @@ class Beginning {
         begun_.triangles_in.push_back(joined_.group(number).triangles_in);
     }
 
+    // In the order that they have among all posts of the window.
     void number_vertices() {
-        std::vector<VertexNumber>& vertices = begun_.vertices;
+        constexpr std::size_t word = 64;
+        const std::size_t posts =
+            static_cast<std::size_t>(begun_.window.rows) * static_cast<std::size_t>(begun_.window.columns);
+        std::vector<std::uint64_t> used(posts / word + 1);
         for (const VertexTriangle& triangle : begun_.graph.triangles)
-            vertices.insert(vertices.end(), triangle.begin(), triangle.end());
-        std::ranges::sort(vertices);
-        const auto rest = std::ranges::unique(vertices);
-        vertices.erase(rest.begin(), rest.end());
-        vertices.shrink_to_fit();
+            for (const VertexNumber vertex : triangle)
+                used[vertex / word] |= std::uint64_t{1} << vertex % word;
+        std::vector<VertexNumber> before(used.size());
+        VertexNumber count = 0;
+        for (std::size_t i = 0; i < used.size(); ++i) {
+            before[i] = count;
+            count += static_cast<VertexNumber>(std::popcount(used[i]));
+        }
+        begun_.vertices.reserve(count);
+        for (std::size_t i = 0; i < used.size(); ++i)
+            for (std::uint64_t rest = used[i]; rest != 0; rest &= rest - 1)
+                begun_.vertices.push_back(
+                    static_cast<VertexNumber>(i * word + static_cast<std::size_t>(std::countr_zero(rest))));
         for (VertexTriangle& triangle : begun_.graph.triangles)
             for (VertexNumber& vertex : triangle)
-                vertex =
-                    static_cast<VertexNumber>(std::ranges::lower_bound(vertices, vertex) - vertices.begin());
+                vertex = before[vertex / word] +
+                         static_cast<VertexNumber>(
+                             std::popcount(used[vertex / word] & ((std::uint64_t{1} << vertex % word) - 1)));
     }
 
     const JoinedWindows& joined_;

@@ -193,7 +193,7 @@ Result<bool> write_own(const WindowedRegion& region, const RegionWindow& window,
                       std::move(*leaves),
                       {},
                       built.locks()};
-    std::vector<Result<std::vector<std::byte>>> blocks(groups->size(), std::vector<std::byte>());
+    std::vector<std::vector<std::byte>> blocks(groups->size());
     in_parallel(static_cast<int>(groups->size()), region.threads, [&](int i) {
         const auto at = static_cast<std::size_t>(i);
         const GroupPart part = built.part((*groups)[at]);
@@ -202,13 +202,8 @@ Result<bool> write_own(const WindowedRegion& region, const RegionWindow& window,
             if (cluster.used_by != no_group) users.push_back(built.tile(cluster.used_by));
         blocks[at] = window_block(part, users, index.posts);
     });
-    std::vector<std::vector<std::byte>> coded;
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-        if (!blocks[i].ok()) return blocks[i].error();
-        coded.push_back(std::move(blocks[i]).value());
-        index.groups.push_back(built.told_of((*groups)[i]));
-    }
-    ORO_CHECK(write_window(path, std::move(index), coded));
+    for (const std::uint32_t group : *groups) index.groups.push_back(built.told_of(group));
+    ORO_CHECK(write_window(path, std::move(index), blocks));
     return true;
 }
 

@@ -34,11 +34,12 @@ TEST(WindowMargins, OfTwoLevelsComeToTheNextLine) {
 TEST(WindowMargins, AreWideEnoughAnywhere) {
     for (const auto& [above, levels] : {std::pair{0, 4}, {4, 8}, {0, 8}, {8, 12}}) {
         const WindowMargins margins = columns_of(above, levels);
+        const int most = margins.most();
         for (int own = 8000; own < 20000; own += 104) {
             EXPECT_LT(margins.begin(own), own);
             EXPECT_GT(margins.end(own - 1), own - 1);
-            EXPECT_LE(own - margins.begin(own), margins.most()) << above << " to " << levels << " at " << own;
-            EXPECT_LE(margins.end(own - 1) - own + 1, margins.most());
+            EXPECT_LE(own - margins.begin(own), most) << above << " to " << levels << " at " << own;
+            EXPECT_LE(margins.end(own - 1) - own + 1, most);
             EXPECT_EQ(margins.begin(own) % leaf_side, 0);
             EXPECT_EQ(margins.end(own - 1) % leaf_side, 0);
         }
