@@ -31,6 +31,8 @@ Result<void> JoinedWindows::number_groups() {
         for (const WindowGroup& group : window.index().groups) {
             if (group.level < 1 || group.level > levels_.size())
                 return differ("have a group of level " + std::to_string(group.level));
+            // A window that went on from there tells it again.
+            if (group.level == window.index().locks.size() && group.level < levels_.size()) continue;
             groups_.push_back({&group, &window});
         }
     }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/cluster_file/cluster_file.h"
@@ -13,7 +14,8 @@ namespace oro {
 // Groups of all levels that windows have built, level by level and by tile, as the builder numbers them.
 class JoinedWindows {
   public:
-    // levels: that windows have. Errors: windows that do not agree; damage.
+    // levels: that windows have; where some go on from what others left, that of the last. Errors: windows
+    // that do not agree; damage.
     static Result<JoinedWindows> join(std::vector<WindowFile> windows, const PostCounts& posts, int levels);
 
     [[nodiscard]] std::uint32_t leaves() const { return static_cast<std::uint32_t>(leaf_users_.size()); }
@@ -26,6 +28,8 @@ class JoinedWindows {
     // what all before it have made.
     [[nodiscard]] std::uint32_t first_made(std::uint32_t group) const { return first_made_[group]; }
     [[nodiscard]] const WindowGroup& group(std::uint32_t number) const { return *groups_[number].group; }
+    // All windows, for joining them with more.
+    [[nodiscard]] std::vector<WindowFile> take_windows() && { return std::move(windows_); }
     // A group whole, but for what uses the clusters of the last level. From any number of threads.
     Result<void> read(std::uint32_t number, GroupPart& part) const;
 

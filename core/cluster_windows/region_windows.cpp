@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cluster_windows/window_margins.h"
+
 namespace oro {
 namespace {
 
@@ -18,39 +20,60 @@ int whole_leaves(double posts) {
     return leaf_side * static_cast<int>(std::ceil(posts / leaf_side));
 }
 
-// own: posts of each, whole leaves; the last has the rest. margin: the usual one.
-std::vector<Stretch> stretches_of(int posts, int own, int margin, double widened) {
-    const int wide = whole_leaves(widened * margin);
+// The parts of a side that is cut into so many, nearly alike.
+std::vector<Stretch> stretches_of(int posts, int count, const WindowMargins& margins, double widened) {
+    const int own = whole_leaves(static_cast<double>(posts) / count);
+    const auto wide = [&](int margin) { return whole_leaves(widened * margin); };
     std::vector<Stretch> stretches;
     for (int first = 0; first < posts; first += own) {
-        // A rest that is less than a margin goes to the one before.
-        const bool is_last = first + own + margin >= posts;
+        // A rest of a few posts goes to the one before.
+        const bool is_last = first + own + leaf_side >= posts;
         const int last = is_last ? posts - 1 : first + own - 1;
-        const int begin = std::max(0, first - wide), end = std::min(posts - 1, last + 1 + wide);
+        const int begin = first == 0 ? 0 : std::max(0, first - wide(first - margins.begin(first)));
+        const int end = is_last ? posts - 1 : std::min(posts - 1, last + 1 + wide(margins.end(last) - last));
         stretches.push_back({begin, end - begin + 1, first, last});
         if (is_last) break;
     }
     return stretches;
 }
 
+// How many windows there are across a side.
+struct Counts {
+    int down{1};
+    int right{1};
+};
+
+// Posts of all windows are fewest, and none has too many, where margins allow.
+Counts counts_of(int rows, int columns, int margin_down, int margin_right, std::size_t posts) {
+    const auto of_one = [](int side, int count, int margin) {
+        return std::min(1.0 * side, 1.0 * side / count + (count > 2 ? 2.0 : count - 1.0) * margin);
+    };
+    const auto of_all = [](int side, int count, int margin) { return side + 2.0 * (count - 1) * margin; };
+    const int most_down = std::max(1, rows / margin_down), most_right = std::max(1, columns / margin_right);
+    Counts best{most_down, most_right};
+    double least = of_all(rows, most_down, margin_down) * of_all(columns, most_right, margin_right);
+    for (int down = 1; down <= most_down; ++down) {
+        const double high = of_one(rows, down, margin_down);
+        int right = 1;
+        while (right < most_right && high * of_one(columns, right, margin_right) > static_cast<double>(posts))
+            ++right;
+        if (high * of_one(columns, right, margin_right) > static_cast<double>(posts)) continue;
+        const double all = of_all(rows, down, margin_down) * of_all(columns, right, margin_right);
+        if (all > least) continue;
+        least = all;
+        best = {down, right};
+    }
+    return best;
+}
+
 }  // namespace
 
 std::vector<RegionWindow> windows_of(int rows, int columns, const WindowSizes& sizes) {
-    double down = 0.0, right = 0.0;
-    for (int level = 1; level <= sizes.levels; ++level) {
-        const GroupTiling tiling(level, sizes.kept_share);
-        const PlaneBox tile = tiling.box_of({0, 0});
-        const double last = level == sizes.levels ? 1.5 : 1.0;
-        down += last * static_cast<double>(tile.last_row - tile.first_row);
-        right += last * static_cast<double>(tile.last_column - tile.first_column);
-    }
-    const int margin_down = whole_leaves(down), margin_right = whole_leaves(right);
-    const double side = std::sqrt(static_cast<double>(sizes.posts));
-    const int own_down = whole_leaves(std::max(side - 2.0 * margin_down, 1.0 * margin_down)),
-              own_right = whole_leaves(std::max(side - 2.0 * margin_right, 1.0 * margin_right));
+    const WindowMargins down(WindowMargins::Along::rows, sizes), right(WindowMargins::Along::columns, sizes);
+    const Counts counts = counts_of(rows, columns, down.most(), right.most(), sizes.posts);
     std::vector<RegionWindow> windows;
-    for (const Stretch& row : stretches_of(rows, own_down, margin_down, sizes.widened)) {
-        for (const Stretch& column : stretches_of(columns, own_right, margin_right, sizes.widened))
+    for (const Stretch& row : stretches_of(rows, counts.down, down, sizes.widened)) {
+        for (const Stretch& column : stretches_of(columns, counts.right, right, sizes.widened))
             windows.push_back({{row.first, column.first, row.first > 0, column.first + column.count < columns,
                                 row.first + row.count<rows, column.first> 0, false},
                                row.count,

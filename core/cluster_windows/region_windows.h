@@ -21,18 +21,26 @@ struct RegionWindow {
         return row >= own.first_row && row <= own.last_row && column >= own.first_column &&
                column <= own.last_column;
     }
+    // All posts.
+    [[nodiscard]] PlaneBox box() const {
+        return {window.first_row, std::int64_t{window.first_row} + rows - 1, window.first_column,
+                std::int64_t{window.first_column} + columns - 1};
+    }
 };
 
-// How many levels windows build, and how many posts one has at most; where that is too few for the margin
+// Which levels windows build, and how many posts one has at most; where that is too few for the margin
 // around its own posts, it has as many own ones as margin.
 struct WindowSizes {
-    int levels{8};
-    std::size_t posts{7'000'000};
+    int levels{4};
+    std::size_t posts{10'000'000};
     double kept_share{0.65};
     // How much wider than usual margins are; what windows own stays the same.
     double widened{1.0};
+    // Levels that are built already: those from the next on are built out of what it made.
+    int above{0};
 };
 
+// As few posts in margins as can be.
 [[nodiscard]] std::vector<RegionWindow> windows_of(int rows, int columns, const WindowSizes& sizes);
 
 // The post in the middle of a tile, or the region's nearest to it.

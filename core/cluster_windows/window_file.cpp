@@ -7,12 +7,13 @@
 #include "core/base/checksum.h"
 #include "core/base/file_target.h"
 #include "core/base/little_endian.h"
+#include "core/cluster_windows/window_code.h"
 
 namespace oro {
 namespace {
 
 // Header: magic, size of the index, its checksum, their own. Then blocks, and the index.
-constexpr std::array<unsigned char, 8> magic = {0x89, 'O', 'R', 'W', '\r', '\n', 0x1a, 2};
+constexpr std::array<unsigned char, 8> magic = {0x89, 'O', 'R', 'W', '\r', '\n', 0x1a, 4};
 constexpr std::size_t header_bytes = 32;
 constexpr std::size_t tile_bytes = 16;
 constexpr std::uint64_t most_index_bytes = std::uint64_t{1} << 32U;
@@ -82,7 +83,7 @@ void visit_index(Visit& visit, WindowIndex& index) {
         visit(leaf.column);
         tile(leaf.user);
     });
-    visit_all(visit, index.groups, 92, [&](WindowGroup& group) {
+    visit_all(visit, index.groups, 124, [&](WindowGroup& group) {
         visit(group.level);
         tile(group.tile);
         visit(group.made);
@@ -91,6 +92,9 @@ void visit_index(Visit& visit, WindowIndex& index) {
         for (double* const number :
              {&group.error_m, &group.centre.m.x, &group.centre.m.y, &group.centre.m.z, &group.radius_m})
             visit(*number);
+        for (std::int64_t* const place : {&group.extent.first_row, &group.extent.last_row,
+                                          &group.extent.first_column, &group.extent.last_column})
+            visit(*place);
         visit(group.offset);
         visit(group.bytes);
         visit(group.checksum);
@@ -162,9 +166,9 @@ Result<void> WindowFile::read(const WindowGroup& group, const PostCounts& posts,
     const std::size_t first = users_bytes(group);
     if (first > block.size()) return damaged("a group of a window is cut off");
     part.group = {group.level, 0, 0, 0, group.made, group.error_m, group.centre, group.radius_m, true};
-    if (const auto wrong =
-            decode_group(std::span<const std::byte>(block).subspan(first), index_.posts, 1, part))
-        return damaged("a group of a window " + *wrong);
+    part.members.clear();
+    if (!unpack_made(std::span<const std::byte>(block).subspan(first), index_.posts, part))
+        return damaged("a group of a window is no clusters");
     for (VertexTriangle& triangle : part.triangles) {
         for (VertexNumber& vertex : triangle) {
             const SurfaceVertex place = index_.posts.place(vertex);
@@ -174,18 +178,15 @@ Result<void> WindowFile::read(const WindowGroup& group, const PostCounts& posts,
     return {};
 }
 
-Result<std::vector<std::byte>> window_block(const GroupPart& part, std::span<const GroupTile> users,
-                                            const PostCounts& posts) {
+std::vector<std::byte> window_block(const GroupPart& part, std::span<const GroupTile> users,
+                                    const PostCounts& posts) {
     Putter put;
     for (const GroupTile& user : users) {
         put(user.row);
         put(user.column);
     }
-    GroupPart alone{part.number, part.group, {}, part.made, part.triangles};
-    alone.group.members = 0;
-    for (Cluster& cluster : alone.made) cluster.used_by = no_group;
-    ORO_TRY(const std::vector<std::byte> payload, encode_group(alone, posts, 1));
-    put.bytes.insert(put.bytes.end(), payload.begin(), payload.end());
+    const std::vector<std::byte> made = pack_made(part, posts);
+    put.bytes.insert(put.bytes.end(), made.begin(), made.end());
     return std::move(put.bytes);
 }
 

@@ -31,8 +31,9 @@ struct WindowGroup {
     double error_m{};
     Ecef centre;
     double radius_m{};
-    // Of what it made: the tiles of the groups that use them, but at the last level, then a payload
-    // (core/cluster_file/group_code.h) with the window's own posts.
+    PlaneBox extent;  // of all that it covers
+    // Of what it made: the tiles of the groups that use them, but at the last level, then the clusters
+    // (core/cluster_windows/window_code.h) with the window's own posts.
     std::uint64_t offset{};
     std::uint32_t bytes{};
     std::uint64_t checksum{};
@@ -44,7 +45,8 @@ struct WindowLocks {
     std::uint64_t twice{};
 };
 
-// All but what groups made.
+// All but what groups made. A window that was built out of what an earlier level made tells of the groups of
+// that level, too, as the groups of the next say how what they made is split.
 struct WindowIndex {
     std::uint64_t plan{};  // tells what was to be built, of what, from anything else
     PostCounts posts;      // of the window
@@ -77,8 +79,8 @@ class WindowFile {
 };
 
 // The bytes of what a group made. users: none at the last level.
-Result<std::vector<std::byte>> window_block(const GroupPart& part, std::span<const GroupTile> users,
-                                            const PostCounts& posts);
+std::vector<std::byte> window_block(const GroupPart& part, std::span<const GroupTile> users,
+                                    const PostCounts& posts);
 // blocks: of each group, in their order; their places come into the index here. The file takes its name when
 // it is whole, on the disk; one of that name is replaced.
 Result<void> write_window(const std::string& path, WindowIndex index,

@@ -9,6 +9,7 @@
 #include "core/cluster_windows/window_file.h"
 #include "core/clusters/graph_builder.h"
 #include "core/clusters/group_assignment.h"
+#include "core/surface/vertex_subset.h"
 
 namespace oro {
 namespace {
@@ -16,14 +17,25 @@ namespace {
 // A built window, and what of it is the window's own.
 class BuiltWindow {
   public:
-    BuiltWindow(const WindowedRegion& region, const RegionWindow& window, const DrawnHeights& heights)
+    // begun: null where it is built from the original on; else its graph is taken.
+    BuiltWindow(const WindowedRegion& region, const RegionWindow& window, const DrawnHeights& heights,
+                BegunGraph* begun)
         : region_(region), window_(window), surface_(heights, window.window) {
-        graph_ = build_cluster_graph(surface_, region.bounds,
-                                     {.threads = region.threads,
-                                      .kept_share = region.sizes.kept_share,
-                                      .last_level = region.sizes.levels,
-                                      .whole_alone = true,
-                                      .tiles = &tiles_});
+        const GraphOptions options{.threads = region.threads,
+                                   .kept_share = region.sizes.kept_share,
+                                   .last_level = region.sizes.levels,
+                                   .whole_alone = true,
+                                   .tiles = &tiles_};
+        if (begun) {
+            tiles_ = begun->tiles;
+            begun_triangles_in_ = begun->triangles_in;
+            vertices_ = std::move(begun->vertices);
+            subset_.emplace(surface_, vertices_);
+            if (!tiles_.empty())
+                graph_ = continue_cluster_graph(*subset_, region.bounds, std::move(begun->graph), options);
+        } else {
+            graph_ = build_cluster_graph(surface_, region.bounds, options);
+        }
         for (int level = 0; level < region.sizes.levels; ++level)
             tilings_.emplace_back(level + 1, region.sizes.kept_share);
     }
@@ -38,9 +50,10 @@ class BuiltWindow {
             const ClusterGroup& group = graph_.groups[i];
             const SurfaceVertex middle = middle_of(tilings_[group.level - 1], tiles_[i],
                                                    region_.field.grid.rows(), region_.field.grid.columns());
+            if (static_cast<int>(group.level) < region_.sizes.above) continue;
             if (!window_.owns(middle.row, middle.column)) continue;
             own.push_back(i);
-            if (!group.whole) return std::nullopt;
+            if (static_cast<int>(group.level) > region_.sizes.above && !group.whole) return std::nullopt;
             for (std::uint32_t j = group.first_made; j < group.first_made + group.made; ++j)
                 if (!is_used_whole(graph_.clusters[j])) return std::nullopt;
         }
@@ -68,22 +81,20 @@ class BuiltWindow {
         return own;
     }
 
-    // As the builder counts them, of the window's own posts.
+    // As the builder counts them, of the window's own posts; of levels that it has built.
     [[nodiscard]] std::vector<WindowLocks> locks() const {
         std::vector<WindowLocks> counts(static_cast<std::size_t>(region_.sizes.levels));
-        VertexLocks locks(surface_.vertex_count());
+        VertexLocks locks(over().vertex_count());
         std::uint32_t group = 0;
         for (std::size_t level = 0; level < graph_.levels.size(); ++level) {
             locks.begin_level();
-            for (; group < graph_.groups.size() && graph_.groups[group].level == level + 1; ++group) {
-                for (const std::uint32_t member : graph_.members_of(graph_.groups[group]))
-                    for (const VertexTriangle& triangle : graph_.triangles_of(graph_.clusters[member]))
-                        for (const VertexNumber vertex : triangle) locks.see(vertex, group);
-            }
+            for (; group < graph_.groups.size() && graph_.groups[group].level == level + 1; ++group)
+                see(locks, group);
             locks.end_level();
-            for (VertexNumber i = 0; i < surface_.vertex_count(); ++i) {
+            if (static_cast<int>(level) < region_.sizes.above) continue;
+            for (VertexNumber i = 0; i < over().vertex_count(); ++i) {
                 if (!locks.is_locked(i)) continue;
-                const SurfaceVertex place = surface_.vertex(i);
+                const SurfaceVertex place = over().vertex(i);
                 if (!window_.owns(place.row, place.column)) continue;
                 ++counts[level].locked;
                 counts[level].twice += locks.levels(i) > 1 ? 1U : 0U;
@@ -92,7 +103,67 @@ class BuiltWindow {
         return counts;
     }
 
+    [[nodiscard]] WindowGroup told_of(std::uint32_t number) const {
+        const ClusterGroup& group = graph_.groups[number];
+        WindowGroup told;
+        told.level = group.level;
+        told.tile = tiles_[number];
+        told.made = group.made;
+        told.error_m = group.error_m;
+        told.centre = group.centre;
+        told.radius_m = group.radius_m;
+        if (number < begun_triangles_in_.size()) told.triangles_in = begun_triangles_in_[number];
+        for (const std::uint32_t member : graph_.members_of(group))
+            told.triangles_in += graph_.clusters[member].triangles;
+        const SurfaceVertex first =
+            over().vertex(graph_.triangles_of(graph_.clusters[group.first_made]).front()[0]);
+        told.extent = {first.row, first.row, first.column, first.column};
+        for (std::uint32_t i = group.first_made; i < group.first_made + group.made; ++i) {
+            told.triangles_out += graph_.clusters[i].triangles;
+            for (const VertexTriangle& triangle : graph_.triangles_of(graph_.clusters[i]))
+                for (const VertexNumber vertex : triangle) widen(told.extent, over().vertex(vertex));
+        }
+        return told;
+    }
+
+    // With posts of the window.
+    [[nodiscard]] GroupPart part(std::uint32_t number) const {
+        GroupPart part = part_of(graph_, number);
+        if (subset_)
+            for (VertexTriangle& triangle : part.triangles)
+                for (VertexNumber& vertex : triangle) vertex = vertices_[vertex];
+        return part;
+    }
+
   private:
+    [[nodiscard]] const OriginalSurface& over() const {
+        if (subset_) return *subset_;
+        return surface_;
+    }
+
+    // What a group made has the same border as what it uses, which is not known of those that are not built
+    // here.
+    void see(VertexLocks& locks, std::uint32_t group) const {
+        const auto see_all = [&](const Cluster& cluster) {
+            for (const VertexTriangle& triangle : graph_.triangles_of(cluster))
+                for (const VertexNumber vertex : triangle) locks.see(vertex, group);
+        };
+        const ClusterGroup& of = graph_.groups[group];
+        if (group < begun_triangles_in_.size()) {
+            for (std::uint32_t i = of.first_made; i < of.first_made + of.made; ++i)
+                see_all(graph_.clusters[i]);
+        } else {
+            for (const std::uint32_t member : graph_.members_of(of)) see_all(graph_.clusters[member]);
+        }
+    }
+
+    static void widen(PlaneBox& box, const SurfaceVertex& place) {
+        box = {std::min<std::int64_t>(box.first_row, place.row),
+               std::max<std::int64_t>(box.last_row, place.row),
+               std::min<std::int64_t>(box.first_column, place.column),
+               std::max<std::int64_t>(box.last_column, place.column)};
+    }
+
     [[nodiscard]] bool is_used_whole(const Cluster& cluster) const {
         if (cluster.used_by != no_group) return graph_.groups[cluster.used_by].whole;
         return cluster.made_by != no_group &&
@@ -102,21 +173,38 @@ class BuiltWindow {
     const WindowedRegion& region_;
     const RegionWindow& window_;
     GridSurface surface_;
+    std::vector<VertexNumber> vertices_;  // of the subset
+    std::optional<VertexSubset> subset_;
+    std::vector<std::uint32_t> begun_triangles_in_;
     ClusterGraph graph_;
     std::vector<GroupTile> tiles_;
     std::vector<GroupTiling> tilings_;  // by level
 };
 
-WindowGroup told_of(const BuiltWindow& built, std::uint32_t number) {
-    const ClusterGraph& graph = built.graph();
-    const ClusterGroup& group = graph.groups[number];
-    WindowGroup told{group.level,  built.tile(number), group.made, 0, 0, group.error_m,
-                     group.centre, group.radius_m,     0,          0, 0};
-    for (const std::uint32_t member : graph.members_of(group))
-        told.triangles_in += graph.clusters[member].triangles;
-    for (std::uint32_t i = group.first_made; i < group.first_made + group.made; ++i)
-        told.triangles_out += graph.clusters[i].triangles;
-    return told;
+Result<bool> write_own(const WindowedRegion& region, const RegionWindow& window, const BuiltWindow& built,
+                       std::uint64_t plan, const std::string& path) {
+    const auto groups = built.own_groups();
+    auto leaves = built.own_leaves();
+    if (!groups || !leaves) return false;
+    WindowIndex index{plan,
+                      {window.rows, window.columns},
+                      window.window.first_row,
+                      window.window.first_column,
+                      std::move(*leaves),
+                      {},
+                      built.locks()};
+    std::vector<std::vector<std::byte>> blocks(groups->size());
+    in_parallel(static_cast<int>(groups->size()), region.threads, [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        const GroupPart part = built.part((*groups)[at]);
+        std::vector<GroupTile> users;
+        for (const Cluster& cluster : part.made)
+            if (cluster.used_by != no_group) users.push_back(built.tile(cluster.used_by));
+        blocks[at] = window_block(part, users, index.posts);
+    });
+    for (const std::uint32_t group : *groups) index.groups.push_back(built.told_of(group));
+    ORO_CHECK(write_window(path, std::move(index), blocks));
+    return true;
 }
 
 }  // namespace
@@ -145,35 +233,14 @@ DrawnHeights heights_of(const WindowedRegion& region, const RegionWindow& window
 Result<bool> build_window(const WindowedRegion& region, const RegionWindow& window, std::uint64_t plan,
                           const std::string& path) {
     const DrawnHeights heights = heights_of(region, window);
-    const BuiltWindow built(region, window, heights);
-    const auto groups = built.own_groups();
-    auto leaves = built.own_leaves();
-    if (!groups || !leaves) return false;
-    WindowIndex index{plan,
-                      {window.rows, window.columns},
-                      window.window.first_row,
-                      window.window.first_column,
-                      std::move(*leaves),
-                      {},
-                      built.locks()};
-    const ClusterGraph& graph = built.graph();
-    std::vector<Result<std::vector<std::byte>>> blocks(groups->size(), std::vector<std::byte>());
-    in_parallel(static_cast<int>(groups->size()), region.threads, [&](int i) {
-        const auto at = static_cast<std::size_t>(i);
-        const GroupPart part = part_of(graph, (*groups)[at]);
-        std::vector<GroupTile> users;
-        for (const Cluster& cluster : part.made)
-            if (cluster.used_by != no_group) users.push_back(built.tile(cluster.used_by));
-        blocks[at] = window_block(part, users, index.posts);
-    });
-    std::vector<std::vector<std::byte>> coded;
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-        if (!blocks[i].ok()) return blocks[i].error();
-        coded.push_back(std::move(blocks[i]).value());
-        index.groups.push_back(told_of(built, (*groups)[i]));
-    }
-    ORO_CHECK(write_window(path, std::move(index), coded));
-    return true;
+    return write_own(region, window, BuiltWindow(region, window, heights, nullptr), plan, path);
+}
+
+Result<bool> build_window_from(const WindowedRegion& region, BegunGraph begun, std::uint64_t plan,
+                               const std::string& path) {
+    const DrawnHeights heights = heights_of(region, begun.window);
+    const BuiltWindow built(region, begun.window, heights, &begun);
+    return write_own(region, begun.window, built, plan, path);
 }
 
 }  // namespace oro

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/cells/cell_diagonals.h"
+#include "core/cluster_windows/begun_graph.h"
 #include "core/cluster_windows/region_windows.h"
 #include "core/surface/ground_bounds.h"
 #include "core/terrain/post_grid.h"
@@ -27,5 +28,8 @@ struct WindowedRegion {
 // depends on what lies beyond. Then nothing is written. plan: WindowIndex. Errors: those of writing.
 Result<bool> build_window(const WindowedRegion& region, const RegionWindow& window, std::uint64_t plan,
                           const std::string& path);
+// The same from what other windows have left (begun_graph_in()).
+Result<bool> build_window_from(const WindowedRegion& region, BegunGraph begun, std::uint64_t plan,
+                               const std::string& path);
 
 }  // namespace oro

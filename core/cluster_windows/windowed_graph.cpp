@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/checksum.h"
 #include "core/base/parallel.h"
+#include "core/cluster_windows/begun_graph.h"
 #include "core/cluster_windows/joined_windows.h"
 #include "core/cluster_windows/window_groups.h"
 #include "core/clusters/graph_builder.h"
@@ -29,24 +32,18 @@ std::int32_t highest_steps_of(const HeightField& field, int threads) {
     return *std::ranges::max_element(highest);
 }
 
-// As the last two levels of windows have them: what the builder needs to go on, with vertices numbered anew.
-struct BegunGraph {
-    ClusterGraph graph;
-    std::vector<VertexNumber> vertices;  // of the region, rising
-    std::uint32_t first_group{};         // of the region's graph, where this one's begin
-    std::uint32_t first_cluster{};       // likewise
-};
-
 // What was to be built, of what.
-std::uint64_t plan_of(const WindowedBake& how, const PostGrid& grid, std::size_t number) {
-    const std::array<std::uint64_t, 7> facts{how.fingerprint,
+std::uint64_t plan_of(const WindowedBake& how, const PostGrid& grid, const WindowSizes& sizes,
+                      std::size_t number) {
+    const std::array<std::uint64_t, 8> facts{how.fingerprint,
                                              static_cast<std::uint64_t>(grid.rows()),
                                              static_cast<std::uint64_t>(grid.columns()),
-                                             how.sizes.posts,
-                                             static_cast<std::uint64_t>(how.sizes.levels),
-                                             xxh64(std::as_bytes(std::span(&how.sizes.kept_share, 1))),
+                                             sizes.posts,
+                                             static_cast<std::uint64_t>(sizes.levels),
+                                             static_cast<std::uint64_t>(sizes.above),
+                                             xxh64(std::as_bytes(std::span(&sizes.kept_share, 1))),
                                              number};
-    return xxh64(std::as_bytes(std::span(facts)), 2);
+    return xxh64(std::as_bytes(std::span(facts)), 3);
 }
 
 // What a broken-off bake left behind may be replaced; what anybody else has under that name stays.
@@ -63,74 +60,108 @@ Result<void> check_path_of_window(const std::string& path) {
     return {};
 }
 
+// A stage of the windows, and how many windows those before it have.
+struct Stage {
+    WindowSizes sizes;
+    std::size_t windows{};
+    std::size_t before{};
+};
+
+// Those with more than one window: what one would build, it builds out of what is left in the end.
+std::vector<Stage> stages_of(const WindowedBake& how, const PostGrid& grid) {
+    std::vector<Stage> stages;
+    std::size_t before = 0;
+    int above = 0;
+    for (WindowSizes sizes : how.stages) {
+        sizes.above = above;
+        const std::size_t windows = windows_of(grid.rows(), grid.columns(), sizes).size();
+        if (windows == 1 && above > 0) break;
+        stages.push_back({sizes, windows, before});
+        before += windows;
+        above = sizes.levels;
+    }
+    return stages;
+}
+
 // Builds a window unless its file is there; with wider margins where what it answers for asks for them.
-Result<WindowFile> window_file(const WindowedRegion& region, const WindowedBake& how, std::size_t number) {
+// joined: of the stages before, if there are any.
+Result<WindowFile> window_file(const WindowedRegion& region, const WindowedBake& how, const Stage& stage,
+                               const JoinedWindows* joined, std::size_t number) {
     constexpr int attempts = 4;
-    const std::string path = path_of_window(how.path, number);
+    const std::string path = path_of_window(how.path, stage.before + number);
     const PostGrid& grid = region.field.grid;
-    const std::uint64_t plan = plan_of(how, grid, number);
+    const std::uint64_t plan = plan_of(how, grid, stage.sizes, number);
     ORO_CHECK(check_path_of_window(path));
     Result<WindowFile> found = WindowFile::open(path);
     if (found.ok() && found->index().plan == plan) return found;
-    WindowSizes sizes = how.sizes;
+    WindowSizes sizes = stage.sizes;
     for (int i = 0; i < attempts; ++i, sizes.widened *= 1.5) {
         const RegionWindow window = windows_of(grid.rows(), grid.columns(), sizes)[number];
-        ORO_TRY(const bool done, build_window(region, window, plan, path));
+        bool done = false;
+        if (joined) {
+            ORO_TRY(BegunGraph begun,
+                    begun_graph_in(*joined, {grid.rows(), grid.columns()}, window, region.threads));
+            ORO_TRY(done, build_window_from(region, std::move(begun), plan, path));
+        } else {
+            ORO_TRY(done, build_window(region, window, plan, path));
+        }
         if (done) return WindowFile::open(path);
     }
     return Error{ErrorKind::failed, how.path, "a window's groups depend on ground that is too far away"};
 }
 
-Result<std::vector<WindowFile>> all_windows(const WindowedRegion& region, const WindowedBake& how) {
-    const PostGrid& grid = region.field.grid;
-    const std::size_t count = windows_of(grid.rows(), grid.columns(), how.sizes).size();
-    std::vector<WindowFile> windows;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (how.progress) how.progress(static_cast<double>(i) / static_cast<double>(count));
-        ORO_TRY(WindowFile window, window_file(region, how, i));
-        windows.push_back(std::move(window));
+// Stage after stage, and all windows joined.
+Result<JoinedWindows> all_windows(WindowedRegion region, const WindowedBake& how,
+                                  const std::vector<Stage>& stages) {
+    const PostCounts posts{region.field.grid.rows(), region.field.grid.columns()};
+    const double all = static_cast<double>(stages.back().before + stages.back().windows);
+    std::optional<JoinedWindows> joined;
+    for (const Stage& stage : stages) {
+        region.sizes = stage.sizes;
+        std::vector<WindowFile> windows;
+        for (std::size_t i = 0; i < stage.windows; ++i) {
+            if (how.progress) how.progress(static_cast<double>(stage.before + i) / all);
+            ORO_TRY(WindowFile window, window_file(region, how, stage, joined ? &*joined : nullptr, i));
+            windows.push_back(std::move(window));
+        }
+        if (joined) {
+            std::vector<WindowFile> before = std::move(*joined).take_windows();
+            std::ranges::move(before, std::back_inserter(windows));
+        }
+        ORO_TRY(JoinedWindows more, JoinedWindows::join(std::move(windows), posts, stage.sizes.levels));
+        joined.emplace(std::move(more));
     }
-    return windows;
+    return std::move(*joined);
 }
 
-Result<BegunGraph> begun_of(const JoinedWindows& joined) {
-    BegunGraph begun;
-    begun.graph.levels = joined.levels();
-    const std::size_t last = begun.graph.levels.size();
-    begun.first_group = joined.first_group(last - 1);
-    begun.first_cluster = joined.first_made(begun.first_group);
-    GroupPart part;
-    for (std::uint32_t number = begun.first_group; number < joined.groups(); ++number) {
-        ORO_CHECK(joined.read(number, part));
-        ClusterGroup group = part.group;
-        group.first_made = static_cast<std::uint32_t>(begun.graph.clusters.size());
-        group.members = 0;
-        for (Cluster cluster : part.made) {
-            cluster.first_triangle += static_cast<std::uint32_t>(begun.graph.triangles.size());
-            cluster.made_by = number - begun.first_group;
-            cluster.used_by = no_group;
-            begun.graph.clusters.push_back(cluster);
-        }
-        begun.graph.triangles.insert(begun.graph.triangles.end(), part.triangles.begin(),
-                                     part.triangles.end());
-        begun.graph.groups.push_back(group);
-    }
-    for (const VertexTriangle& triangle : begun.graph.triangles)
-        begun.vertices.insert(begun.vertices.end(), triangle.begin(), triangle.end());
-    std::ranges::sort(begun.vertices);
-    const auto rest = std::ranges::unique(begun.vertices);
-    begun.vertices.erase(rest.begin(), rest.end());
-    for (VertexTriangle& triangle : begun.graph.triangles)
-        for (VertexNumber& vertex : triangle)
-            vertex = static_cast<VertexNumber>(std::ranges::lower_bound(begun.vertices, vertex) -
-                                               begun.vertices.begin());
-    return begun;
+// So little ground that it is one group on one of these levels, or cannot be made coarser: that is nothing a
+// window could know.
+bool ends_within(const std::vector<GraphLevel>& levels) {
+    int without_progress = 0;
+    return std::ranges::any_of(levels, [&](const GraphLevel& level) {
+        without_progress = level.triangles_out < level.triangles_in ? 0 : without_progress + 1;
+        return level.triangles_in <= one_group_triangles || without_progress >= most_without_progress;
+    });
+}
+
+Result<void> bake_in_one_go(const HeightField& field, const GridBounds& bounds, const WindowedBake& how) {
+    const DrawnHeights heights = drawn_heights(field, 1.0, how.threads);
+    const GridSurface surface(heights);
+    const ClusterGraph graph = build_cluster_graph(
+        surface, bounds, {.threads = how.threads, .kept_share = how.stages.front().kept_share});
+    return write_cluster_graph(how.path, graph, {heights.rows, heights.columns}, how.fingerprint,
+                               how.overwrite, how.threads);
 }
 
 // The groups of the whole graph, one by one: from windows, and above their last level from memory.
 class WholeGraph {
   public:
-    WholeGraph(const JoinedWindows& joined, const BegunGraph& above) : joined_(joined), above_(above) {}
+    // above: from the last two levels of windows on.
+    WholeGraph(const JoinedWindows& joined, const BegunGraph& above)
+        : joined_(joined),
+          above_(above),
+          first_group_(joined.first_group(std::max<std::size_t>(joined.levels().size(), 2) - 1)),
+          first_cluster_(joined.first_made(first_group_)) {}
 
     [[nodiscard]] ClusterOutline outline(const PostCounts& posts, std::uint64_t fingerprint) const {
         const ClusterGraph& graph = above_.graph;
@@ -138,8 +169,8 @@ class WholeGraph {
         outline.fingerprint = fingerprint;
         outline.posts = posts;
         outline.leaves = joined_.leaves();
-        outline.groups = above_.first_group + static_cast<std::uint32_t>(graph.groups.size());
-        outline.clusters = above_.first_cluster + static_cast<std::uint32_t>(graph.clusters.size());
+        outline.groups = first_group_ + static_cast<std::uint32_t>(graph.groups.size());
+        outline.clusters = first_cluster_ + static_cast<std::uint32_t>(graph.clusters.size());
         outline.levels = graph.levels;
         for (std::size_t i = 0; i < joined_.levels().size(); ++i) {
             // What the builder counts of what it was given.
@@ -163,16 +194,16 @@ class WholeGraph {
             ORO_CHECK(joined_.read(number, part));
             members = std::move(part.members);
         }
-        part = part_of(above_.graph, number - above_.first_group);
+        part = part_of(above_.graph, number - first_group_);
         part.number = number;
-        first_made = part.group.first_made + above_.first_cluster;
+        first_made = part.group.first_made + first_cluster_;
         part.group.first_made = first_made;
-        for (std::uint32_t& member : part.members) member += above_.first_cluster;
+        for (std::uint32_t& member : part.members) member += first_cluster_;
         if (is_last) part.members = std::move(members);
         part.group.members = static_cast<std::uint32_t>(part.members.size());
         for (Cluster& cluster : part.made) {
             cluster.made_by = number;
-            if (cluster.used_by != no_group) cluster.used_by += above_.first_group;
+            if (cluster.used_by != no_group) cluster.used_by += first_group_;
         }
         for (VertexTriangle& triangle : part.triangles)
             for (VertexNumber& vertex : triangle) vertex = above_.vertices[vertex];
@@ -185,7 +216,29 @@ class WholeGraph {
     }
     const JoinedWindows& joined_;
     const BegunGraph& above_;
+    const std::uint32_t first_group_;    // of the region's graph, where `above_` begins
+    const std::uint32_t first_cluster_;  // likewise
 };
+
+// The levels above those of windows, and the file.
+Result<void> finish(const HeightField& field, const GridBounds& bounds, const JoinedWindows& joined,
+                    const WindowedBake& how) {
+    const PostCounts posts{field.grid.rows(), field.grid.columns()};
+    ORO_TRY(BegunGraph begun, begun_graph(joined, posts, how.threads));
+    {
+        const DrawnHeights heights = drawn_heights(field, 1.0, how.threads);
+        const GridSurface surface(heights);
+        const VertexSubset subset(surface, begun.vertices);
+        begun.graph =
+            continue_cluster_graph(subset, bounds, std::move(begun.graph),
+                                   {.threads = how.threads, .kept_share = how.stages.front().kept_share});
+    }
+    const WholeGraph whole(joined, begun);
+    return write_cluster_groups(
+        how.path, whole.outline(posts, how.fingerprint),
+        [&](std::uint32_t number, GroupPart& part) { return whole.read(number, part); }, how.overwrite,
+        how.threads);
+}
 
 }  // namespace
 
@@ -197,25 +250,15 @@ Result<void> bake_in_windows(const HeightField& field, const WindowedBake& how) 
     const PostGrid& grid = field.grid;
     const std::shared_ptr<const CellDiagonals> diagonals = CellDiagonals::of(field, how.threads);
     const GridBounds bounds(grid, highest_steps_of(field, how.threads));
-    const WindowedRegion region{field, diagonals.get(), bounds, how.sizes, how.threads};
-    ORO_TRY(std::vector<WindowFile> windows, all_windows(region, how));
-    const std::size_t count = windows.size();
-    const PostCounts posts{grid.rows(), grid.columns()};
-    ORO_TRY(const JoinedWindows joined, JoinedWindows::join(std::move(windows), posts, how.sizes.levels));
-    ORO_TRY(BegunGraph begun, begun_of(joined));
-    {
-        DrawnHeights heights = drawn_heights(field, 1.0, how.threads);
-        const GridSurface surface(heights);
-        const VertexSubset subset(surface, begun.vertices);
-        begun.graph = continue_cluster_graph(subset, bounds, std::move(begun.graph),
-                                             {.threads = how.threads, .kept_share = how.sizes.kept_share});
-    }
-    const WholeGraph whole(joined, begun);
-    ORO_CHECK(write_cluster_groups(
-        how.path, whole.outline(posts, how.fingerprint),
-        [&](std::uint32_t number, GroupPart& part) { return whole.read(number, part); }, how.overwrite,
-        how.threads));
-    for (std::size_t i = 0; i < count; ++i) unlink(path_of_window(how.path, i).c_str());
+    const std::vector<Stage> stages = stages_of(how, grid);
+    const WindowSizes& last = stages.back().sizes;
+    if (stages.front().windows == 1) return bake_in_one_go(field, bounds, how);
+    ORO_TRY(const JoinedWindows joined,
+            all_windows({field, diagonals.get(), bounds, last, how.threads}, how, stages));
+    ORO_CHECK(ends_within(joined.levels()) ? bake_in_one_go(field, bounds, how)
+                                           : finish(field, bounds, joined, how));
+    for (std::size_t i = 0; i < stages.back().before + stages.back().windows; ++i)
+        unlink(path_of_window(how.path, i).c_str());
     return {};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/cluster_windows/region_windows.h"
@@ -16,7 +17,10 @@ struct WindowedBake {
     std::uint64_t fingerprint{};  // surface_fingerprint()
     bool overwrite{};
     int threads{1};
-    WindowSizes sizes;
+    // Windows of the first levels, then those of the next over what these have left, and so on: margins are
+    // as wide as tiles of the levels that are built at once, and the fewer triangles are left, the more posts
+    // a window may have. Each stage's `above` follows from the one before it.
+    std::vector<WindowSizes> stages{{.levels = 4}, {.levels = 8, .posts = 30'000'000}};
     // Told what is done of all windows, 0..1.
     std::function<void(double share)> progress{};
 };
@@ -26,7 +30,7 @@ struct WindowedBake {
 
 // Writes the graph of a field that does not go round the Earth and whose posts lie on latitudes and
 // longitudes: the bytes that the graph in one go would be written as, whatever the windows. Windows that an
-// earlier go has left behind are taken. Memory: what one window takes (some 140 bytes a post of it), or 5
+// earlier go has left behind are taken. Memory: what one window takes (some 100 bytes a post of it), or 5
 // bytes a post of the region and some 60 for each triangle that windows leave at their last level. Errors:
 // as write_cluster_graph(); windows that are damaged, or do not agree.
 Result<void> bake_in_windows(const HeightField& field, const WindowedBake& how);

@@ -17,16 +17,11 @@
 namespace oro {
 namespace {
 
-// With so few triangles a level is one group: what 3 x 3 leaves have.
-constexpr std::size_t one_group_triangles = 9 * most_cluster_triangles;
 // Groups that a thread takes at a time.
 constexpr std::size_t groups_at_a_time = 8;
 // Of vertices that are not locked, so many times (1 - kept_share) may go at most: in a narrow group, with a
 // border all around, there are few, and what they hold up would fall.
 constexpr double most_share = 1.25;
-
-// Groups may be stuck for a level: the next has other borders, and the one after that.
-constexpr int most_without_progress = 3;
 
 class Builder {
   public:
@@ -258,6 +253,10 @@ void Builder::add_coarsest() {
 void Builder::begin_with_leaves() {
     parts_ = surface_.leaves();
     made_by_.assign(parts_.size(), no_group);
+    // Those of all levels, or nearly: to make room again and again would take twice as much.
+    graph_.triangles.reserve(static_cast<std::size_t>(
+        static_cast<double>(triangles_left()) *
+        (1.0 - std::pow(options_.kept_share, options_.last_level + 1)) / (1.0 - options_.kept_share)));
 }
 
 // Which vertices are on borders between groups of a level, told by what these made.

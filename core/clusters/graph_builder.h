@@ -10,6 +10,11 @@
 
 namespace oro {
 
+// With so few triangles a level is one group: what 3 x 3 leaves have.
+inline constexpr std::size_t one_group_triangles = 9 * most_cluster_triangles;
+// Groups may be stuck for a level: the next has other borders, and the one after that.
+inline constexpr int most_without_progress = 3;
+
 struct GraphOptions {
     int threads{1};
     double kept_share{0.65};  // of a group's triangles, in what comes out of it

@@ -1,11 +1,16 @@
 // Must hold: 68 tiles with 64 MB of terrain on the GPU, from 300 km to the ground and back: within the
 // budget, settled, and the same picture as with no limit.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 #include "core/baked/bake.h"
+#include "core/baked/clustered_file.h"
 #include "core/baked/file_pages.h"
+#include "core/cluster_frame/region_clusters.h"
 #include "core/terrain/ground.h"
 #include "geo/region/region.h"
 #include "tests/support/drawn_scene.h"
@@ -63,6 +68,68 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForSixtyEightTiles) {
         static_cast<double>(all.scene().store().bytes()) * 1e-6);
     EXPECT_GT(all.scene().store().size(), few.scene().store().capacity()) << "or the test is too easy";
     std::filesystem::remove(file);
+}
+
+// A file that is baked beforehand, for that takes long: OROGRAPH_TEST_CLUSTERS names it
+// (orograph bake --mesh clusters). Frames wait for what they lack, so there is no crack while clusters come.
+TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
+    const char* const path = std::getenv("OROGRAPH_TEST_CLUSTERS");
+    if (!path) GTEST_SKIP() << "needs a baked file with clusters";
+    const auto opened = open_baked_file(path);
+    ASSERT_TRUE(opened.ok()) << opened.error().line();
+    ASSERT_TRUE(opened->clusters);
+    const auto field = field_in_memory(*opened->region);
+    ASSERT_TRUE(field.ok()) << field.error().line();
+    constexpr int width_px = 640, height_px = 360;
+    constexpr std::uint64_t budget = 64'000'000;
+    const auto scene_of = [&](std::uint64_t bytes) {
+        auto drawn = std::make_unique<test::DrawnScene>(*gpu_, pages_of_file(opened->region),
+                                                        RasterPath::compute, width_px, height_px, bytes / 2);
+        auto graph = clusters_of_file(opened->clusters, opened->region->fingerprint(), *field,
+                                      drawn->scene().pages().facts().shape.occluder);
+        EXPECT_TRUE(graph.ok()) << graph.error().line();
+        auto made = ClusterScene::create(*gpu_, std::move(graph).value(), bytes / 2);
+        EXPECT_TRUE(made.ok()) << made.error().line();
+        drawn->scene().draw_clusters(std::move(made).value());
+        return drawn;
+    };
+    const auto all = scene_of(std::uint64_t{1} << 30U), few = scene_of(budget);
+    const auto bytes_of = [](test::DrawnScene& drawn) {
+        return drawn.scene().store().bytes() + drawn.scene().clusters()->store().bytes();
+    };
+    const PostGrid& grid = field->grid;
+    constexpr int steps = 24;
+    std::size_t ground = 0;
+    for (int i = 0; i <= steps; ++i) {
+        const double share = std::abs(1.0 - 2.0 * i / steps);  // 1 .. 0 .. 1
+        const double way = 0.15 + 0.7 * i / steps;
+        Camera camera;
+        camera.width_px = width_px;
+        camera.height_px = height_px;
+        camera.eye = {grid.lat.at_deg(0) + way * (grid.lat.at_deg(grid.rows() - 1) - grid.lat.at_deg(0)),
+                      grid.lon.at_deg(0) + way * (grid.lon.at_deg(grid.columns() - 1) - grid.lon.at_deg(0)),
+                      0.0};
+        const double ground_m = ground_h_m(*field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
+        camera.eye.h_m = ground_m + 2.0 * std::pow(1.5e5, share);
+        camera.attitude = {15.0 * i, -2.0 - 50.0 * share, 0.0};
+        const test::DrawnFrame free = all->draw(camera, 1.0), bound = few->draw(camera, 1.0);
+        ASSERT_TRUE(bound.plan.clusters.on);
+        ASSERT_TRUE(bound.plan.missing.empty()) << "frame " << i << " is not settled";
+        ASSERT_EQ(free.ids, bound.ids) << "frame " << i;
+        ASSERT_LE(bytes_of(*few), budget);
+        ground += bound.ids.size() - static_cast<std::size_t>(std::ranges::count(bound.ids, 0U));
+    }
+    std::printf(
+        "%s: %d frames from 300 km to 2 m and back, %zu pixels of ground: %.1f MB on the GPU with a budget "
+        "of "
+        "64, %.1f without; %zu of %zu clusters sent again\n",
+        path, steps + 1, ground, static_cast<double>(bytes_of(*few)) * 1e-6,
+        static_cast<double>(bytes_of(*all)) * 1e-6,
+        static_cast<std::size_t>(few->scene().clusters()->store().bytes_sent() -
+                                 all->scene().clusters()->store().bytes_sent()) /
+            sizeof(gpu::ClusterBlock),
+        static_cast<std::size_t>(all->scene().clusters()->store().bytes_sent()) / sizeof(gpu::ClusterBlock));
+    EXPECT_GT(ground, 100'000U);
 }
 
 }  // namespace

@@ -21,8 +21,7 @@ class WindowedGraph : public ::testing::Test {
         bake.fingerprint = cluster_fingerprint;
         bake.overwrite = true;
         bake.threads = threads;
-        bake.sizes.levels = levels;
-        bake.sizes.posts = posts;
+        bake.stages = {{levels, posts}};
         return bake;
     }
     std::string in_one_go(const ClusterTerrain& terrain) const {
@@ -49,7 +48,7 @@ TEST_F(WindowedGraph, HasTheBytesOfOneGo) {
         for (const auto& [levels, posts] : {std::pair{2, 40'000}, {3, 70'000}, {4, 100'000}}) {
             const WindowedBake bake = how(path_, levels, static_cast<std::size_t>(posts));
             const std::size_t windows =
-                windows_of(terrain.heights.rows, terrain.heights.columns, bake.sizes).size();
+                windows_of(terrain.heights.rows, terrain.heights.columns, bake.stages.front()).size();
             EXPECT_GT(windows, 2U);
             EXPECT_TRUE(in_windows(terrain.field, bake) == whole)
                 << levels << " levels, " << windows << " windows, holes " << holes;
@@ -58,12 +57,43 @@ TEST_F(WindowedGraph, HasTheBytesOfOneGo) {
     }
 }
 
+// Windows over what other windows have left.
+TEST_F(WindowedGraph, HasTheBytesOfOneGoInStages) {
+    for (const bool holes : {false, true}) {
+        const ClusterTerrain terrain(holes ? holed_field(300, 420, 5) : rough_field(47.0, 8.0, 320, 400));
+        const std::string whole = in_one_go(terrain);
+        for (const std::vector<WindowSizes>& stages :
+             {std::vector<WindowSizes>{{1, 40'000}, {2, 70'000}}, {{2, 40'000}, {3, 60'000}, {5, 110'000}}}) {
+            WindowedBake bake = how(path_, 2, 40'000);
+            bake.stages = stages;
+            EXPECT_TRUE(in_windows(terrain.field, bake) == whole)
+                << stages.size() << " stages up to level " << stages.back().levels << ", holes " << holes;
+            EXPECT_EQ(files(), 2U) << "windows are gone";
+        }
+    }
+}
+
+// On an island in a wide sea of voids the first levels are one group sooner than their lines say.
+TEST_F(WindowedGraph, HasTheBytesOfOneGoWhereThereIsLittleGround) {
+    HeightField field = rough_field(47.0, 8.0, 300, 400);
+    for (int row = 0; row < 300; ++row)
+        for (int column = 0; column < 400; ++column)
+            if (row < 100 || row > 140 || column < 180 || column > 220)
+                field.H_m[static_cast<std::size_t>(row) * 400 + static_cast<std::size_t>(column)] =
+                    void_height_m;
+    const ClusterTerrain terrain(std::move(field));
+    const std::string whole = in_one_go(terrain);
+    EXPECT_TRUE(in_windows(terrain.field, how(path_, 4, 60'000)) == whole);
+    EXPECT_EQ(files(), 2U);
+}
+
 // What is there is taken, what is damaged is built again.
 TEST_F(WindowedGraph, GoesOnAfterABreak) {
     const ClusterTerrain terrain(rough_field(47.0, 8.0, 400, 300));
     const std::string whole = in_one_go(terrain);
     WindowedBake bake = how(path_, 3, 50'000, 1);
-    const std::size_t windows = windows_of(terrain.heights.rows, terrain.heights.columns, bake.sizes).size();
+    const std::size_t windows =
+        windows_of(terrain.heights.rows, terrain.heights.columns, bake.stages.front()).size();
     ASSERT_GT(windows, 2U);
     for (std::size_t stop = 1; stop <= windows; ++stop) {
         struct Broken {};
