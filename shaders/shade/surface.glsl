@@ -66,11 +66,9 @@ uint descend(uint number, FramePage page, inout vec2 post, float distance_m) {
     return number;
 }
 
-// Slope at a post towards (south, east), metres from one of the region's posts to the next. One-sided beside a void.
-vec2 slope_at_post(PageBlocks block, FramePage page, ivec2 post) {
-    int here = height_or(block, post, void_height);
-    ivec4 around = ivec4(height_or(block, post + ivec2(-1, 0), void_height), height_or(block, post + ivec2(1, 0), void_height),
-                         height_or(block, post + ivec2(0, -1), void_height), height_or(block, post + ivec2(0, 1), void_height));
+// Slope at a post towards (south, east), metres from one of the region's posts to the next. One-sided beside a void. here: its height;
+// around: those of its neighbours in the north, south, west and east.
+vec2 slope_at_post(FramePage page, ivec2 post, int here, ivec4 around) {
     bvec4 there = notEqual(around, ivec4(void_height));
     // A void post, where a cell has one: between its neighbours, or none.
     if (here == void_height) there = bvec4(bvec2(there.x && there.y), bvec2(there.z && there.w));
@@ -105,12 +103,21 @@ vec2 posts_along(vec2 east_north, vec2 post_m) {
     return vec2(row_turn.y * east_north.x - row_turn.x * east_north.y, row_turn.x * east_north.x + row_turn.y * east_north.y) / post_m;
 }
 
+int height_at(PageBlocks block, ivec2 cell, int row, int column) { return stored_height(block, uvec2(cell + ivec2(row + 1, column + 1))); }
+
 // Normal of the smoothed surface: slopes at the cell's four posts, bilinear between them.
 vec3 normal_at(PageBlocks block, FramePage page, vec2 post) {
     ivec2 cell = clamp(whole_signed(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 in_cell = post - vec2(cell);
-    vec2 north = mix(slope_at_post(block, page, cell), slope_at_post(block, page, cell + ivec2(0, 1)), in_cell.y);
-    vec2 south = mix(slope_at_post(block, page, cell + ivec2(1, 0)), slope_at_post(block, page, cell + ivec2(1, 1)), in_cell.y);
+    // Each height is read once: unpacking it takes some twenty operations.
+    ivec2 above = ivec2(height_at(block, cell, -1, 0), height_at(block, cell, -1, 1));
+    ivec2 below = ivec2(height_at(block, cell, 2, 0), height_at(block, cell, 2, 1));
+    ivec4 first = ivec4(height_at(block, cell, 0, -1), height_at(block, cell, 0, 0), height_at(block, cell, 0, 1), height_at(block, cell, 0, 2));
+    ivec4 second = ivec4(height_at(block, cell, 1, -1), height_at(block, cell, 1, 0), height_at(block, cell, 1, 1), height_at(block, cell, 1, 2));
+    vec2 north = mix(slope_at_post(page, cell, first.y, ivec4(above.x, second.y, first.xz)),
+                     slope_at_post(page, cell + ivec2(0, 1), first.z, ivec4(above.y, second.z, first.yw)), in_cell.y);
+    vec2 south = mix(slope_at_post(page, cell + ivec2(1, 0), second.y, ivec4(first.y, below.x, second.xz)),
+                     slope_at_post(page, cell + ivec2(1, 1), second.z, ivec4(first.z, below.y, second.yw)), in_cell.y);
     vec2 slope = mix(north, south, in_cell.x);
     float cosine = RowTable(FRAME.row_terms).at[page.row_terms + uint(cell.x)].cosine;
     float column_spacing_m = max(abs(cosine) * block.at[0].column_spacing_m, 1.0e-3);
