@@ -78,6 +78,10 @@ void PageShelves::free(const Key& page) {
     slot_of_.erase(found);
 }
 
+void PageShelves::free_all() {
+    while (!slot_of_.empty()) free(Key(slot_of_.begin()->first));
+}
+
 // What is free there now, together with what was beside it.
 PageShelves::Slots::iterator PageShelves::free(Slots::iterator slot) {
     Slots& slots = shelves_[slot->shelf];

@@ -40,8 +40,9 @@ class PageShelves {
     // such places that whose pages all have not been shown for longest, and of these have not been used for
     // longest.
     Slot* take_used(const Key& page, std::size_t bytes, std::uint64_t spared);
-    // The page is not here any more.
+    // The page is not here any more; none is.
     void free(const Key& page);
+    void free_all();
 
     [[nodiscard]] std::size_t pages() const { return slot_of_.size(); }
     // Room for a page of that many bytes that is free; how many of them fit where this frame uses no page.

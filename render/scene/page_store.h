@@ -74,6 +74,11 @@ class PageStore {
     // not use make room.
     [[nodiscard]] std::size_t room() const;
 
+    // Whether pages differ in size, so that what is free may lie in pieces that are too short for one.
+    [[nodiscard]] bool has_pieces() const { return coding_.packed; }
+    // No page is here any more; those that come next lie without gaps. No frame is being drawn.
+    void forget_pages() { shelves_.free_all(); }
+
     // Lets go of buffers whose pages the current frame does not use, for others that share the budget: true
     // where there were any. No frame is being drawn.
     bool release_unused();

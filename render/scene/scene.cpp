@@ -265,7 +265,7 @@ Result<bool> Scene::bring(std::span<const PageIndex> all_pages) {
 
 Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                           const WorldModel& model) {
-    for (;;) {
+    for (bool begun_anew = false;;) {
         ORO_TRY(FramePlan frame, own_plan(camera, tile, tau_px, model));
         if (frame.missing.empty()) return frame;
         ORO_TRY(bool fits, bring(shown_of(frame.missing)));
@@ -275,6 +275,11 @@ Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile
         }
         if (fits && frame.missing_hidden == frame.missing.size()) {
             ORO_TRY(fits, bring(frame.missing));
+        }
+        // What other frames left may lie so that there is room, and not in one piece.
+        if (!fits && store_.has_pieces() && !std::exchange(begun_anew, true)) {
+            store_.forget_pages();
+            continue;
         }
         if (!fits) return own_plan(camera, tile, tau_px, model);
     }

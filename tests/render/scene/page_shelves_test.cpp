@@ -36,6 +36,9 @@ TEST(PageShelves, FillsWhatIsFree) {
     EXPECT_EQ(shelves.find(key(1)), nullptr);
     EXPECT_EQ(shelves.find(key(4))->bytes, 60U);
     EXPECT_EQ(shelves.pages(), 2U);
+    shelves.free_all();
+    EXPECT_EQ(shelves.pages(), 0U);
+    EXPECT_TRUE(shelves.has_room(100)) << "in one piece";
 }
 
 // A page of 50 bytes takes the place of the two of 30 that lie beside each other and have not been shown
