@@ -10,13 +10,12 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <new>
 #include <type_traits>
 #include <vector>
 
-#include "core/base/lent.h"
 #include "core/base/little_endian.h"
+#include "core/base/zstd_contexts.h"
 #include "core/terrain/post_grid.h"
 
 // A payload is one byte that says how the heights are kept, and a zstd frame that holds, in this order: one
@@ -162,22 +161,6 @@ unsigned kind_of(const PagePayload& payload) {
     return (all_whole ? whole_metres : floats) | (any_void ? with_voids : 0U);
 }
 
-// What is kept for pressing and unpacking; not to be had without memory.
-template <class Context, std::size_t (*destroy)(Context*)>
-struct Destroy {
-    void operator()(Context* context) const { destroy(context); }
-};
-using Compressor = std::unique_ptr<ZSTD_CCtx, Destroy<ZSTD_CCtx, ZSTD_freeCCtx>>;
-using Decompressor = std::unique_ptr<ZSTD_DCtx, Destroy<ZSTD_DCtx, ZSTD_freeDCtx>>;
-Compressor new_compressor() {
-    return Compressor(ZSTD_createCCtx());
-}
-Decompressor new_decompressor() {
-    return Decompressor(ZSTD_createDCtx());
-}
-using Packer = Lent<Compressor, new_compressor>;
-using Unpacker = Lent<Decompressor, new_decompressor>;
-
 // What zstd found wrong; nothing when all is well. Lack of memory is no fault of the bytes.
 std::optional<std::string> fault_of(std::size_t zstd_result) {
     if (ZSTD_isError(zstd_result) == 0) return std::nullopt;
@@ -219,7 +202,7 @@ Result<std::vector<std::byte>> encode_payload(const PagePayload& payload) {
     std::memcpy(nodes.data() + node_numbers / 2, payload.lod_radius_m.data(), sizeof(payload.lod_radius_m));
     write_planes(nodes.data(), node_numbers, to);
 
-    const Packer context;
+    const ZstdPacker context;
     std::vector<std::byte> packed(largest_payload_bytes);
     packed[0] = static_cast<std::byte>(kind);
     const std::size_t bytes = ZSTD_compressCCtx(context.get(), packed.data() + 1, packed.size() - 1,
@@ -236,7 +219,7 @@ std::optional<std::string> decode_payload(std::span<const std::byte> bytes, Page
     const auto kind = static_cast<unsigned>(bytes[0]);
     if (!known(kind)) return "is of kind " + std::to_string(kind) + ", which this program does not know";
     std::vector<std::byte> unpacked(unpacked_bytes(kind));
-    const Unpacker context;
+    const ZstdUnpacker context;
     const std::size_t found = ZSTD_decompressDCtx(context.get(), unpacked.data(), unpacked.size(),
                                                   bytes.data() + 1, bytes.size() - 1);
     if (const auto what = fault_of(found)) return "cannot be unpacked: " + *what;

@@ -5,10 +5,9 @@
 
 #include <array>
 #include <bit>
-#include <memory>
 #include <new>
 
-#include "core/base/lent.h"
+#include "core/base/zstd_contexts.h"
 
 // Of each cluster: how many triangles it has; for each corner how many vertices the cluster has had since its
 // own was new; for each new vertex how far it is from the one before, down and right. All of it by zstd.
@@ -18,21 +17,6 @@ namespace {
 constexpr int zstd_level = 1;
 // Of a group: no window keeps more.
 constexpr std::size_t most_bytes = std::size_t{16} * most_group_triangles;
-
-template <class Context, std::size_t (*destroy)(Context*)>
-struct Destroy {
-    void operator()(Context* context) const { destroy(context); }
-};
-using Compressor = std::unique_ptr<ZSTD_CCtx, Destroy<ZSTD_CCtx, ZSTD_freeCCtx>>;
-using Decompressor = std::unique_ptr<ZSTD_DCtx, Destroy<ZSTD_DCtx, ZSTD_freeDCtx>>;
-Compressor new_compressor() {
-    return Compressor(ZSTD_createCCtx());
-}
-Decompressor new_decompressor() {
-    return Decompressor(ZSTD_createDCtx());
-}
-using Packer = Lent<Compressor, new_compressor>;
-using Unpacker = Lent<Decompressor, new_decompressor>;
 
 // Numbers of a cluster's vertices as they come, found by vertex: a table at most 3/4 full.
 class Newcomers {
@@ -149,7 +133,7 @@ std::vector<std::byte> pack_made(const GroupPart& part, const PostCounts& posts)
         }
     }
     std::vector<std::byte> packed(ZSTD_compressBound(unpacked.size()));
-    const Packer packer;
+    const ZstdPacker packer;
     const std::size_t bytes = ZSTD_compressCCtx(packer.get(), packed.data(), packed.size(), unpacked.data(),
                                                 unpacked.size(), zstd_level);
     if (ZSTD_isError(bytes) != 0) throw std::bad_alloc();  // there is room, so nothing else is lacking
@@ -164,7 +148,7 @@ bool unpack_made(std::span<const std::byte> bytes, const PostCounts& posts, Grou
     const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
     if (size > most_bytes) return false;  // or is not told
     std::vector<std::byte> unpacked(static_cast<std::size_t>(size));
-    const Unpacker unpacker;
+    const ZstdUnpacker unpacker;
     const std::size_t found =
         ZSTD_decompressDCtx(unpacker.get(), unpacked.data(), unpacked.size(), bytes.data(), bytes.size());
     if (ZSTD_isError(found) != 0 && ZSTD_getErrorCode(found) == ZSTD_error_memory_allocation)
