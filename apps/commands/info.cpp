@@ -1,18 +1,15 @@
 // orograph info: what the sources of a region are, and what is missing.
 #include <cstdio>
 
-#include "apps/baking/cluster_bake.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/info_text.h"
+#include "apps/drawing/clusters_of_region.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view.h"
-#include "core/baked/file_pages.h"
-#include "core/base/parallel.h"
-#include "core/surface/grid_surface.h"
 #include "geo/listing/file_listing.h"
 #include "geo/region/baked_region.h"
 #include "geo/region/region_sources.h"
@@ -73,23 +70,6 @@ nlohmann::ordered_json regions_apart_json(const Region& region) {
     return regions;
 }
 
-// Reads all clusters, and asks whether they are a graph over the region's posts; of a large region group by
-// group, without asking what no group knows alone.
-Result<void> check_graph(const Region& region) {
-    if (region.field.grid.post_count() > most_posts_in_one_go) {
-        GroupPart part;
-        for (std::uint32_t group = 0; group < region.clusters->outline().groups; ++group)
-            ORO_CHECK(region.clusters->part(group, part));
-        return {};
-    }
-    ORO_TRY(const HeightField field, field_in_memory(*region.file));
-    const DrawnHeights heights = drawn_heights(field, 1.0, thread_count());
-    const GridSurface surface(heights, {.goes_round = field.grid.goes_round()});
-    const GridBounds bounds(field.grid, heights.highest_steps);
-    ORO_TRY(const ClusterGraph graph, region.clusters->graph(surface, bounds, thread_count()));
-    return {};
-}
-
 Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
     if (baked_path(request.paths)) return FileListing{};
     return list_files(request, {cache_folder().string(), program_print()},
@@ -117,7 +97,7 @@ Result<void> run_info(const InfoOptions& options) {
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
     for (const Region* const grid : all_grids(region))
         if (options.check && grid->file) ORO_CHECK(grid->file->verify());
-    if (options.check && region.clusters) ORO_CHECK(check_graph(region));
+    if (options.check && region.clusters) ORO_CHECK(check_clusters_of_region(region));
     if (options.json) {
         nlohmann::ordered_json json = json_object(
             "sources", sources_json(region.sources), "region", region_json(region), "file", file_json(region),

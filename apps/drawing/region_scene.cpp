@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/drawing/clusters_of_region.h"
 #include "apps/report/figures.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
@@ -103,22 +104,12 @@ PagesOfGrids pointers_to(const GridPages& pages) {
 
 namespace {
 
-// What takes the place of a scene's nodes. Reads all posts, of large regions page by page.
+// What takes the place of a scene's nodes.
 Result<void> add_clusters(const Gpu& gpu, const Region& region, std::uint64_t bytes,
                           const std::optional<int>& level, Scene& scene) {
-    constexpr std::size_t most_in_memory = 8'000'000, kept_bytes = std::size_t{64} << 20U;
-    HeightField field;
-    if (region.field.grid.post_count() > most_in_memory) {
-        field = field_of_file(region.file, kept_bytes);
-    } else {
-        ORO_TRY(field, field_in_memory(*region.file));
-    }
-    Result<std::unique_ptr<RegionClusters>> clusters = clusters_of_file(
-        region.clusters, region.file->fingerprint(), field, scene.pages().facts().shape.occluder);
-    // A page that cannot be read is void meanwhile.
-    ORO_CHECK(field.health());
-    if (!clusters.ok()) return clusters.error();
-    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(clusters).value(), bytes));
+    ORO_TRY(std::unique_ptr<RegionClusters> clusters,
+            clusters_of_region(region, scene.pages().facts().shape.occluder));
+    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(clusters), bytes));
     if (level) made.keep_to_level(static_cast<std::uint32_t>(*level));
     scene.draw_clusters(std::move(made));
     return {};

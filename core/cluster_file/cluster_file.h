@@ -10,6 +10,7 @@
 #include "core/base/open_file.h"
 #include "core/base/result.h"
 #include "core/cluster_file/group_code.h"
+#include "core/cluster_file/sound_graph.h"
 #include "core/clusters/cluster_graph.h"
 #include "core/surface/ground_bounds.h"
 #include "core/surface/original_surface.h"
@@ -42,6 +43,12 @@ using GiveGroup = std::function<Result<void>(std::uint32_t number, GroupPart& pa
 Result<void> write_cluster_groups(const std::string& path, const ClusterOutline& outline,
                                   const GiveGroup& part, bool overwrite, int threads = 1);
 
+// The original's clusters, where they are too many to be kept; asked by any number of threads at once.
+struct LeavesOneByOne {
+    std::uint32_t count{};
+    std::function<std::vector<VertexTriangle>(std::uint32_t leaf)> triangles;
+};
+
 // A cluster file that is read. Opening reads what concerns the whole graph, a few KB; a group's record and
 // payload are read when they are asked for, from any number of threads at once. Every damage is an Error with
 // the name of the file, the place, what was found and what was expected.
@@ -68,11 +75,18 @@ class ClusterFile {
     // from there. All is checked (core/cluster_file/sound_graph.h).
     [[nodiscard]] Result<ClusterGraph> graph(const OriginalSurface& surface, const GroundBounds& bounds,
                                              int threads = 1) const;
+    // Reads all, and says the same against a file as graph() does, without having the graph in memory: 12
+    // bytes a cluster and 80 a group. leaves: those of the surface.
+    Result<void> check(const OriginalSurface& surface, const GroundBounds& bounds,
+                       const LeavesOneByOne& leaves, int threads = 1) const;
 
   private:
     ClusterFile(OpenFile file, ClusterOutline outline, std::uint64_t bytes);
     [[nodiscard]] std::uint32_t level_of(std::uint32_t number) const;
     [[nodiscard]] Result<void> check_records() const;
+    // graph: without its counts, which are those of the outline.
+    [[nodiscard]] Result<void> check_sound(GraphByGroups graph, const OriginalSurface& surface,
+                                           const GroundBounds& bounds, int threads) const;
 
     OpenFile file_;
     ClusterOutline outline_;

@@ -132,20 +132,32 @@ Result<void> ClusterFile::part(std::uint32_t number, GroupPart& part) const {
 
 namespace {
 
-// Leaves, and room for the rest.
-Result<ClusterGraph> begin_graph(const ClusterFile& file, const OriginalSurface& surface) {
+// That the graph is over what lies before us. triangles: of the leaves.
+Result<void> check_surface(const ClusterFile& file, const OriginalSurface& surface, std::size_t leaves,
+                           std::size_t triangles) {
     const ClusterOutline& outline = file.outline();
-    const auto leaves = surface.leaves();
     if (surface.vertex_count() !=
             static_cast<std::size_t>(outline.posts.rows) * static_cast<std::size_t>(outline.posts.columns) ||
-        leaves.size() != outline.leaves)
+        leaves != outline.leaves)
         return fault(file.path(), "was made over " + std::to_string(outline.posts.rows) + " x " +
                                       std::to_string(outline.posts.columns) + " posts with " +
                                       std::to_string(outline.leaves) + " leaves; here are " +
                                       std::to_string(surface.vertex_count()) + " posts with " +
-                                      std::to_string(leaves.size()) + " leaves");
+                                      std::to_string(leaves) + " leaves");
+    if (!outline.levels.empty() && outline.levels.front().triangles_in != triangles)
+        return fault(file.path(), "was made over " + std::to_string(outline.levels.front().triangles_in) +
+                                      " triangles; here are " + std::to_string(triangles));
+    return {};
+}
+
+// Leaves, and room for the rest.
+Result<ClusterGraph> begin_graph(const ClusterFile& file, const OriginalSurface& surface) {
+    const auto leaves = surface.leaves();
+    std::size_t triangles = 0;
+    for (const auto& leaf : leaves) triangles += leaf.size();
+    ORO_CHECK(check_surface(file, surface, leaves.size(), triangles));
     ClusterGraph graph;
-    graph.levels = outline.levels;
+    graph.levels = file.outline().levels;
     std::vector<VertexNumber> vertices;
     for (const auto& leaf : leaves) {
         vertices.clear();
@@ -233,13 +245,7 @@ Result<void> ClusterFile::check_records() const {
 Result<ClusterGraph> ClusterFile::graph(const OriginalSurface& surface, const GroundBounds& bounds,
                                         int threads) const {
     ORO_TRY(ClusterGraph graph, begin_graph(*this, surface));
-    if (!outline_.levels.empty() && outline_.levels.front().triangles_in != graph.triangles.size())
-        return fault(path(), "was made over " + std::to_string(outline_.levels.front().triangles_in) +
-                                 " triangles; here are " + std::to_string(graph.triangles.size()));
     ORO_CHECK(check_records());
-    const auto unsound = [&](std::uint32_t group, const std::string& what) {
-        return file_.damaged(record_offset(outline_, group), "group " + std::to_string(group) + " " + what);
-    };
     for (std::uint32_t first = 0; first < outline_.groups; first += groups_at_a_time) {
         std::vector<GroupPart> parts(std::min(groups_at_a_time, outline_.groups - first));
         std::vector<Result<void>> read(parts.size());
@@ -253,10 +259,41 @@ Result<ClusterGraph> ClusterFile::graph(const OriginalSurface& surface, const Gr
         }
     }
     link_leaves(graph, outline_.leaves);
-    if (const auto wrong = wrong_link(graph)) return unsound(wrong->group, wrong->what);
-    if (const auto wrong = wrong_growth(graph, surface, bounds)) return unsound(wrong->group, wrong->what);
-    if (const auto wrong = torn_group(graph, surface, threads)) return unsound(wrong->group, wrong->what);
+    ORO_CHECK(check_sound({.leaf =
+                               [&](std::uint32_t leaf) {
+                                   const auto all = graph.triangles_of(graph.clusters[leaf]);
+                                   return std::vector<VertexTriangle>(all.begin(), all.end());
+                               },
+                           .part = [&](std::uint32_t number, GroupPart& part) -> Result<void> {
+                               part = part_of(graph, number);
+                               return {};
+                           }},
+                          surface, bounds, threads));
     return graph;
+}
+
+Result<void> ClusterFile::check_sound(GraphByGroups graph, const OriginalSurface& surface,
+                                      const GroundBounds& bounds, int threads) const {
+    graph.leaves = outline_.leaves;
+    graph.clusters = outline_.clusters;
+    graph.groups = outline_.groups;
+    graph.levels = static_cast<std::uint32_t>(outline_.levels.size());
+    ORO_TRY(const std::optional<UnsoundGroup> wrong, unsound_group(graph, surface, bounds, threads));
+    if (!wrong) return {};
+    return file_.damaged(record_offset(outline_, wrong->group),
+                         "group " + std::to_string(wrong->group) + " " + wrong->what);
+}
+
+Result<void> ClusterFile::check(const OriginalSurface& surface, const GroundBounds& bounds,
+                                const LeavesOneByOne& leaves, int threads) const {
+    std::size_t triangles = 0;
+    for (std::uint32_t leaf = 0; leaf < leaves.count; ++leaf) triangles += leaves.triangles(leaf).size();
+    ORO_CHECK(check_surface(*this, surface, leaves.count, triangles));
+    ORO_CHECK(check_records());
+    return check_sound(
+        {.leaf = leaves.triangles,
+         .part = [this](std::uint32_t number, GroupPart& part) { return this->part(number, part); }},
+        surface, bounds, threads);
 }
 
 }  // namespace oro

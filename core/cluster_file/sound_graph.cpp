@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <sstream>
-#include <vector>
+#include <unordered_map>
+
+#include "core/base/parallel.h"
+#include "core/cluster_file/cluster_format.h"
+#include "core/cluster_file/group_borders.h"
 
 namespace oro {
 namespace {
@@ -22,90 +26,293 @@ std::string metres(double value_m) {
     return text.str();
 }
 
-// 0 for a leaf.
-std::uint32_t level_of(const ClusterGraph& graph, const Cluster& cluster) {
-    return cluster.made_by == no_group ? 0 : graph.groups[cluster.made_by].level;
+UnsoundGroup too_small_sphere(std::uint32_t group, double reach_m, double radius_m) {
+    return {group, "has a sphere of " + metres(radius_m) + ", but what it holds reaches " + metres(reach_m) +
+                       " from its centre"};
 }
 
-std::optional<UnsoundGroup> wrong_members(const ClusterGraph& graph, std::uint32_t group) {
+// Goes through the groups once in their order, and twice more to those at a rim.
+class GraphCheck {
+  public:
+    GraphCheck(const GraphByGroups& graph, const OriginalSurface& surface, const GroundBounds& bounds,
+               int threads)
+        : graph_(graph), surface_(surface), bounds_(bounds), threads_(threads) {
+        users_.assign(graph.leaves, no_group);
+    }
+
+    Result<std::optional<UnsoundGroup>> run() {
+        std::vector<GroupPart> parts;
+        for (std::uint32_t first = 0; first < graph_.groups; first += cluster_format::groups_at_a_time) {
+            parts.assign(std::min(cluster_format::groups_at_a_time, graph_.groups - first), {});
+            ORO_CHECK(read(first, parts));
+            for (const GroupPart& part : parts)
+                if (const auto wrong = take(part)) return wrong;
+            compare(parts);
+        }
+        if (const auto wrong = wrong_users()) return wrong;
+        if (wrong_growth_) return wrong_growth_;
+        return torn();
+    }
+
+  private:
+    // An edge that is gone, the other way round, and the group that it is gone from.
+    struct Gone {
+        BorderEdge edge;
+        std::uint32_t group;
+    };
+    struct Found {
+        std::optional<UnsoundGroup> growth;
+        bool same_border{};
+    };
+    // Edges that are gone, by number, and the place of the first of `gone_` with it.
+    using EdgeNumbers = std::unordered_map<std::uint64_t, std::size_t>;
+
+    Result<void> read(std::uint32_t first, std::vector<GroupPart>& parts) const;
+    std::optional<UnsoundGroup> take(const GroupPart& part);
+    std::optional<UnsoundGroup> wrong_members(const GroupPart& part);
+    [[nodiscard]] std::optional<UnsoundGroup> wrong_users() const;
+    void compare(const std::vector<GroupPart>& parts);
+    [[nodiscard]] std::optional<UnsoundGroup> wrong_growth(const GroupPart& part) const;
+    [[nodiscard]] std::optional<UnsoundGroup> wrong_leaf_reach(const ClusterGroup& group,
+                                                               std::uint32_t number,
+                                                               std::uint32_t leaf) const;
+    [[nodiscard]] bool same_border(const GroupPart& part) const;
+    Result<std::optional<UnsoundGroup>> torn();
+    Result<std::vector<VertexTriangle>> used_triangles(const GroupPart& part) const;
+    Result<std::optional<UnsoundGroup>> lost_edge(std::uint32_t level, const std::vector<Gone>& gone) const;
+    [[nodiscard]] std::optional<UnsoundGroup> lost_by(std::span<const VertexTriangle> triangles,
+                                                      std::uint32_t user, const std::vector<Gone>& gone,
+                                                      const EdgeNumbers& numbers) const;
+
+    // The group that made a cluster; no_group: a leaf.
+    [[nodiscard]] std::uint32_t maker(std::uint32_t cluster) const {
+        if (cluster < graph_.leaves) return no_group;
+        const auto after =
+            std::upper_bound(groups_.begin(), groups_.end(), cluster,
+                             [](std::uint32_t a, const ClusterGroup& b) { return a < b.first_made; });
+        return static_cast<std::uint32_t>(after - groups_.begin()) - 1;
+    }
+    [[nodiscard]] std::uint32_t level_of(std::uint32_t cluster) const {
+        const std::uint32_t made_by = maker(cluster);
+        return made_by == no_group ? 0 : groups_[made_by].level;
+    }
+
+    const GraphByGroups& graph_;
+    const OriginalSurface& surface_;
+    const GroundBounds& bounds_;
+    int threads_;
+    std::vector<ClusterGroup> groups_;          // those that were taken
+    std::vector<std::uint32_t> users_;          // of each cluster; of a leaf, the first group that lists it
+    std::vector<std::uint64_t> sums_;           // border_sum of each cluster but leaves
+    std::uint64_t listed_{0};                   // clusters, by groups
+    std::optional<UnsoundGroup> wrong_growth_;  // the first
+    std::vector<std::uint32_t> other_border_;   // groups whose sums differ
+};
+
+Result<void> GraphCheck::read(std::uint32_t first, std::vector<GroupPart>& parts) const {
+    std::vector<Result<void>> done(parts.size());
+    in_parallel(static_cast<int>(parts.size()), threads_, [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        done[at] = graph_.part(first + static_cast<std::uint32_t>(i), parts[at]);
+    });
+    for (const Result<void>& one : done) ORO_CHECK(one);
+    return {};
+}
+
+// What others will ask of a group; whether its links are right.
+std::optional<UnsoundGroup> GraphCheck::take(const GroupPart& part) {
+    groups_.push_back(part.group);
+    for (const Cluster& cluster : part.made) {
+        users_.push_back(cluster.used_by);
+        sums_.push_back(
+            border_sum(std::span(part.triangles).subspan(cluster.first_triangle, cluster.triangles)));
+    }
+    listed_ += part.members.size();
+    return wrong_members(part);
+}
+
+std::optional<UnsoundGroup> GraphCheck::wrong_members(const GroupPart& part) {
     std::int64_t before = -1;
-    for (const std::uint32_t member : graph.members_of(graph.groups[group])) {
-        if (member <= before || member >= graph.clusters.size())
-            return UnsoundGroup{group, "uses cluster " + in_words(member) + " after " +
-                                           std::to_string(before) + ", expected rising numbers of " +
-                                           in_words(graph.clusters.size())};
+    for (const std::uint32_t member : part.members) {
+        const std::string uses = "uses cluster " + in_words(member);
+        if (member <= before || member >= part.group.first_made)
+            return UnsoundGroup{part.number, uses + " after " + std::to_string(before) +
+                                                 ", expected rising numbers of " + in_words(graph_.clusters)};
         before = member;
-        const Cluster& cluster = graph.clusters[member];
-        if (level_of(graph, cluster) + 1 != graph.groups[group].level)
-            return UnsoundGroup{group, "uses cluster " + in_words(member) + " of level " +
-                                           in_words(level_of(graph, cluster)) + ", expected level " +
-                                           in_words(graph.groups[group].level - 1)};
-        if (cluster.used_by != group)
-            return UnsoundGroup{group, "uses cluster " + in_words(member) +
-                                           ", which says that it is used by " + group_name(cluster.used_by)};
+        if (level_of(member) + 1 != part.group.level)
+            return UnsoundGroup{part.number, uses + " of level " + in_words(level_of(member)) +
+                                                 ", expected level " + in_words(part.group.level - 1)};
+        if (member < graph_.leaves && users_[member] == no_group) users_[member] = part.number;
+        if (users_[member] != part.number)
+            return UnsoundGroup{part.number,
+                                uses + ", which says that it is used by " + group_name(users_[member])};
     }
     return std::nullopt;
 }
 
-std::optional<UnsoundGroup> too_small_sphere(std::uint32_t group, double reach_m, double radius_m) {
-    return UnsoundGroup{group, "has a sphere of " + metres(radius_m) + ", but what it holds reaches " +
-                                   metres(reach_m) + " from its centre"};
-}
-
-}  // namespace
-
-std::optional<UnsoundGroup> wrong_link(const ClusterGraph& graph) {
-    std::size_t used = 0;
-    for (std::uint32_t i = 0; i < graph.groups.size(); ++i) {
-        if (auto wrong = wrong_members(graph, i)) return wrong;
-        used += graph.groups[i].members;
+// Each member says that it is used by the one group that lists it. So where as many are listed as say so,
+// none is missing.
+std::optional<UnsoundGroup> GraphCheck::wrong_users() const {
+    std::uint64_t said = 0;
+    for (std::uint32_t i = 0; i < users_.size(); ++i) {
+        const bool last = level_of(i) == graph_.levels;
+        if (users_[i] != no_group) ++said;
+        if ((users_[i] == no_group) == last) continue;
+        return UnsoundGroup{i < graph_.leaves ? 0 : maker(i),
+                            "has cluster " + in_words(i) + " of level " + in_words(level_of(i)) + " of " +
+                                in_words(graph_.levels) + " used by " + group_name(users_[i])};
     }
-    // Each member says that it is used by the one group that lists it. So where as many are listed as say so,
-    // none is missing.
-    std::size_t said = 0;
-    for (std::uint32_t i = 0; i < graph.clusters.size(); ++i) {
-        const Cluster& cluster = graph.clusters[i];
-        const bool last = level_of(graph, cluster) == graph.levels.size();
-        if (cluster.used_by != no_group) ++said;
-        if ((cluster.used_by == no_group) == last) continue;
-        return UnsoundGroup{cluster.made_by == no_group ? 0 : cluster.made_by,
-                            "has cluster " + in_words(i) + " of level " + in_words(level_of(graph, cluster)) +
-                                " of " + in_words(graph.levels.size()) + " used by " +
-                                group_name(cluster.used_by)};
-    }
-    if (said != used)
-        return UnsoundGroup{0, "and others list " + in_words(used) + " clusters, but " + in_words(said) +
+    if (said != listed_)
+        return UnsoundGroup{0, "and others list " + in_words(listed_) + " clusters, but " + in_words(said) +
                                    " say that they are used"};
     return std::nullopt;
 }
 
-std::optional<UnsoundGroup> wrong_growth(const ClusterGraph& graph, const OriginalSurface& surface,
-                                         const GroundBounds& bounds) {
-    for (std::uint32_t i = 0; i < graph.groups.size(); ++i) {
-        const ClusterGroup& group = graph.groups[i];
-        if (const double below_m = largest_member_error_m(graph, group); below_m > group.error_m)
-            return UnsoundGroup{
-                i, "has error " + metres(group.error_m) + ", but one below it has " + metres(below_m)};
-        std::uint32_t last = no_group;
-        for (const std::uint32_t member : graph.members_of(group)) {
-            const Cluster& cluster = graph.clusters[member];
-            if (cluster.made_by == no_group) {
-                for (const VertexTriangle& triangle : graph.triangles_of(cluster)) {
-                    for (const VertexNumber vertex : triangle) {
-                        const double reach_m =
-                            glm::distance(bounds.ecef(surface.vertex(vertex)).m, group.centre.m);
-                        if (reach_m > group.radius_m) return too_small_sphere(i, reach_m, group.radius_m);
-                    }
-                }
-            } else if (cluster.made_by != last) {
-                last = cluster.made_by;
-                const ClusterGroup& below = graph.groups[last];
-                const double reach_m = glm::distance(below.centre.m, group.centre.m) + below.radius_m;
-                if (reach_m > group.radius_m) return too_small_sphere(i, reach_m, group.radius_m);
-            }
+void GraphCheck::compare(const std::vector<GroupPart>& parts) {
+    std::vector<Found> found(parts.size());
+    in_parallel(static_cast<int>(parts.size()), threads_, [&](int i) {
+        const GroupPart& part = parts[static_cast<std::size_t>(i)];
+        found[static_cast<std::size_t>(i)] = {wrong_growth(part), same_border(part)};
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (found[i].growth && !wrong_growth_) wrong_growth_ = found[i].growth;
+        if (!found[i].same_border) other_border_.push_back(parts[i].number);
+    }
+}
+
+std::optional<UnsoundGroup> GraphCheck::wrong_leaf_reach(const ClusterGroup& group, std::uint32_t number,
+                                                         std::uint32_t leaf) const {
+    for (const VertexTriangle& triangle : graph_.leaf(leaf)) {
+        for (const VertexNumber vertex : triangle) {
+            const double reach_m = glm::distance(bounds_.ecef(surface_.vertex(vertex)).m, group.centre.m);
+            if (reach_m > group.radius_m) return too_small_sphere(number, reach_m, group.radius_m);
         }
     }
     return std::nullopt;
+}
+
+std::optional<UnsoundGroup> GraphCheck::wrong_growth(const GroupPart& part) const {
+    const ClusterGroup& group = part.group;
+    double below_m = 0.0;
+    for (const std::uint32_t member : part.members)
+        if (member >= graph_.leaves) below_m = std::max(below_m, groups_[maker(member)].error_m);
+    if (below_m > group.error_m)
+        return UnsoundGroup{
+            part.number, "has error " + metres(group.error_m) + ", but one below it has " + metres(below_m)};
+    std::uint32_t last = no_group;
+    for (const std::uint32_t member : part.members) {
+        const std::uint32_t made_by = maker(member);
+        if (made_by == no_group) {
+            if (auto wrong = wrong_leaf_reach(group, part.number, member)) return wrong;
+        } else if (made_by != last) {
+            last = made_by;
+            const ClusterGroup& below = groups_[last];
+            const double reach_m = glm::distance(below.centre.m, group.centre.m) + below.radius_m;
+            if (reach_m > group.radius_m) return too_small_sphere(part.number, reach_m, group.radius_m);
+        }
+    }
+    return std::nullopt;
+}
+
+bool GraphCheck::same_border(const GroupPart& part) const {
+    std::uint64_t used = 0;
+    for (const std::uint32_t member : part.members)
+        used += member < graph_.leaves ? border_sum(graph_.leaf(member)) : sums_[member - graph_.leaves];
+    return used == border_sum(part.triangles);
+}
+
+Result<std::vector<VertexTriangle>> GraphCheck::used_triangles(const GroupPart& part) const {
+    std::vector<VertexTriangle> triangles;
+    GroupPart below;
+    std::uint32_t read = no_group;
+    for (const std::uint32_t member : part.members) {
+        if (member < graph_.leaves) {
+            const std::vector<VertexTriangle> leaf = graph_.leaf(member);
+            triangles.insert(triangles.end(), leaf.begin(), leaf.end());
+            continue;
+        }
+        const std::uint32_t made_by = maker(member);
+        if (made_by != read) {
+            below = {};
+            ORO_CHECK(graph_.part(made_by, below));
+            read = made_by;
+        }
+        const Cluster& cluster = below.made[member - below.group.first_made];
+        const auto some = std::span(below.triangles).subspan(cluster.first_triangle, cluster.triangles);
+        triangles.insert(triangles.end(), some.begin(), some.end());
+    }
+    return triangles;
+}
+
+Result<std::optional<UnsoundGroup>> GraphCheck::torn() {
+    std::vector<std::vector<Gone>> gone(graph_.levels + 1);
+    for (const std::uint32_t number : other_border_) {
+        GroupPart part;
+        ORO_CHECK(graph_.part(number, part));
+        ORO_TRY(const std::vector<VertexTriangle> used, used_triangles(part));
+        const std::vector<BorderEdge> before = border_of(used), after = border_of(part.triangles);
+        if (!same_but_straight(surface_, before, after))
+            return std::optional(
+                UnsoundGroup{number, "made clusters with another border than those that it uses have"});
+        for (const BorderEdge& edge : before) {
+            if (!std::binary_search(after.begin(), after.end(), edge))
+                gone[part.group.level].push_back({{edge.to, edge.from}, number});
+        }
+    }
+    for (std::uint32_t level = 1; level <= graph_.levels; ++level) {
+        if (gone[level].empty()) continue;
+        ORO_TRY(const std::optional<UnsoundGroup> wrong, lost_edge(level, gone[level]));
+        if (wrong) return wrong;
+    }
+    return std::optional<UnsoundGroup>();
+}
+
+std::uint64_t number_of(const BorderEdge& edge) {
+    return std::uint64_t{edge.from} << 32U | edge.to;
+}
+
+std::optional<UnsoundGroup> GraphCheck::lost_by(std::span<const VertexTriangle> triangles, std::uint32_t user,
+                                                const std::vector<Gone>& gone,
+                                                const EdgeNumbers& numbers) const {
+    for (const VertexTriangle& triangle : triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto found = numbers.find(number_of({triangle[i], triangle[(i + 1) % 3]}));
+            if (found == numbers.end()) continue;
+            const Gone& one = gone[found->second];
+            return UnsoundGroup{one.group, "has lost the edge from vertex " + std::to_string(one.edge.to) +
+                                               " to " + std::to_string(one.edge.from) +
+                                               ", which it shares with group " + std::to_string(user)};
+        }
+    }
+    return std::nullopt;
+}
+
+// Edges that are gone from a level's groups must have had nothing beyond them.
+Result<std::optional<UnsoundGroup>> GraphCheck::lost_edge(std::uint32_t level,
+                                                          const std::vector<Gone>& gone) const {
+    EdgeNumbers numbers;
+    for (std::size_t i = 0; i < gone.size(); ++i) numbers.emplace(number_of(gone[i].edge), i);
+    for (std::uint32_t leaf = 0; level == 1 && leaf < graph_.leaves; ++leaf)
+        if (const auto wrong = lost_by(graph_.leaf(leaf), users_[leaf], gone, numbers)) return wrong;
+    GroupPart part;
+    for (std::uint32_t number = 0; number < graph_.groups; ++number) {
+        if (groups_[number].level + 1 != level) continue;
+        part = {};
+        ORO_CHECK(graph_.part(number, part));
+        for (const Cluster& cluster : part.made) {
+            const auto triangles =
+                std::span(part.triangles).subspan(cluster.first_triangle, cluster.triangles);
+            if (const auto wrong = lost_by(triangles, cluster.used_by, gone, numbers)) return wrong;
+        }
+    }
+    return std::optional<UnsoundGroup>();
+}
+
+}  // namespace
+
+Result<std::optional<UnsoundGroup>> unsound_group(const GraphByGroups& graph, const OriginalSurface& surface,
+                                                  const GroundBounds& bounds, int threads) {
+    return GraphCheck(graph, surface, bounds, threads).run();
 }
 
 }  // namespace oro
