@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "apps/baking/cluster_bake.h"
 #include "apps/drawing/mesh_choice.h"
-#include "core/baked/file_pages.h"
-#include "core/base/parallel.h"
 #include "core/cluster_frame/cluster_choice.h"
 #include "core/cluster_frame/group_rule.h"
+#include "core/lod/asked_pages.h"
 #include "core/lod/levels.h"
 
 namespace oro {
@@ -18,21 +16,23 @@ Tile whole_picture(const Camera& camera) {
     return {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
 }
 
-MeshForecast forecast_blocks(const LevelPyramid& pyramid, const Camera& camera, double tau_px) {
+Result<MeshForecast> forecast_blocks(const RegionPages& all, const Camera& camera, double tau_px) {
+    const AskedPages pages(all);
     const std::array<Plane, 5> planes =
         frustum_planes_view(projection_of_tile(camera, whole_picture(camera)));
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
     const LevelView level_of = level_view(camera, tau_px);
     MeshForecast forecast;
-    for (const DrawnNode& drawn : select_nodes(pyramid, camera, whole_picture(camera), tau_px).nodes) {
-        const PyramidLevel& level = pyramid.levels[static_cast<std::size_t>(drawn.level)];
-        const PageSummary& page = level.page_of_node(drawn.row, drawn.column).summary;
-        const gpu::MeshletBounds& node = level.node(drawn.row, drawn.column);
+    for (const DrawnNode& drawn : select_nodes(pages, camera, whole_picture(camera), tau_px).nodes) {
+        const LevelGrid& grid = pages.grid(drawn.level);
+        const PyramidPage& whole = pages.page_of_node(drawn.level, drawn.row, drawn.column);
+        const PageSummary& page = whole.summary;
+        const gpu::MeshletBounds& node = PyramidPages::node_of(whole, drawn.row, drawn.column);
         const glm::dvec3 centre = view_from_ecef * (page.origin_ecef.m - camera.eye_ecef().m +
                                                     page.ecef_from_page * glm::dvec3(node.centre));
         if (node.radius < 0.0F || beyond_frustum(planes, centre, static_cast<double>(node.radius))) continue;
-        forecast.triangles += static_cast<std::uint64_t>(2 * level.grid.row.quads_of_node(drawn.row) *
-                                                         level.grid.column.quads_of_node(drawn.column));
+        forecast.triangles += static_cast<std::uint64_t>(2 * grid.row.quads_of_node(drawn.row) *
+                                                         grid.column.quads_of_node(drawn.column));
         if (drawn.level == 0) continue;
         forecast.worst_m = std::max(forecast.worst_m, static_cast<double>(node.error_m));
         forecast.worst_px =
@@ -40,6 +40,7 @@ MeshForecast forecast_blocks(const LevelPyramid& pyramid, const Camera& camera, 
                                             gpu::vec3(centre), node.lod_radius, node.error_m,
                                             level_of.pixels_per_tangent, level_of.corner_tangent)));
     }
+    ORO_CHECK(pages.health());
     return forecast;
 }
 
@@ -63,20 +64,15 @@ Result<MeshForecast> forecast_clusters(RegionClusters& clusters, const View& vie
 
 }  // namespace
 
-Result<std::optional<MeshForecasts>> mesh_forecasts(const View& view, const Region& region) {
-    if (!has_clusters(region, view) || region.field.grid.post_count() > most_posts_in_one_go)
-        return std::optional<MeshForecasts>();
-    ORO_TRY(const HeightField field, field_in_memory(*region.file));
-    const RegionShape& shape = region.file->outline().shape;
+Result<std::optional<MeshForecasts>> mesh_forecasts(const View& view, const Region& region,
+                                                    const RegionPages& pages, std::size_t most_read_at_once) {
+    if (!has_clusters(region, view)) return std::optional<MeshForecasts>();
     MeshForecasts forecasts;
-    {
-        const DrawnHeights heights = drawn_heights(field, 1.0, thread_count());
-        forecasts.blocks = forecast_blocks(build_pyramid(field.grid, shape, heights, thread_count()),
-                                           view.camera, view.tau_px);
-    }
+    ORO_TRY(forecasts.blocks, forecast_blocks(pages, view.camera, view.tau_px));
+    const HorizonOccluder& occluder = pages.facts().shape.occluder;
     ORO_TRY(const std::unique_ptr<RegionClusters> clusters,
-            clusters_of_file(region.clusters, region.file->fingerprint(), field, shape.occluder));
-    ORO_TRY(forecasts.clusters, forecast_clusters(*clusters, view, shape.occluder));
+            clusters_of_region(region, occluder, most_read_at_once));
+    ORO_TRY(forecasts.clusters, forecast_clusters(*clusters, view, occluder));
     return std::optional(forecasts);
 }
 

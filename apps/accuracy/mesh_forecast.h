@@ -1,10 +1,13 @@
 // What a view takes by blocks of the grid and by clusters, before it is drawn.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
+#include "apps/drawing/clusters_of_region.h"
 #include "apps/view/view.h"
+#include "core/frame/region_pages.h"
 #include "geo/region/region.h"
 
 namespace oro {
@@ -20,10 +23,12 @@ struct MeshForecasts {
     MeshForecast clusters;
 };
 
-// Of a region that was baked with clusters, where the view can be drawn by them, and which is built in one go
-// (most_posts_in_one_go); else nothing. Frustum and
-// horizon are left out, what other ground hides is not. Blocks are chosen in straight light. Reads all posts.
-// Errors: damage.
-Result<std::optional<MeshForecasts>> mesh_forecasts(const View& view, const Region& region);
+// Of a region that was baked with clusters, where the view can be drawn by them; else nothing. pages: the
+// region's own. Frustum and horizon are left out, what other ground hides is not. Blocks are chosen in
+// straight light. Reads all posts (clusters_of_region), and of pages and clusters those in view. Errors:
+// damage.
+Result<std::optional<MeshForecasts>> mesh_forecasts(const View& view, const Region& region,
+                                                    const RegionPages& pages,
+                                                    std::size_t most_read_at_once = most_posts_read_at_once);
 
 }  // namespace oro

@@ -170,7 +170,7 @@ Result<void> run_plan(const PlanOptions& options) {
     ORO_TRY(const AccuracyChoice choice,
             choose_accuracy(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const UnseenGround unseen, unseen_in(view, region, *truth, ceiling_m));
-    ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region));
+    ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region, *pages.front()));
     if (options.json) {
         std::printf("%s\n", json_text(plan_json(budget, view, choice, unseen, meshes), true).c_str());
         return {};

@@ -12,21 +12,21 @@ namespace {
 
 constexpr int side = static_cast<int>(gpu::meshlets_per_side);
 
-// A picture's choice among a pyramid's nodes.
+// A picture's choice among the nodes of pages.
 class Choice {
   public:
-    Choice(const LevelPyramid& pyramid, const Camera& camera, const Tile& tile, double tau_px)
-        : pyramid_(pyramid),
+    Choice(const PyramidPages& all, const Camera& camera, const Tile& tile, double tau_px)
+        : pages_(all),
           view_(level_view(camera, tau_px)),
           view_from_ecef_(camera.view_from_ecef()),
           eye_(camera.eye_ecef()),
           planes_(frustum_planes_view(projection_of_tile(camera, tile))),
-          horizon_(horizon_eye(pyramid.shape.occluder, eye_)) {}
+          horizon_(horizon_eye(all.shape().occluder, eye_)) {}
 
     NodeSelection select() {
-        const int top = static_cast<int>(pyramid_.levels.size()) - 1;
+        const int top = pages_.levels() - 1;
         std::vector<PageIndex> pages;
-        if (!pyramid_.levels.back().pages.empty()) pages.push_back({0, 0, top});
+        if (pages_.grid(top).pages().count() > 0) pages.push_back({0, 0, top});
         for (int level = top; level >= 0; --level) {
             std::vector<PageIndex> below;
             for (const PageIndex& page : pages) visit(page, below);
@@ -39,16 +39,13 @@ class Choice {
     }
 
   private:
-    [[nodiscard]] const PyramidLevel& level(int number) const {
-        return pyramid_.levels[static_cast<std::size_t>(number)];
-    }
     [[nodiscard]] bool acceptable(int level_number, int row, int column) const;
     [[nodiscard]] bool acceptable_throughout(const PyramidPage& page) const;
     [[nodiscard]] std::uint32_t edges_beside_coarser(int level_number, int row, int column) const;
     bool hidden(const PyramidPage& page);
     void visit(const PageIndex& index, std::vector<PageIndex>& below);
 
-    const LevelPyramid& pyramid_;
+    const PyramidPages& pages_;
     LevelView view_;
     glm::dmat3 view_from_ecef_;
     Ecef eye_;
@@ -59,9 +56,10 @@ class Choice {
 
 // By the GPU's steps: the page's frame rounded to float, then the node's centre in it.
 bool Choice::acceptable(int level_number, int row, int column) const {
-    if (level_number >= static_cast<int>(pyramid_.levels.size())) return false;
-    const PageSummary& page = level(level_number).page_of_node(row, column).summary;
-    const gpu::MeshletBounds& node = level(level_number).node(row, column);
+    if (level_number >= pages_.levels()) return false;
+    const PyramidPage& whole = pages_.page_of_node(level_number, row, column);
+    const PageSummary& page = whole.summary;
+    const gpu::MeshletBounds& node = PyramidPages::node_of(whole, row, column);
     const gpu::mat3 view_from_page(view_from_ecef_ * page.ecef_from_page);
     const gpu::vec3 origin_view(view_from_ecef_ * (page.origin_ecef.m - eye_.m));
     return gpu::node_acceptable(static_cast<gpu::uint>(level_number), node,
@@ -81,12 +79,12 @@ bool Choice::acceptable_throughout(const PyramidPage& page) const {
 
 // What is drawn beyond an edge is coarser when it may be: when the neighbour's parent is acceptable.
 std::uint32_t Choice::edges_beside_coarser(int level_number, int row, int column) const {
-    const LevelGrid& grid = level(level_number).grid;
+    const LevelGrid& grid = pages_.grid(level_number);
     const int columns = grid.column.nodes();
     const auto coarser = [&](int other_row, int other_column) {
         if (other_row < 0 || other_row >= grid.row.nodes()) return false;
         if (other_column < 0 || other_column >= columns) {
-            if (!pyramid_.goes_round) return false;
+            if (!pages_.goes_round()) return false;
             other_column = (other_column + columns) % columns;
         }
         return acceptable(level_number + 1, other_row / 2, other_column / 2);
@@ -114,7 +112,7 @@ bool Choice::hidden(const PyramidPage& page) {
 }
 
 void Choice::visit(const PageIndex& index, std::vector<PageIndex>& below) {
-    const PyramidPage& page = level(index.level).page(index.row, index.column);
+    const PyramidPage& page = pages_.page(index);
     if (hidden(page)) return;
     ++selection_.pages_seen;
     std::array<bool, 4> descend{};
@@ -132,7 +130,7 @@ void Choice::visit(const PageIndex& index, std::vector<PageIndex>& below) {
         }
     }
     if (index.level == 0 || acceptable_throughout(page)) return;
-    const PageLayout& layout = level(index.level - 1).layout;
+    const PageLayout layout = pages_.grid(index.level - 1).pages();
     for (int i = 0; i < 4; ++i) {
         const PageIndex child{2 * index.row + i / 2, 2 * index.column + i % 2, index.level - 1};
         if (descend[static_cast<std::size_t>(i)] && child.row < layout.rows && child.column < layout.columns)
@@ -150,9 +148,13 @@ LevelView level_view(const Camera& camera, double tau_px) {
             static_cast<float>(std::hypot(width, height)), static_cast<float>(tau_px)};
 }
 
+NodeSelection select_nodes(const PyramidPages& pages, const Camera& camera, const Tile& tile, double tau_px) {
+    return Choice(pages, camera, tile, tau_px).select();
+}
+
 NodeSelection select_nodes(const LevelPyramid& pyramid, const Camera& camera, const Tile& tile,
                            double tau_px) {
-    return Choice(pyramid, camera, tile, tau_px).select();
+    return select_nodes(PagesOfPyramid(pyramid), camera, tile, tau_px);
 }
 
 }  // namespace oro

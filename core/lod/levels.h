@@ -9,6 +9,7 @@
 #include "core/earth/camera.h"
 #include "core/lod/levels_gpu.h"
 #include "core/lod/pyramid.h"
+#include "core/lod/pyramid_pages.h"
 
 namespace oro {
 
@@ -43,7 +44,9 @@ struct NodeSelection {
 // them, the levels of two that share an edge differ by at most one, and every full-resolution place in the
 // picture is within tau_px of the one drawn in its stead (and of placement_far_share of its distance, the
 // rounding of its place). Pages that cannot be seen are left out with all below them; single nodes of the
-// others are not tested. Level 0 is drawn where nothing coarser will do; tau_px 0 draws it everywhere.
+// others are not tested. Level 0 is drawn where nothing coarser will do; tau_px 0 draws it everywhere. Pages
+// are asked for that can be seen and whose nodes may be drawn, and those around them, one level coarser.
+NodeSelection select_nodes(const PyramidPages& pages, const Camera& camera, const Tile& tile, double tau_px);
 NodeSelection select_nodes(const LevelPyramid& pyramid, const Camera& camera, const Tile& tile,
                            double tau_px);
 
