@@ -64,6 +64,13 @@ class GraphCheck {
         std::optional<UnsoundGroup> growth;
         bool same_border{};
     };
+    // Of one whose border is another: read at all, the same but for straight pieces, and the edges that are
+    // gone.
+    struct Rim {
+        Result<void> read;
+        bool same{};
+        std::vector<Gone> gone;
+    };
     // Edges that are gone, by number, and the place of the first of `gone_` with it.
     using EdgeNumbers = std::unordered_map<std::uint64_t, std::size_t>;
 
@@ -77,9 +84,14 @@ class GraphCheck {
                                                                std::uint32_t number,
                                                                std::uint32_t leaf) const;
     [[nodiscard]] bool same_border(const GroupPart& part) const;
+    Result<void> compare_border(std::uint32_t number, Rim& rim) const;
     Result<std::optional<UnsoundGroup>> torn();
     Result<std::vector<VertexTriangle>> used_triangles(const GroupPart& part) const;
     Result<std::optional<UnsoundGroup>> lost_edge(std::uint32_t level, const std::vector<Gone>& gone) const;
+    [[nodiscard]] std::vector<std::uint32_t> groups_at(std::uint32_t level,
+                                                       const std::vector<Gone>& gone) const;
+    Result<std::optional<UnsoundGroup>> lost_by(std::uint32_t group, const std::vector<Gone>& gone,
+                                                const EdgeNumbers& numbers) const;
     [[nodiscard]] std::optional<UnsoundGroup> lost_by(std::span<const VertexTriangle> triangles,
                                                       std::uint32_t user, const std::vector<Gone>& gone,
                                                       const EdgeNumbers& numbers) const;
@@ -244,20 +256,34 @@ Result<std::vector<VertexTriangle>> GraphCheck::used_triangles(const GroupPart& 
     return triangles;
 }
 
+// A group whose border is another than that of what it uses: by vertices on straight pieces alone?
+Result<void> GraphCheck::compare_border(std::uint32_t number, Rim& rim) const {
+    GroupPart part;
+    ORO_CHECK(graph_.part(number, part));
+    ORO_TRY(const std::vector<VertexTriangle> used, used_triangles(part));
+    const std::vector<BorderEdge> before = border_of(used), after = border_of(part.triangles);
+    rim.same = same_but_straight(surface_, before, after);
+    for (const BorderEdge& edge : before) {
+        if (!std::binary_search(after.begin(), after.end(), edge))
+            rim.gone.push_back({{edge.to, edge.from}, number});
+    }
+    return {};
+}
+
 Result<std::optional<UnsoundGroup>> GraphCheck::torn() {
+    std::vector<Rim> rims(other_border_.size());
+    in_parallel(static_cast<int>(rims.size()), threads_, [&](int i) {
+        Rim& rim = rims[static_cast<std::size_t>(i)];
+        rim.read = compare_border(other_border_[static_cast<std::size_t>(i)], rim);
+    });
     std::vector<std::vector<Gone>> gone(graph_.levels + 1);
-    for (const std::uint32_t number : other_border_) {
-        GroupPart part;
-        ORO_CHECK(graph_.part(number, part));
-        ORO_TRY(const std::vector<VertexTriangle> used, used_triangles(part));
-        const std::vector<BorderEdge> before = border_of(used), after = border_of(part.triangles);
-        if (!same_but_straight(surface_, before, after))
-            return std::optional(
-                UnsoundGroup{number, "made clusters with another border than those that it uses have"});
-        for (const BorderEdge& edge : before) {
-            if (!std::binary_search(after.begin(), after.end(), edge))
-                gone[part.group.level].push_back({{edge.to, edge.from}, number});
-        }
+    for (std::size_t i = 0; i < rims.size(); ++i) {
+        ORO_CHECK(rims[i].read);
+        if (!rims[i].same)
+            return std::optional(UnsoundGroup{
+                other_border_[i], "made clusters with another border than those that it uses have"});
+        std::vector<Gone>& of_level = gone[groups_[other_border_[i]].level];
+        of_level.insert(of_level.end(), rims[i].gone.begin(), rims[i].gone.end());
     }
     for (std::uint32_t level = 1; level <= graph_.levels; ++level) {
         if (gone[level].empty()) continue;
@@ -287,6 +313,40 @@ std::optional<UnsoundGroup> GraphCheck::lost_by(std::span<const VertexTriangle> 
     return std::nullopt;
 }
 
+Result<std::optional<UnsoundGroup>> GraphCheck::lost_by(std::uint32_t group, const std::vector<Gone>& gone,
+                                                        const EdgeNumbers& numbers) const {
+    GroupPart part;
+    ORO_CHECK(graph_.part(group, part));
+    for (const Cluster& cluster : part.made) {
+        const auto triangles = std::span(part.triangles).subspan(cluster.first_triangle, cluster.triangles);
+        if (const auto wrong = lost_by(triangles, cluster.used_by, gone, numbers)) return wrong;
+    }
+    return std::optional<UnsoundGroup>();
+}
+
+// Groups of the level below that may have one of the edges: their spheres hold all that they cover.
+std::vector<std::uint32_t> GraphCheck::groups_at(std::uint32_t level, const std::vector<Gone>& gone) const {
+    std::vector<glm::dvec3> places;
+    for (const Gone& one : gone) places.push_back(bounds_.ecef(surface_.vertex(one.edge.from)).m);
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < groups_.size(); ++i)
+        if (groups_[i].level + 1 == level) numbers.push_back(i);
+    std::vector<char> near(numbers.size());
+    in_parallel(static_cast<int>(numbers.size()), threads_, [&](int i) {
+        const ClusterGroup& group = groups_[numbers[static_cast<std::size_t>(i)]];
+        const double square = group.radius_m * group.radius_m * (1.0 + 1.0e-9);
+        near[static_cast<std::size_t>(i)] =
+            std::any_of(places.begin(), places.end(), [&](const glm::dvec3& place) {
+                const glm::dvec3 offset = place - group.centre.m;
+                return glm::dot(offset, offset) <= square;
+            });
+    });
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (near[i] != 0) found.push_back(numbers[i]);
+    return found;
+}
+
 // Edges that are gone from a level's groups must have had nothing beyond them.
 Result<std::optional<UnsoundGroup>> GraphCheck::lost_edge(std::uint32_t level,
                                                           const std::vector<Gone>& gone) const {
@@ -294,17 +354,15 @@ Result<std::optional<UnsoundGroup>> GraphCheck::lost_edge(std::uint32_t level,
     for (std::size_t i = 0; i < gone.size(); ++i) numbers.emplace(number_of(gone[i].edge), i);
     for (std::uint32_t leaf = 0; level == 1 && leaf < graph_.leaves; ++leaf)
         if (const auto wrong = lost_by(graph_.leaf(leaf), users_[leaf], gone, numbers)) return wrong;
-    GroupPart part;
-    for (std::uint32_t number = 0; number < graph_.groups; ++number) {
-        if (groups_[number].level + 1 != level) continue;
-        part = {};
-        ORO_CHECK(graph_.part(number, part));
-        for (const Cluster& cluster : part.made) {
-            const auto triangles =
-                std::span(part.triangles).subspan(cluster.first_triangle, cluster.triangles);
-            if (const auto wrong = lost_by(triangles, cluster.used_by, gone, numbers)) return wrong;
-        }
-    }
+    const std::vector<std::uint32_t> groups = groups_at(level, gone);
+    using Answer = Result<std::optional<UnsoundGroup>>;
+    std::vector<Answer> found(groups.size(), Answer(std::nullopt));
+    in_parallel(static_cast<int>(groups.size()), threads_, [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        found[at] = lost_by(groups[at], gone, numbers);
+    });
+    for (const Answer& one : found)
+        if (!one.ok() || one.value()) return one;
     return std::optional<UnsoundGroup>();
 }
 
