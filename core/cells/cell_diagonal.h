@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "core/cells/floor_within.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {
@@ -54,8 +54,7 @@ inline constexpr std::int32_t no_decisive_steps = INT32_MIN;  // of a post witho
 [[nodiscard]] inline std::int32_t decisive_steps(float H_m) {
     if (is_void(H_m)) return no_decisive_steps;
     constexpr double steps_per_m = 2048.0, limit = 1 << 30;
-    return static_cast<std::int32_t>(
-        std::clamp(std::floor(static_cast<double>(H_m) * steps_per_m + 0.5), -limit, limit));
+    return floor_within(static_cast<double>(H_m) * steps_per_m + 0.5, limit);
 }
 
 // One row of the 4 x 4 posts around a cell, weighted; no_weighed_steps where one has no height. Source of the

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/base/wide.h"
 #include "core/terrain/drawn_heights.h"
 
 namespace oro {
@@ -20,11 +23,21 @@ std::int32_t steps_of(const HeightField& field, int row, int column) {
 // A row of a level's posts, with one more on either side.
 void fill_row(const HeightField& field, const LevelGrid& level, int level_row,
               std::span<std::int32_t> steps) {
-    std::ranges::fill(steps, no_decisive_steps);
-    if (level_row < 0 || level_row > level.row.quads) return;
+    steps.front() = steps.back() = no_decisive_steps;
+    if (level_row < 0 || level_row > level.row.quads) {
+        std::ranges::fill(steps, no_decisive_steps);
+        return;
+    }
     const int row = level.row.region_post(level_row);
     const auto quads = static_cast<std::size_t>(level.column.quads);
-    for (std::size_t i = 0; i <= quads; ++i)
+    std::size_t i = 0;
+    // But for the last column these are points of their own.
+    if (row > 0 && row < field.grid.rows() - 1 && !field.posts) {
+        const float* const H_m =
+            &field.H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.grid.columns())];
+        for (; i < quads; ++i) steps[i + 1] = decisive_steps(H_m[i << static_cast<unsigned>(level.level())]);
+    }
+    for (; i <= quads; ++i)
         steps[i + 1] = steps_of(field, row, level.column.region_post(static_cast<int>(i)));
     if (!field.grid.goes_round()) return;
     steps[0] = steps[quads];
@@ -52,33 +65,51 @@ Diagonal cell_diagonal(const HeightField& field, int row, int column, const std:
     return diagonal_of([&](int r, int c) { return decisive_steps_at(field, r, c, left_out); }, row, column);
 }
 
-DiagonalRows::DiagonalRows(int cells) : cells_(cells) {
+// What DiagonalRows does with a row's numbers, all alike. See weighed_steps() and nearer_diagonal().
+ORO_WIDE void weigh_rows(std::size_t cells, const double* steps, double* weighed) {
+    for (std::size_t i = 0; i < cells; ++i)
+        weighed[i] = 9.0 * (steps[i + 1] + steps[i + 2]) - steps[i] - steps[i + 3];
+}
+ORO_WIDE void decide_rows(std::size_t cells, const std::array<const double*, 4>& weighed, const double* north,
+                          const double* south, std::uint8_t* rises) {
+    for (std::size_t i = 0; i < cells; ++i) {
+        const double smooth = 9.0 * (weighed[1][i] + weighed[2][i]) - weighed[0][i] - weighed[3][i];
+        const double of_falls = 128.0 * (north[i + 1] + south[i + 2]) - smooth;
+        const double of_rises = 128.0 * (north[i + 2] + south[i + 1]) - smooth;
+        rises[i] = std::abs(of_rises) < std::abs(of_falls) ? 1 : 0;
+    }
+}
+
+DiagonalRows::DiagonalRows(int cells) : rises_(static_cast<std::size_t>(cells + 7) / 8 * 8, 0) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     for (Row& row : rows_) {
-        row.steps.assign(static_cast<std::size_t>(cells) + 3, no_decisive_steps);
-        row.weighed.assign(static_cast<std::size_t>(cells), no_weighed_steps);
+        row.filled.assign(static_cast<std::size_t>(cells) + 3, no_decisive_steps);
+        row.steps.assign(static_cast<std::size_t>(cells) + 3, none);
+        row.weighed.assign(static_cast<std::size_t>(cells), none);
     }
 }
 
 std::span<std::int32_t> DiagonalRows::next() {
     first_ = (first_ + 1) % 4;
-    return rows_[static_cast<std::size_t>((first_ + 3) % 4)].steps;
+    return rows_[static_cast<std::size_t>((first_ + 3) % 4)].filled;
 }
 
 void DiagonalRows::take() {
     Row& last = rows_[static_cast<std::size_t>((first_ + 3) % 4)];
-    for (std::size_t i = 0; i < last.weighed.size(); ++i)
-        last.weighed[i] =
-            weighed_steps(last.steps[i], last.steps[i + 1], last.steps[i + 2], last.steps[i + 3]);
+    for (std::size_t i = 0; i < last.filled.size(); ++i)
+        last.steps[i] = last.filled[i] == no_decisive_steps ? std::numeric_limits<double>::quiet_NaN()
+                                                            : static_cast<double>(last.filled[i]);
+    weigh_rows(last.weighed.size(), last.steps.data(), last.weighed.data());
 }
 
-void DiagonalRows::decide(std::span<std::uint8_t> bits) const {
-    std::ranges::fill(bits, std::uint8_t{0});
-    const Row &north = row(1), &south = row(2);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(cells_); ++i) {
-        const Diagonal diagonal =
-            nearer_diagonal({row(0).weighed[i], north.weighed[i], south.weighed[i], row(3).weighed[i]},
-                            north.steps[i + 1], north.steps[i + 2], south.steps[i + 1], south.steps[i + 2]);
-        if (diagonal == Diagonal::rises) bits[i / 8] = static_cast<std::uint8_t>(bits[i / 8] | 1U << (i % 8));
+void DiagonalRows::decide(std::span<std::uint8_t> bits) {
+    decide_rows(row(0).weighed.size(),
+                {row(0).weighed.data(), row(1).weighed.data(), row(2).weighed.data(), row(3).weighed.data()},
+                row(1).steps.data(), row(2).steps.data(), rises_.data());
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+        unsigned eight = 0;
+        for (unsigned k = 0; k < 8; ++k) eight |= static_cast<unsigned>(rises_[8 * i + k]) << k;
+        bits[i] = static_cast<std::uint8_t>(eight);
     }
 }
 

@@ -61,19 +61,22 @@ class DiagonalRows {
     void take();
     // Of the cells between the second and the third of the last four rows: eight a byte, the first the lowest
     // bit.
-    void decide(std::span<std::uint8_t> bits) const;
+    void decide(std::span<std::uint8_t> bits);
 
   private:
+    // As doubles, NaN where a post has no height: whole numbers below 2^53, so that it is exact, and what has
+    // a NaN in it is no less than anything.
     struct Row {
-        std::vector<std::int32_t> steps;
-        std::vector<std::int64_t> weighed;
+        std::vector<std::int32_t> filled;
+        std::vector<double> steps;
+        std::vector<double> weighed;
     };
     [[nodiscard]] const Row& row(int number) const {
         return rows_[static_cast<std::size_t>((first_ + number) % 4)];
     }
-    int cells_;
-    int first_{0};
     std::array<Row, 4> rows_;
+    int first_{0};
+    std::vector<std::uint8_t> rises_;  // of each cell, and up to a whole multiple of 8
 };
 
 }  // namespace oro
