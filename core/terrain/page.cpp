@@ -14,6 +14,7 @@
 
 #include "core/base/lent.h"
 #include "core/net/page_on_net.h"
+#include "core/placed/placed_posts.h"
 #include "core/terrain/page_posts.h"
 
 namespace oro {
@@ -29,17 +30,6 @@ constexpr int meshlets_per_side = static_cast<int>(gpu::meshlets_per_side);
 double cylinder_rho_m(const Geodetic& place) {
     return (prime_vertical_radius_m(place.lat_deg) + place.h_m) * sine_cosine_deg(place.lat_deg).cosine;
 }
-
-// The posts of a page in double. Lent for page after page: fresh memory for each costs more than what is
-// done in it.
-struct PlacedPosts {
-    std::vector<glm::dvec3> position_m;  // page frame
-    std::vector<HorizonPoint> horizon;
-    std::vector<unsigned char> drawn;  // that belong to a triangle
-
-    PlacedPosts() : position_m(count), horizon(count), drawn(count) {}
-    static constexpr std::size_t count = static_cast<std::size_t>(posts) * posts;
-};
 
 // Builds a page: its posts in double, then what the block and the summary make of them.
 class PageBuilder {
@@ -72,13 +62,15 @@ class PageBuilder {
     void fill_block();
     void place_posts();
     void place_by_net();
+    void place_by_angles();
     void bound_meshlets();
     void bound_page();
-    void bound_meshlet(int number);
+    void bound_meshlet(int number, const PostSphere* known);
+    std::size_t gather_meshlet(int number, std::array<glm::dvec3, gpu::meshlet_vertices>& points) const;
+    void bound_finely(int number);
     void bound_by_horizon(int number, std::span<const HorizonPoint> points);
     int mark_triangles(int number);
     gpu::uint box_around(std::span<const glm::dvec3> points, const gpu::MeshletBounds& bounds) const;
-    HorizonPoint horizon_point_at(const glm::dvec3& position_m) const;
 
     static std::size_t at(int row, int column) { return static_cast<std::size_t>(row * posts + column); }
     std::int32_t steps(int row, int column) const {
@@ -159,8 +151,10 @@ void PageBuilder::place_by_net() {
     for_each_normal(grid_, summary_.index, [&](int i, int j, const glm::dvec3& normal) {
         if (!drawable(i, j)) return;
         const Ecef place = ecef_along(normal, steps(i, j) * height_step_m);
-        placed_.position_m[at(i, j)] = page_from_ecef * (place.m - summary_.origin_ecef.m);
-        placed_.horizon[at(i, j)] = horizon_point_at(placed_.position_m[at(i, j)]);
+        const glm::dvec3 position_m = page_from_ecef * (place.m - summary_.origin_ecef.m);
+        placed_.x[at(i, j)] = position_m.x;
+        placed_.y[at(i, j)] = position_m.y;
+        placed_.z[at(i, j)] = position_m.z;
     });
 }
 
@@ -168,8 +162,15 @@ void PageBuilder::place_posts() {
     std::ranges::fill(placed_.drawn, static_cast<unsigned char>(whole_ ? 1 : 0));
     if (grid_.net) {
         place_by_net();
-        return;
+    } else {
+        place_by_angles();
     }
+    // Scaled space turned as the page's frame is (the two equatorial radii are equal, so scaling and turning
+    // commute).
+    scale_posts({rho0_m_, 0.0, z0_m_}, shape_.occluder.radii_m, placed_);
+}
+
+void PageBuilder::place_by_angles() {
     std::array<double, gpu::page_posts> V{};
     std::array<double, gpu::page_posts> W{};
     for (int j = 0; j < posts; ++j) {
@@ -179,27 +180,14 @@ void PageBuilder::place_posts() {
         V[static_cast<std::size_t>(j)] = 2.0 * half_sine * half_sine;
         W[static_cast<std::size_t>(j)] = sine_cosine_deg(turn_deg).sine;
     }
+    // What stands for a void post is placed, too, and not drawn.
     for (int i = 0; i < posts; ++i) {
         const double lat_deg = row_lat_deg(grid_, post_beyond(posts_.level().row, posts_.first_row() + i));
         const SineCosine lat = sine_cosine_deg(lat_deg);
-        const double normal_m = prime_vertical_radius_m(lat_deg);
-        for (int j = 0; j < posts; ++j) {
-            if (!drawable(i, j)) continue;
-            const double h_m = steps(i, j) * height_step_m;
-            const double r = (normal_m + h_m) * lat.cosine;
-            const glm::dvec3 position_m{r - rho0_m_ - r * V[static_cast<std::size_t>(j)],
-                                        r * W[static_cast<std::size_t>(j)],
-                                        (normal_m * (1.0 - wgs84_e2) + h_m) * lat.sine - z0_m_};
-            placed_.position_m[at(i, j)] = position_m;
-            placed_.horizon[at(i, j)] = horizon_point_at(position_m);
-        }
+        place_row({prime_vertical_radius_m(lat_deg), lat.cosine, lat.sine, rho0_m_, z0_m_},
+                  &heights_.steps[static_cast<std::size_t>((i + 1) * stride + 1)], V, W,
+                  static_cast<std::size_t>(i), placed_);
     }
-}
-
-// Scaled space turned as the page's frame is (the two equatorial radii are equal, so scaling and turning
-// commute).
-HorizonPoint PageBuilder::horizon_point_at(const glm::dvec3& position_m) const {
-    return horizon_point((position_m + glm::dvec3(rho0_m_, 0.0, z0_m_)) / shape_.occluder.radii_m);
 }
 
 // Marks the posts of a meshlet that belong to a triangle; number of triangles.
@@ -222,31 +210,6 @@ int PageBuilder::mark_triangles(int number) {
     return triangles;
 }
 
-struct Sphere {
-    glm::vec3 centre;
-    float radius;
-};
-// Around points, with the centre already rounded to float. Slack for the rounding of the points themselves
-// when the GPU places them in float.
-Sphere sphere_around(std::span<const glm::dvec3> points) {
-    glm::dvec3 low = points[0];
-    glm::dvec3 high = points[0];
-    for (const glm::dvec3& point : points) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    const glm::vec3 centre(0.5 * (low + high));
-    double square = 0.0;
-    double size = 0.0;
-    for (const glm::dvec3& point : points) {
-        const glm::dvec3 offset = point - glm::dvec3(centre);
-        square = std::max(square, glm::dot(offset, offset));
-        size = std::max(size, glm::dot(point, point));
-    }
-    const double radius = std::sqrt(square) + 1.0e-3 + 4.0e-7 * std::sqrt(size);
-    return {centre, std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity())};
-}
-
 // PageBlock::boxes, rounded outwards. By more than a float's rounding of each term: the radius is, too.
 gpu::uint PageBuilder::box_around(std::span<const glm::dvec3> points,
                                   const gpu::MeshletBounds& bounds) const {
@@ -265,7 +228,21 @@ gpu::uint PageBuilder::box_around(std::span<const glm::dvec3> points,
     return box.x | box.y << 10U | box.z << 20U;
 }
 
-void PageBuilder::bound_meshlet(int number) {
+// The posts of a meshlet that are drawn.
+std::size_t PageBuilder::gather_meshlet(int number,
+                                        std::array<glm::dvec3, gpu::meshlet_vertices>& points) const {
+    std::size_t count = 0;
+    const int first_row = number / meshlets_per_side * meshlet_quads;
+    const int first_column = number % meshlets_per_side * meshlet_quads;
+    for (int row = first_row; row <= first_row + meshlet_quads; ++row) {
+        for (int column = first_column; column <= first_column + meshlet_quads; ++column)
+            if (placed_.drawn[at(row, column)] != 0) points[count++] = placed_.position_m(at(row, column));
+    }
+    return count;
+}
+
+// known: its sphere, of a page without void posts.
+void PageBuilder::bound_meshlet(int number, const PostSphere* known) {
     gpu::MeshletBounds& bounds = block_.meshlets[number];
     bounds = {gpu::vec3(0.0F), -1.0F, gpu::vec3(0.0F), 0.0F, 0.0F, -1.0F};
     block_.boxes[number] = 0;
@@ -275,24 +252,23 @@ void PageBuilder::bound_meshlet(int number) {
     summary_.triangles += static_cast<std::uint32_t>(triangles);
     ++summary_.meshlets;
     std::array<glm::dvec3, gpu::meshlet_vertices> points;
-    std::array<HorizonPoint, gpu::meshlet_vertices> horizon;
-    std::size_t count = 0;
-    const int first_row = number / meshlets_per_side * meshlet_quads;
-    const int first_column = number % meshlets_per_side * meshlet_quads;
-    for (int row = first_row; row <= first_row + meshlet_quads; ++row) {
-        for (int column = first_column; column <= first_column + meshlet_quads; ++column) {
-            if (placed_.drawn[at(row, column)] == 0) continue;
-            points[count] = placed_.position_m[at(row, column)];
-            horizon[count] = placed_.horizon[at(row, column)];
-            ++count;
-        }
-    }
-    const Sphere sphere = sphere_around(std::span(points).first(count));
+    const PostSphere sphere =
+        known != nullptr ? *known : sphere_around(std::span(points).first(gather_meshlet(number, points)));
     bounds.centre = sphere.centre;
     bounds.radius = sphere.radius;
     bounds.lod_radius = sphere.radius;
-    if (bounding_ == MeshletBounding::spheres) return;
-    block_.boxes[number] = box_around(std::span(points).first(count), bounds);
+    if (bounding_ == MeshletBounding::whole) bound_finely(number);
+}
+
+// All but the sphere.
+void PageBuilder::bound_finely(int number) {
+    std::array<glm::dvec3, gpu::meshlet_vertices> points;
+    std::array<HorizonPoint, gpu::meshlet_vertices> horizon;
+    const std::size_t count = gather_meshlet(number, points);
+    const glm::dvec3 origin_m(rho0_m_, 0.0, z0_m_);
+    for (std::size_t i = 0; i < count; ++i)
+        horizon[i] = horizon_point((points[i] + origin_m) / shape_.occluder.radii_m);
+    block_.boxes[number] = box_around(std::span(points).first(count), block_.meshlets[number]);
     bound_by_horizon(number, std::span(horizon).first(count));
 }
 
@@ -304,25 +280,20 @@ void PageBuilder::bound_by_horizon(int number, std::span<const HorizonPoint> poi
 }
 
 void PageBuilder::bound_meshlets() {
-    for (int number = 0; number < static_cast<int>(gpu::meshlets_per_page); ++number) bound_meshlet(number);
+    constexpr int meshlets = static_cast<int>(gpu::meshlets_per_page);
+    std::array<PostSphere, gpu::meshlets_per_page> spheres;
+    if (whole_) spheres_of_meshlets(placed_, spheres);
+    for (int number = 0; number < meshlets; ++number)
+        bound_meshlet(number, whole_ ? &spheres[static_cast<std::size_t>(number)] : nullptr);
 }
 
 void PageBuilder::bound_page() {
-    // All posts that are drawn, moved together in their order.
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < PlacedPosts::count; ++i) {
-        if (placed_.drawn[i] == 0) continue;
-        if (count < i) {
-            placed_.position_m[count] = placed_.position_m[i];
-            placed_.horizon[count] = placed_.horizon[i];
-        }
-        ++count;
-    }
+    const std::size_t count = whole_ ? PlacedPosts::count : placed_.gather_drawn();
     if (count == 0) return;
-    const Sphere sphere = sphere_around(std::span(placed_.position_m).first(count));
+    const PostSphere sphere = sphere_around(placed_, count);
     summary_.centre_m = glm::dvec3(sphere.centre);
     summary_.radius_m = sphere.radius;
-    const HorizonCone cone = horizon_cone(std::span(placed_.horizon).first(count));
+    const HorizonCone cone = horizon_cone(placed_, count);
     summary_.horizon = {summary_.ecef_from_page * cone.direction, cone.angle_rad};
     for (std::size_t i = 0; bounding_ == MeshletBounding::whole && i < directions_.size(); ++i) {
         if (block_.meshlets[i].radius < 0.0F) continue;
