@@ -8,6 +8,7 @@
 #include "core/earth/ellipsoid.h"
 #include "core/earth/extremes.h"
 #include "core/lod/levels_gpu.h"
+#include "core/lod/quad_differences.h"
 
 namespace oro {
 namespace {
@@ -101,11 +102,22 @@ double NodeDeviations::middles_deviation(const QuadPosts& quad) const {
     return extremes.magnitude();
 }
 
+bool NodeDeviations::all_void(const QuadPosts& quad) const {
+    for (int row = quad.north; row <= quad.south; ++row) {
+        const std::int32_t* const steps = heights_.row(row);
+        if (std::any_of(steps + quad.west, steps + quad.east + 1,
+                        [](std::int32_t post) { return post != void_height_steps; }))
+            return false;
+    }
+    return true;
+}
+
 // Which part of a quad with void posts the full-resolution surface and the quad's triangles cover.
 NodeDeviations::Quad NodeDeviations::quad_with_voids(const QuadPosts& quad) const {
     // It has posts all around, and is drawn whole; something in it is not there.
     if (quad.diagonal == Diagonal::rises) return {Cover::unequal, unfit_m};
     const auto& [north, west, south, east, falls] = quad;
+    if (all_void(quad)) return {Cover::empty, 0.0};
     const auto there = [&](int row, int column) { return heights_.at(row, column) != void_height_steps; };
     // Cells' triangles on either side of the diagonal; a cell on it that rises has half of each on either.
     std::array<std::int64_t, 2> drawn{};
@@ -141,38 +153,55 @@ NodeDeviations::Quad NodeDeviations::quad_deviation(int row, int column) const {
                          level_.row.region_post(row + 1), level_.column.region_post(column + 1),
                          heights_.diagonal(level_.level(), row, column)};
     const auto& [north, west, south, east, diagonal] = quad;
-    bool any_void = false;
-    for (const int r : {north, south}) {
-        for (const int c : {west, east}) any_void = any_void || heights_.at(r, c) == void_height_steps;
+    const std::int32_t *const upper = heights_.row(north), *const lower = heights_.row(south);
+    if (std::min(std::min(upper[west], upper[east]), std::min(lower[west], lower[east])) == void_height_steps)
+        return quad_with_voids(quad);
+    if (quad.square()) return square_quad_deviation(quad);
+    for (int r = north; r <= south; ++r) {
+        const std::int32_t* const steps = heights_.row(r);
+        if (std::find(steps + west, steps + east + 1, void_height_steps) != steps + east + 1)
+            return quad_with_voids(quad);
     }
-    if (any_void) return quad_with_voids(quad);
-    const int size = south - north;
-    const double share = 1.0 / size;
-    const CellPlane plane_west = plane_of(quad, true), plane_east = plane_of(quad, false);
-    Extremes of_west;
-    Extremes of_east;
-    for (int i = 0; i <= size && !any_void; ++i) {
-        const std::int32_t* steps = heights_.row(north + i) + west;
-        const int last = !quad.square() ? -1 : diagonal == Diagonal::falls ? i : size - i;
-        std::int32_t lowest = 0;
-        const auto compare = [&](Extremes& extremes, const CellPlane& plane, int from, int to) {
-            const double down = share * plane.change_down, right = share * plane.change_right;
-            for (int j = from; j <= to; ++j) {
-                lowest = std::min(lowest, steps[j]);
-                extremes.add(steps[j] - (plane.at_corner + i * down + j * right));
-            }
-        };
-        compare(of_west, plane_west, 0, last);
-        compare(of_east, plane_east, last + 1, east - west);
-        any_void = lowest == void_height_steps;
-    }
-    if (any_void) return quad_with_voids(quad);
-    if (!quad.square()) return {Cover::full, narrow_quad_deviation(quad)};
-    const double largest = std::max(of_west.magnitude(), of_east.magnitude());
-    return {Cover::full, heights_.diagonals ? std::max(largest, middles_deviation(quad)) : largest};
+    return {Cover::full, narrow_quad_deviation(quad)};
+}
+
+// Of a quad with posts at its corners.
+NodeDeviations::Quad NodeDeviations::square_quad_deviation(const QuadPosts& quad) const {
+    const int size = quad.south - quad.north;
+    if (size == 2) return pair_deviation(quad);
+    const QuadDifferences found =
+        quad_differences(heights_.row(quad.north) + quad.west, heights_.columns, size, quad.diagonal,
+                         plane_of(quad, true), plane_of(quad, false));
+    if (found.lowest_steps == void_height_steps) return quad_with_voids(quad);
+    return {Cover::full, heights_.diagonals ? std::max(found.largest_steps, middles_deviation(quad))
+                                            : found.largest_steps};
+}
+
+// Of one of 2 x 2 cells: only the posts half way between its corners can be off. In halves of a step, so that
+// it is exact.
+NodeDeviations::Quad NodeDeviations::pair_deviation(const QuadPosts& quad) const {
+    const std::int32_t* const north = heights_.row(quad.north) + quad.west;
+    const std::int32_t* const middle = north + heights_.columns;
+    const std::int32_t* const south = middle + heights_.columns;
+    if (std::min({north[1], middle[0], middle[1], middle[2], south[1]}) == void_height_steps)
+        return quad_with_voids(quad);
+    const auto twofold = [](std::int64_t a, std::int64_t b, std::int64_t between) {
+        return std::abs(2 * between - a - b);
+    };
+    const bool falls = quad.diagonal == Diagonal::falls;
+    const std::int64_t largest =
+        std::max({twofold(north[0], north[2], north[1]), twofold(south[0], south[2], south[1]),
+                  twofold(north[0], south[0], middle[0]), twofold(north[2], south[2], middle[2]),
+                  falls ? twofold(north[0], south[2], middle[1]) : twofold(north[2], south[0], middle[1])});
+    const double steps = 0.5 * static_cast<double>(largest);
+    return {Cover::full, heights_.diagonals ? std::max(steps, middles_deviation(quad)) : steps};
 }
 
 NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column) const {
+    return height_deviation(node_row, node_column, post_range(node_row, node_column));
+}
+
+NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column, const PostRange& range) const {
     const int rows = level_.row.quads_of_node(node_row);
     const int columns = level_.column.quads_of_node(node_column);
     std::array<Cover, 64> covers{};
@@ -180,7 +209,7 @@ NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column) co
     bool all_empty = true;
     double own_steps = 0.0;
     // Level 0 is the full resolution: all there is to ask is what voids leave of it.
-    const bool as_it_is = level_.level() == 0 && !post_range(node_row, node_column).any_void;
+    const bool as_it_is = level_.level() == 0 && !range.any_void;
     if (as_it_is) all_empty = false;
     for (int i = 0; i < rows && !as_it_is; ++i) {
         for (int j = 0; j < columns; ++j) {
@@ -209,18 +238,25 @@ NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column) co
 
 // Range of the node's own posts.
 NodeDeviations::PostRange NodeDeviations::post_range(int node_row, int node_column) const {
-    PostRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), false};
+    const int columns = level_.column.quads_of_node(node_column);
+    std::array<int, node_quads + 1> places{};
+    for (int j = 0; j <= columns; ++j)
+        places[static_cast<std::size_t>(j)] = level_.column.region_post(node_column * node_quads + j);
+    constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+    std::int32_t lowest = none, highest = void_height_steps;
+    bool any_void = false;
     for (int i = 0; i <= level_.row.quads_of_node(node_row); ++i) {
-        const std::int32_t* steps = heights_.row(level_.row.region_post(node_row * node_quads + i));
-        for (int j = 0; j <= level_.column.quads_of_node(node_column); ++j) {
-            const std::int32_t h = steps[level_.column.region_post(node_column * node_quads + j)];
-            range.any_void = range.any_void || h == void_height_steps;
-            if (h == void_height_steps) continue;
-            range.lowest = std::min<double>(range.lowest, h);
-            range.highest = std::max<double>(range.highest, h);
+        const std::int32_t* const steps = heights_.row(level_.row.region_post(node_row * node_quads + i));
+        for (int j = 0; j <= columns; ++j) {
+            const std::int32_t h = steps[places[static_cast<std::size_t>(j)]];
+            any_void = any_void || h == void_height_steps;
+            lowest = std::min(lowest, h == void_height_steps ? none : h);
+            highest = std::max(highest, h);
         }
     }
-    return range;
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    return {lowest == none ? infinite : static_cast<double>(lowest),
+            highest == void_height_steps ? -infinite : static_cast<double>(highest), any_void};
 }
 
 // How far a flat triangle lies from the curved one that is linear in (row, column, height): half the second
@@ -265,11 +301,11 @@ NodeDeviations::Sag NodeDeviations::sag_of_net(double dh_m, double finest_dh_m) 
 }
 
 NodeDeviation NodeDeviations::deviation(int node_row, int node_column) const {
-    NodeDeviation deviation = height_deviation(node_row, node_column);
+    const PostRange range = post_range(node_row, node_column);
+    NodeDeviation deviation = height_deviation(node_row, node_column, range);
     if (deviation.empty) return deviation;
     const bool finest = level_.level() == 0;
     // The full resolution's heights differ from the node's by the deviation, at either end of an edge.
-    const PostRange range = post_range(node_row, node_column);
     const double dh_m = (range.highest - range.lowest) * height_step_m;
     const Sag sag_m = sag(node_row, dh_m, std::isinf(deviation.own_m) ? dh_m : dh_m + 2.0 * deviation.own_m);
     // Where the region ends, the diagonals of narrow quads cross cells of the full resolution, as stitched

@@ -94,6 +94,9 @@ class NodeDeviations {
     };
     [[nodiscard]] CellPlane plane_of(const QuadPosts& quad, bool is_west) const;
     [[nodiscard]] Quad quad_deviation(int row, int column) const;
+    [[nodiscard]] Quad square_quad_deviation(const QuadPosts& quad) const;
+    [[nodiscard]] Quad pair_deviation(const QuadPosts& quad) const;
+    [[nodiscard]] bool all_void(const QuadPosts& quad) const;
     [[nodiscard]] Quad quad_with_voids(const QuadPosts& quad) const;
     [[nodiscard]] double narrow_quad_deviation(const QuadPosts& quad) const;
     [[nodiscard]] double middles_deviation(const QuadPosts& quad) const;
@@ -101,6 +104,8 @@ class NodeDeviations {
                                                    int columns);
     [[nodiscard]] PerEdge stitched_deviation(int node_row, int node_column, std::uint32_t edges) const;
     [[nodiscard]] PerEdge finest_stitched_deviation(int node_row, int node_column) const;
+    // range: post_range().
+    [[nodiscard]] NodeDeviation height_deviation(int node_row, int node_column, const PostRange& range) const;
     [[nodiscard]] PostRange post_range(int node_row, int node_column) const;
     [[nodiscard]] Sag sag(int node_row, double dh_m, double finest_dh_m) const;
     [[nodiscard]] Sag sag_of_net(double dh_m, double finest_dh_m) const;

@@ -12,6 +12,38 @@ namespace {
 
 constexpr int node_quads = static_cast<int>(gpu::meshlet_quads);
 
+// Of numbers that are not negative: what std::floor gives, which is a call.
+int rounded_down(double number) {
+    return static_cast<int>(number);
+}
+// Of numbers above -1.
+int rounded_up(double number) {
+    const int down = static_cast<int>(number);
+    return static_cast<double>(down) < number ? down + 1 : down;
+}
+
+// Whether a line that goes `far` one way in so many steps of the other comes to posts alone, step by step:
+// also as it is reckoned in double, where shares of a power of two are exact.
+bool power_of_two(int number) {
+    const int size = std::abs(number);
+    return (size & (size - 1)) == 0;
+}
+bool meets_posts_alone(int steps, int far) {
+    return power_of_two(steps) && (far & (std::abs(steps) - 1)) == 0;
+}
+
+// An edge of a triangle as a way from row to row.
+struct Slope {
+    int first_row, last_row;  // the ends are not of the way
+    int row, column;          // one of the ends
+    int down, right;
+    double share;  // one of `down`; 0 where that is not exact
+    [[nodiscard]] double column_at(int r) const {
+        const double way = static_cast<double>(r - row) * right;
+        return column + (share != 0.0 ? way * share : way / down);
+    }
+};
+
 }  // namespace
 
 // Every triangle that some combination of stitched edges has and the node without them has not. One edge
@@ -70,46 +102,43 @@ double NodeDeviations::crossing_deviation(const Post& from, const Post& to) cons
     // The place at share t of the edge lies on the full-resolution edge from a post to its neighbour (dr,
     // dc).
     const auto compare = [&](double t, int row, int column, double share, int dr, int dc) {
-        beside_void = beside_void || heights_.at(row, column) == void_height_steps ||
-                      heights_.at(row + dr, column + dc) == void_height_steps;
-        const double h =
-            (1.0 - share) * heights_.at(row, column) + share * heights_.at(row + dr, column + dc);
-        extremes.add(h - (h0 + t * (h1 - h0)));
+        const std::int32_t begin = heights_.at(row, column), end = heights_.at(row + dr, column + dc);
+        beside_void = beside_void || begin == void_height_steps || end == void_height_steps;
+        extremes.add((1.0 - share) * begin + share * end - (h0 + t * (h1 - h0)));
     };
-    const int step_down = down > 0 ? 1 : -1;
-    for (int i = step_down; i != down; i += step_down) {
-        const double t = static_cast<double>(i) / down;
-        const double column = from.column + t * right;
-        const int west = static_cast<int>(std::floor(column));
-        if (column > west) compare(t, from.row + i, west, column - west, 0, 1);
-    }
-    const int step_right = right > 0 ? 1 : -1;
-    for (int i = step_right; i != right; i += step_right) {
-        const double t = static_cast<double>(i) / right;
-        const double row = from.row + t * down;
-        const int north = static_cast<int>(std::floor(row));
-        if (row > north) compare(t, north, from.column + i, row - north, 1, 0);
-    }
-    const int across = right - down;
-    const int step_across = across > 0 ? 1 : -1;
-    for (int i = step_across; across != 0 && i != across; i += step_across) {
-        const double t = static_cast<double>(i) / across;
-        const double row = from.row + t * down;
-        const int north = static_cast<int>(std::floor(row));
-        const int west = north + from.column - from.row + i;
-        if (row > north && heights_.diagonal(0, north, west) == Diagonal::falls)
-            compare(t, north, west, row - north, 1, 1);
-    }
-    const int together = heights_.diagonals ? right + down : 0;
-    const int step_together = together > 0 ? 1 : -1;
-    for (int i = step_together; together != 0 && i != together; i += step_together) {
-        const double t = static_cast<double>(i) / together;
-        const double row = from.row + t * down;
-        const int north = static_cast<int>(std::floor(row));
-        const int east = from.row + from.column + i - north;
-        if (row > north && heights_.diagonal(0, north, east - 1) == Diagonal::rises)
-            compare(t, north, east, row - north, 1, -1);
-    }
+    // Step by step of one way, of which there are so many: all that do not come to a post.
+    const auto each = [](int steps, const auto& visit) {
+        const int step = steps > 0 ? 1 : -1;
+        const double share = power_of_two(steps) ? 1.0 / steps : 0.0;
+        for (int i = step; i != steps; i += step)
+            visit(i, share != 0.0 ? i * share : static_cast<double>(i) / steps);
+    };
+    if (!meets_posts_alone(down, right))
+        each(down, [&](int i, double t) {
+            const double column = from.column + t * right;
+            const int west = rounded_down(column);
+            if (column > west) compare(t, from.row + i, west, column - west, 0, 1);
+        });
+    if (!meets_posts_alone(right, down))
+        each(right, [&](int i, double t) {
+            const double row = from.row + t * down;
+            const int north = rounded_down(row);
+            if (row > north) compare(t, north, from.column + i, row - north, 1, 0);
+        });
+    if (right != down && !meets_posts_alone(right - down, down))
+        each(right - down, [&](int i, double t) {
+            const double row = from.row + t * down;
+            const int north = rounded_down(row), west = north + from.column - from.row + i;
+            if (row > north && heights_.diagonal(0, north, west) == Diagonal::falls)
+                compare(t, north, west, row - north, 1, 1);
+        });
+    if (heights_.diagonals && right != -down && !meets_posts_alone(right + down, down))
+        each(right + down, [&](int i, double t) {
+            const double row = from.row + t * down;
+            const int north = rounded_down(row), east = from.row + from.column + i - north;
+            if (row > north && heights_.diagonal(0, north, east - 1) == Diagonal::rises)
+                compare(t, north, east, row - north, 1, -1);
+        });
     // That surface is not there on either side of an edge that ends in a void post.
     return beside_void ? unfit_m : extremes.magnitude();
 }
@@ -125,6 +154,18 @@ double NodeDeviations::triangle_deviation(const Triangle& triangle) const {
     const double per_row = (hb * cc - hc * bc) / area;
     const double per_column = (hc * br - hb * cr) / area;
     Extremes extremes;
+    std::array<Slope, 3> slopes{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Post &p = triangle[i], &q = triangle[(i + 1) % 3];
+        const int down = q.row - p.row;
+        slopes[i] = {std::min(p.row, q.row),
+                     std::max(p.row, q.row),
+                     p.row,
+                     p.column,
+                     down,
+                     q.column - p.column,
+                     down != 0 && power_of_two(down) ? 1.0 / down : 0.0};
+    }
     for (int row = std::min({a.row, b.row, c.row}); row <= std::max({a.row, b.row, c.row}); ++row) {
         double west = std::numeric_limits<double>::infinity();
         double east = -west;
@@ -133,16 +174,14 @@ double NodeDeviations::triangle_deviation(const Triangle& triangle) const {
             east = std::max(east, column);
         };
         for (std::size_t i = 0; i < 3; ++i) {
-            const Post& p = triangle[i];
-            const Post& q = triangle[(i + 1) % 3];
-            if (p.row == row) widen(p.column);
-            if ((p.row < row) != (q.row < row) && p.row != row && q.row != row)
-                widen(p.column + static_cast<double>(row - p.row) * (q.column - p.column) / (q.row - p.row));
+            const Slope& slope = slopes[i];
+            if (slope.row == row) widen(slope.column);
+            if (slope.first_row < row && row < slope.last_row) widen(slope.column_at(row));
         }
         const std::int32_t* steps = heights_.row(row);
         const double in_row = h + per_row * (row - a.row);
-        const int last = static_cast<int>(std::floor(east + 1.0e-9));
-        for (int column = static_cast<int>(std::ceil(west - 1.0e-9)); column <= last; ++column) {
+        const int last = rounded_down(east + 1.0e-9);
+        for (int column = rounded_up(west - 1.0e-9); column <= last; ++column) {
             if (steps[column] == void_height_steps) return unfit_m;
             extremes.add(steps[column] - (in_row + per_column * (column - a.column)));
         }

@@ -57,9 +57,10 @@ class LevelBuilder {
           stitched_m_(grid_.pages().count()),
           stitched_below_m_(std::move(stitched_below_m)) {}
 
-    // Page `number` of the level, row by row, with what was measured of it before, if anything. Safe to call
-    // from several threads, once for each page.
-    void build(std::size_t number, const PyramidHooks& hooks, PyramidPage& page, gpu::PageBlock& block);
+    // Page `number` of the level, row by row, with what was measured of it before, if anything; by so many
+    // threads. Safe to call from several threads, once for each page.
+    void build(std::size_t number, const PyramidHooks& hooks, int threads, PyramidPage& page,
+               gpu::PageBlock& block);
     [[nodiscard]] const StitchedDeviations& stitched(std::size_t number) const { return stitched_m_[number]; }
     // Of all pages of the level, once they are built.
     std::vector<StitchedDeviations> take_stitched() { return std::move(stitched_m_); }
@@ -205,7 +206,7 @@ void LevelBuilder::hold_pages_below(PyramidPage& page) const {
     }
 }
 
-void LevelBuilder::build(std::size_t number, const PyramidHooks& hooks, PyramidPage& page,
+void LevelBuilder::build(std::size_t number, const PyramidHooks& hooks, int threads, PyramidPage& page,
                          gpu::PageBlock& block) {
     const auto columns = static_cast<std::size_t>(grid_.pages().columns);
     const PageIndex index{static_cast<int>(number / columns), static_cast<int>(number % columns), level_};
@@ -214,16 +215,18 @@ void LevelBuilder::build(std::size_t number, const PyramidHooks& hooks, PyramidP
     PyramidHooks::Measured measured;
     const bool known = hooks.recall && hooks.recall(index, measured);
     if (known) stitched_m_[number] = measured.stitched;
-    for (int i = 0; i < side * side; ++i) {
-        const int node_row = index.row * side + i / side;
-        const int node_column = index.column * side + i % side;
-        if (known) {
-            block.meshlets[i].error_m = measured.error_m[static_cast<std::size_t>(i)];
-            block.meshlets[i].lod_radius = measured.lod_radius_m[static_cast<std::size_t>(i)];
-        } else if (node_row < grid_.row.nodes() && node_column < grid_.column.nodes()) {
-            finish_node(node_row, node_column, page.summary, block.meshlets[i]);
+    in_parallel(side, threads, [&](int row) {
+        for (int i = row * side; i < (row + 1) * side; ++i) {
+            const int node_row = index.row * side + row;
+            const int node_column = index.column * side + i % side;
+            if (known) {
+                block.meshlets[i].error_m = measured.error_m[static_cast<std::size_t>(i)];
+                block.meshlets[i].lod_radius = measured.lod_radius_m[static_cast<std::size_t>(i)];
+            } else if (node_row < grid_.row.nodes() && node_column < grid_.column.nodes()) {
+                finish_node(node_row, node_column, page.summary, block.meshlets[i]);
+            }
         }
-    }
+    });
     std::copy(std::begin(block.meshlets), std::end(block.meshlets), page.nodes.begin());
     std::copy(std::begin(block.boxes), std::end(block.boxes), page.boxes.begin());
     sum_up(page);
@@ -239,9 +242,11 @@ Result<void> build_level(LevelBuilder& builder, PyramidLevel& level, int threads
     level.pages.resize(count);
     for (std::size_t first = 0; first < count; first += at_a_time) {
         const auto some = static_cast<int>(std::min(at_a_time, count - first));
-        in_parallel(some, threads, [&](int slot) {
+        // The coarsest levels have few pages, each over as many posts as all of a finer level.
+        const bool few = some < 4 * threads;
+        in_parallel(some, few ? 1 : threads, [&](int slot) {
             const auto i = static_cast<std::size_t>(slot);
-            builder.build(first + i, hooks, level.pages[first + i], blocks[i]);
+            builder.build(first + i, hooks, few ? threads : 1, level.pages[first + i], blocks[i]);
             if (hooks.work) hooks.work(slot, level.pages[first + i], blocks[i]);
         });
         for (int slot = 0; hooks.sink && slot < some; ++slot) {
