@@ -2,37 +2,57 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/baked/page_compression.h"
 #include "core/baked/region_file.h"
+#include "core/base/parallel.h"
 #include "core/lod/pyramid.h"
 #include "core/terrain/page.h"
 
 namespace oro {
 namespace {
 
+// Of a row's posts 1 where there is a height, else 0.
+void posts_there(const HeightField& field, int row, std::vector<unsigned char>& there) {
+    for (std::size_t column = 0; column < there.size(); ++column)
+        there[column] = is_void(field.H_at_post_m(row, static_cast<int>(column))) ? 0 : 1;
+}
+
 // Triangles that the field draws.
-std::uint64_t triangle_count(const HeightField& field) {
-    const PostGrid& grid = field.grid;
-    std::uint64_t count = 0;
-    for (int row = 0; row + 1 < grid.rows(); ++row) {
-        for (int column = 0; column + 1 < grid.columns(); ++column) {
-            if (is_void(field.H_at_post_m(row, column)) || is_void(field.H_at_post_m(row + 1, column + 1)))
-                continue;
-            count += is_void(field.H_at_post_m(row + 1, column)) ? 0U : 1U;
-            count += is_void(field.H_at_post_m(row, column + 1)) ? 0U : 1U;
+std::uint64_t triangle_count(const HeightField& field, int threads) {
+    constexpr int band_rows = 64;
+    const int rows = field.grid.rows() - 1, bands = (rows + band_rows - 1) / band_rows;
+    std::vector<std::uint64_t> counts(static_cast<std::size_t>(std::max(bands, 0)));
+    in_parallel(bands, threads, [&](int band) {
+        std::vector<unsigned char> north(static_cast<std::size_t>(field.grid.columns())), south(north.size());
+        const int first = band * band_rows;
+        posts_there(field, first, south);
+        std::uint64_t count = 0;
+        for (int row = first; row < std::min(first + band_rows, rows); ++row) {
+            std::swap(north, south);
+            posts_there(field, row + 1, south);
+            for (std::size_t c = 0; c + 1 < north.size(); ++c)
+                count += static_cast<unsigned>((north[c] & south[c + 1]) * (south[c] + north[c + 1]));
         }
-    }
-    return count;
+        counts[static_cast<std::size_t>(band)] = count;
+    });
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
 RegionOutline outline_of(const HeightField& field, const BakeOptions& options) {
     const HeightRange range = height_range(field);
-    return {field.grid,      field.undulation, region_shape(field, 1.0), range.lowest_m,
-            range.highest_m, range.voids,      triangle_count(field),    options.description};
+    return {field.grid,
+            field.undulation,
+            region_shape(field, 1.0),
+            range.lowest_m,
+            range.highest_m,
+            range.voids,
+            triangle_count(field, options.threads),
+            options.description};
 }
 
 PagePayload payload_of(const HeightField& field, const PyramidPage& page) {

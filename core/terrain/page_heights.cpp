@@ -57,19 +57,61 @@ PageDiagonals diagonals_of(const PostGrid& grid, const PageElevations& elevation
     return rises;
 }
 
+// Which of the region's columns a page's posts are, row after row.
+class PageColumns {
+  public:
+    explicit PageColumns(const PagePosts& page) : columns_(page.region_columns()) {
+        const auto there = [](int column) { return column >= 0; };
+        first_ = static_cast<std::size_t>(std::ranges::find_if(columns_, there) - columns_.begin());
+        end_ = first_;
+        while (end_ < columns_.size() && columns_[end_] == columns_[first_] + static_cast<int>(end_ - first_))
+            ++end_;
+        one_after_another_ =
+            std::none_of(columns_.begin() + static_cast<std::ptrdiff_t>(end_), columns_.end(), there);
+    }
+    // from: a row of the region, null where it has none there; `none` stands where there is no post.
+    template <class Height>
+    void copy(const Height* from, Height none, Height* to) const {
+        if (from == nullptr || first_ == columns_.size()) {
+            std::fill_n(to, columns_.size(), none);
+        } else if (one_after_another_) {
+            std::fill_n(to, first_, none);
+            std::copy_n(from + columns_[first_], end_ - first_, to + first_);
+            std::fill(to + end_, to + columns_.size(), none);
+        } else {
+            copy_each([&](int column) { return from[column]; }, none, to);
+        }
+    }
+    template <class Height, class Give>
+    void copy_each(const Give& give, Height none, Height* to) const {
+        for (std::size_t i = 0; i < columns_.size(); ++i) to[i] = columns_[i] < 0 ? none : give(columns_[i]);
+    }
+
+  private:
+    std::array<int, gpu::height_stride> columns_;
+    std::size_t first_{}, end_{};
+    bool one_after_another_{};
+};
+
 // Heights of a row's posts, each that which is drawn for all posts of its place. What a row is, is asked
 // once.
 class RowElevations {
   public:
     RowElevations(const HeightField& field, int row)
-        : field_(&field), row_(row), all_(row >= 0 && at_pole(field.grid, row)) {
+        : field_(&field), row_(row), all_(at_pole(field.grid, row)) {
         twin_ = field.grid.goes_round() ? field.grid.columns() - 1 : -1;
     }
-    [[nodiscard]] int row() const { return row_; }
     [[nodiscard]] float H_m(int column) const {
         if (all_ || column == twin_)
             return field_->H_at_post_m(row_, canonical_column(*field_, row_, column));
         return field_->H_at_post_m(row_, column);
+    }
+
+    // The row in memory, where each post has its own height and all are there; else null.
+    [[nodiscard]] const float* as_they_are() const {
+        if (all_ || twin_ >= 0 || field_->posts) return nullptr;
+        return &field_
+                    ->H_m[static_cast<std::size_t>(row_) * static_cast<std::size_t>(field_->grid.columns())];
     }
 
   private:
@@ -87,9 +129,13 @@ PageLayout page_layout(const PostGrid& grid) {
 PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, PageIndex index) {
     assert(heights.rows == grid.rows() && heights.columns == grid.columns());
     PageHeights page;
-    for_each_post(PagePosts(grid, index), [&](std::size_t i, const std::optional<PageIndex>& post) {
-        page.steps[i] = post ? heights.at(post->row, post->column) : void_height_steps;
-    });
+    const PagePosts page_posts(grid, index);
+    const PageColumns columns(page_posts);
+    for (int row = -1; row <= posts; ++row) {
+        const int region_row = page_posts.region_row(row);
+        columns.copy(region_row < 0 ? nullptr : heights.row(region_row), void_height_steps,
+                     &page.steps[static_cast<std::size_t>((row + 1) * stride)]);
+    }
     if (heights.diagonals) page.rises = diagonals_of(*heights.diagonals, index);
     return page;
 }
@@ -97,14 +143,19 @@ PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, Page
 PageElevations page_elevations(const HeightField& field, PageIndex index) {
     PageElevations page;
     const PagePosts page_posts(field.grid, index);
+    const PageColumns columns(page_posts);
     for (int row = -1; row <= posts; ++row) {
-        RowElevations elevations(field, -1);
-        for (int column = -1; column <= posts; ++column) {
-            const std::optional<PageIndex> post = page_posts.region_post(row, column);
-            if (post && elevations.row() != post->row) elevations = RowElevations(field, post->row);
-            page.H_m[static_cast<std::size_t>((row + 1) * stride + column + 1)] =
-                post ? elevations.H_m(post->column) : void_height_m;
+        float* const H_m = &page.H_m[static_cast<std::size_t>((row + 1) * stride)];
+        const int region_row = page_posts.region_row(row);
+        if (region_row < 0) {
+            columns.copy<float>(nullptr, void_height_m, H_m);
+            continue;
         }
+        const RowElevations elevations(field, region_row);
+        if (const float* const of_region = elevations.as_they_are())
+            columns.copy(of_region, void_height_m, H_m);
+        else
+            columns.copy_each([&](int column) { return elevations.H_m(column); }, void_height_m, H_m);
     }
     // The post after a last column that is the first one.
     const LevelGrid level = level_grid(field.grid, index.level);

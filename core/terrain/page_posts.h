@@ -1,6 +1,7 @@
 // Where the posts of a page lie among those of the region.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -18,10 +19,13 @@ class PagePosts {
           first_column_(index.column * static_cast<int>(gpu::page_quads)),
           goes_round_(grid.goes_round()) {}
 
-    // The region's post at a page's row and column, -1 .. 129; nothing outside the region. The apron goes on
-    // round the Earth.
-    [[nodiscard]] std::optional<PageIndex> region_post(int row, int column) const {
+    // The region's row at a page's row -1 .. 129; -1 outside the region.
+    [[nodiscard]] int region_row(int row) const {
         const int level_row = first_row_ + row;
+        return level_row < 0 || level_row > level_.row.quads ? -1 : level_.row.region_post(level_row);
+    }
+    // The same of a column. The apron goes on round the Earth.
+    [[nodiscard]] int region_column(int column) const {
         int level_column = first_column_ + column;
         const int quads_round = level_.column.quads;
         if (goes_round_) {
@@ -29,9 +33,18 @@ class PagePosts {
             if (level_column == quads_round + 1 && column == static_cast<int>(gpu::page_posts))
                 level_column = 1;
         }
-        if (level_row < 0 || level_row > level_.row.quads) return std::nullopt;
-        if (level_column < 0 || level_column > quads_round) return std::nullopt;
-        return PageIndex{level_.row.region_post(level_row), level_.column.region_post(level_column)};
+        return level_column < 0 || level_column > quads_round ? -1 : level_.column.region_post(level_column);
+    }
+    // Of columns -1 .. 129.
+    [[nodiscard]] std::array<int, gpu::height_stride> region_columns() const {
+        std::array<int, gpu::height_stride> columns{};
+        for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = region_column(static_cast<int>(i) - 1);
+        return columns;
+    }
+    // The region's post at a page's row and column, -1 .. 129; nothing outside the region.
+    [[nodiscard]] std::optional<PageIndex> region_post(int row, int column) const {
+        const PageIndex post{region_row(row), region_column(column)};
+        return post.row < 0 || post.column < 0 ? std::nullopt : std::optional(post);
     }
     [[nodiscard]] const LevelGrid& level() const { return level_; }
     [[nodiscard]] int first_row() const { return first_row_; }  // of the level's posts
@@ -43,14 +56,5 @@ class PagePosts {
     int first_column_;
     bool goes_round_;
 };
-
-template <class Visit>
-void for_each_post(const PagePosts& page, const Visit& visit) {
-    constexpr int posts = static_cast<int>(gpu::page_posts), stride = static_cast<int>(gpu::height_stride);
-    for (int row = -1; row <= posts; ++row) {
-        for (int column = -1; column <= posts; ++column)
-            visit(static_cast<std::size_t>((row + 1) * stride + column + 1), page.region_post(row, column));
-    }
-}
 
 }  // namespace oro

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/base/parallel.h"
 #include "core/cells/cell_diagonal.h"
@@ -194,11 +196,12 @@ float HeightField::H_at_m(double lat_deg, double lon_deg) const {
     return H ? static_cast<float>(*H) : void_height_m;
 }
 
-HeightRange height_range(const HeightField& field) {
-    if (field.range) return *field.range;
+namespace {
+
+HeightRange range_of(std::span<const float> heights_m) {
     HeightRange range{0.0F, 0.0F, 0};
     bool any = false;
-    for (const float H_m : field.H_m) {
+    for (const float H_m : heights_m) {
         if (is_void(H_m)) {
             ++range.voids;
             continue;
@@ -208,6 +211,31 @@ HeightRange height_range(const HeightField& field) {
         any = true;
     }
     return range;
+}
+
+}  // namespace
+
+HeightRange height_range(const HeightField& field) {
+    if (field.range) return *field.range;
+    constexpr std::size_t band = std::size_t{1} << 18U;
+    std::vector<HeightRange> ranges((field.H_m.size() + band - 1) / band);
+    const auto posts_of = [&](std::size_t i) {
+        return std::span(field.H_m).subspan(i * band, std::min(band, field.H_m.size() - i * band));
+    };
+    in_parallel(static_cast<int>(ranges.size()), thread_count(), [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        ranges[at] = range_of(posts_of(at));
+    });
+    HeightRange whole{0.0F, 0.0F, 0};
+    bool any = false;
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        whole.voids += ranges[i].voids;
+        if (ranges[i].voids == posts_of(i).size()) continue;
+        whole.lowest_m = any ? std::min(whole.lowest_m, ranges[i].lowest_m) : ranges[i].lowest_m;
+        whole.highest_m = any ? std::max(whole.highest_m, ranges[i].highest_m) : ranges[i].highest_m;
+        any = true;
+    }
+    return whole;
 }
 
 }  // namespace oro
