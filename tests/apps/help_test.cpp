@@ -123,7 +123,7 @@ TEST(Help, HidesWhatDoesNothing) {
           "--tolerance", "--labels", "--edges", "--samples", "--names", "--names-field", "--overlay",
           "--overlay-colour", "--overlay-width", "--overlay-fill", "--mesh"}},
         {"panorama",
-         {"--mesh", "--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels",
+         {"--mesh-level", "--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels",
           "--tolerance"}},
         {"plan",
          {"--style", "--sun", "--sun-time", "--shadows", "--sky-openness", "--labels", "--edges", "--samples",

@@ -11,6 +11,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/panorama/panorama_json.h"
 #include "apps/drawing/drape.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/names/names_in_view.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/panorama/elevations.h"
@@ -205,9 +206,10 @@ Result<void> draw(const PanoramaOptions& options, const RegionGround& ground, co
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             region_pages(report.region, cuts.grids.front(), view.exaggeration,
                          [&](double share) { bar.show(share, "measuring levels"); }));
-    ORO_TRY(RegionScene whole, scene_of_region(*gpu, report.region, cuts, std::move(pages),
-                                               {view.exaggeration, memory_of_pages(view, options.memory),
-                                                view.heights, asks_for_means(style.frame)}));
+    ORO_TRY(RegionScene whole,
+            scene_of_region(*gpu, report.region, cuts, std::move(pages),
+                            {view.exaggeration, memory_of_pages(view, options.memory), view.heights,
+                             asks_for_means(style.frame), view.mesh == "clusters"}));
     Scene& scene = whole.scene;
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
@@ -248,6 +250,8 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     if (options.no_paths) view.tells_paths = false;
     say_edited(view, options.quiet);
     ORO_CHECK(spare_inputs({options.out}, view, report.region));
+    // view.mesh tells what is drawn from then on.
+    if (const auto drawn = draws_clusters(report.region, view); !drawn.ok()) return drawn.error();
     report.read_s = seconds_since(reading);
     bar.show(0.0, "looking around");
     const auto looking = Clock::now();

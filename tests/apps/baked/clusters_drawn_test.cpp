@@ -1,5 +1,8 @@
 // What users see of a region's clusters: levels of the graph, and pictures that explain it.
+#include <cstdlib>
+
 #include "tests/apps/baked/clusters_baking.h"
+#include "tests/apps/picture_pixels.h"
 
 namespace {
 namespace fs = std::filesystem;
@@ -7,7 +10,10 @@ using nlohmann::json;
 using oro::test::ClustersDrawn;
 using oro::test::expect_refusal;
 using oro::test::joined;
+using oro::test::object_said_by;
 using oro::test::Outcome;
+using oro::test::Pixels;
+using oro::test::pixels_of;
 using oro::test::run_orograph;
 using oro::test::view_in;
 using oro::test::Words;
@@ -47,6 +53,35 @@ TEST_F(ClustersDrawn, BothWaysDrawTheSameLevel) {
                compute = shot({"--mesh-level", "4", "--pipeline", "compute"});
     EXPECT_EQ(mesh["triangles"]["drawn"], compute["triangles"]["drawn"]);
     EXPECT_EQ(mesh["meshlets"]["drawn"], compute["meshlets"]["drawn"]);
+}
+
+// As a picture on a plane is: fewer triangles, nearly the same pixels, and drawn again by its view.
+TEST_F(ClustersDrawn, PanoramasToo) {
+    const auto draw = [&](const fs::path& from, const fs::path& to, const Words& more) {
+        return object_said_by(
+            joined(Words{"panorama", from, "--at", "36.53,-84.35", "--above", "300", "--width", "600",
+                         "--elevation", "-20,5", "--out", to, "-q", "--json"},
+                   more));
+    };
+    const fs::path clusters = folder / "clusters.png", blocks = folder / "blocks.png";
+    const json by_clusters = draw(out_, clusters, {}), by_blocks = draw(out_, blocks, {"--mesh", "grid"});
+    EXPECT_LT(2 * by_clusters["triangles"].get<int>(), by_blocks["triangles"].get<int>());
+    EXPECT_EQ(json::parse(view_in(clusters))["mesh"], "clusters");
+    EXPECT_FALSE(json::parse(view_in(blocks)).contains("mesh"));
+    const Pixels a = pixels_of(clusters), b = pixels_of(blocks);
+    ASSERT_EQ(a.rgb.size(), b.rgb.size());
+    double difference = 0.0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) difference += std::abs(int{a.rgb[i]} - int{b.rgb[i]});
+    EXPECT_LT(difference / static_cast<double>(a.rgb.size()), 3.0);
+    EXPECT_GT(difference, 0.0);
+    const fs::path again = folder / "again.png", plain = folder / "plain.png";
+    ASSERT_EQ(run_orograph({"panorama", "--view", clusters, "--out", again, "-q"}).exit_code, 0);
+    EXPECT_TRUE(pixels_of(again).rgb == a.rgb);
+    draw(baked(), plain, {});
+    EXPECT_TRUE(pixels_of(plain).rgb == b.rgb) << "blocks are those of a file without clusters";
+    expect_refusal(run_orograph({"panorama", baked(), "--at", "36.53,-84.35", "--mesh", "clusters", "--out",
+                                 folder / "none.png"}),
+                   2, {"--mesh clusters", "bake it with --mesh clusters"});
 }
 
 TEST_F(ClustersDrawn, WhatDoesNotGoTogetherIsRefused) {
