@@ -1,9 +1,8 @@
 #include "core/cluster_frame/streamed_choice.h"
 
 #include <algorithm>
-#include <cassert>
+#include <optional>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 namespace oro {
@@ -11,6 +10,25 @@ namespace {
 
 // open: gives way, as far as is known. unread: would, and nobody knows to what. closed: would, and must not.
 enum class Asked : char { no, hidden, stands, unread, open, closed };
+
+// Where in a list a number is.
+class Places {
+  public:
+    template <class T>
+    Places(const std::vector<T>& list, std::uint32_t T::*number) {
+        places_.reserve(list.size());
+        for (std::size_t i = 0; i < list.size(); ++i) places_.emplace_back(list[i].*number, i);
+        std::ranges::sort(places_);
+    }
+    [[nodiscard]] std::optional<std::size_t> find(std::uint32_t number) const {
+        const auto at = std::ranges::lower_bound(places_, std::pair(number, std::size_t{0}));
+        if (at == places_.end() || at->first != number) return std::nullopt;
+        return at->second;
+    }
+
+  private:
+    std::vector<std::pair<std::uint32_t, std::size_t>> places_;
+};
 
 class StreamedCut {
   public:
@@ -29,7 +47,6 @@ class StreamedCut {
                 const std::size_t first = met_.size();
                 meet(clusters_.read_part(group)->members, group);
                 opened_.push_back({group, first, met_.size()});
-                opened_at_.emplace(group, opened_.size() - 1);
             }
         }
         for (const Met& met : met_)
@@ -42,10 +59,12 @@ class StreamedCut {
     void close_what_lacks() {
         for (const Opened& opened : opened_)
             if (asked_[opened.group] == Asked::open && !may_open(opened)) close(opened.group);
+        if (closing_.empty()) return;
+        const Places opened_at(opened_, &Opened::group), met_at(met_, &Met::cluster);
         while (!closing_.empty()) {
             const std::uint32_t group = closing_.back();
             closing_.pop_back();
-            const Opened& opened = opened_[opened_at_.at(group)];
+            const Opened& opened = opened_[*opened_at.find(group)];
             for (std::size_t i = opened.first; i < opened.last; ++i) {
                 const std::uint32_t maker = clusters_.maker(met_[i].cluster);
                 if (maker != no_group && asked_[maker] == Asked::open) close(maker);
@@ -53,9 +72,9 @@ class StreamedCut {
             // Now it is drawn what it made, where that is met.
             const ClusterGroup& closed = clusters_.groups()[group];
             for (std::uint32_t made = closed.first_made; made < closed.first_made + closed.made; ++made) {
-                const auto at = met_at_.find(made);
-                if (at == met_at_.end() || !lacks(met_[at->second])) continue;
-                const std::uint32_t user = met_[at->second].user;
+                const auto at = met_at.find(made);
+                if (!at || !lacks(met_[*at])) continue;
+                const std::uint32_t user = met_[*at].user;
                 if (user != no_group && asked_[user] == Asked::open) close(user);
             }
         }
@@ -107,7 +126,6 @@ class StreamedCut {
             if (maker != no_group && asked_[maker] == Asked::no) ask(maker);
             if (maker != no_group && asked_[maker] == Asked::hidden) continue;
             const ClusterReach* const reach = clusters_.known_reach(cluster);
-            met_at_.emplace(cluster, met_.size());
             met_.push_back(
                 {cluster, user, reach != nullptr,
                  reach != nullptr ? view_.look_at(*reach) : ClusterView::Look{ClusterView::Seen::yes, 0.0}});
@@ -182,9 +200,7 @@ class StreamedCut {
     std::vector<Asked> asked_;  // of each group
     std::vector<std::uint32_t> next_, closing_;
     std::vector<Opened> opened_;
-    std::unordered_map<std::uint32_t, std::size_t> opened_at_;  // of a group
-    std::vector<Met> met_;                                      // coarsest first
-    std::unordered_map<std::uint32_t, std::size_t> met_at_;     // of a cluster
+    std::vector<Met> met_;  // coarsest first
     std::size_t in_cut_{};
     StreamedChoice choice_;
 };
