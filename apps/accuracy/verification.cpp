@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "apps/accuracy/accuracy.h"
+#include "apps/drawing/region_scene.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "core/base/parallel.h"
@@ -44,10 +45,7 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
     ORO_TRY(done.picture, painter.draw(scene, view.camera, style, options));
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
-    if (!done.picture.settled)
-        return Error{ErrorKind::failed, "--gpu-memory",
-                     "the GPU may hold " + std::to_string(scene.store().capacity()) +
-                         " pages of terrain; this view needs more (a larger --tau needs fewer)"};
+    if (!done.picture.settled) return lacks_gpu_memory(scene, "this view");
     const TruePicture true_picture(truth.ground(), truth.sight(), view.camera, thread_count());
     measure(done, true_picture);
     return done;

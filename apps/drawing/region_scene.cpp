@@ -170,6 +170,16 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     return scene_of_region(gpu, region, cuts, std::move(all), request);
 }
 
+Error lacks_gpu_memory(Scene& scene, const std::string& what) {
+    const auto& clusters = scene.clusters();
+    const bool of_clusters = clusters && clusters->most_without_room() > 0;
+    return {ErrorKind::failed, "--gpu-memory",
+            "the GPU may hold " +
+                (of_clusters ? std::to_string(clusters->store().capacity()) + " clusters"
+                             : std::to_string(scene.store().capacity()) + " pages of terrain") +
+                "; " + what + " needs more (a larger --tau needs fewer)"};
+}
+
 std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages) {
     if (!asks_for_means(style) || pages.knows_means()) return "";
     return "note: the region has " + grouped(pages.facts().grid.post_count()) +

@@ -52,6 +52,9 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
 Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                     std::unique_ptr<RegionPages> pages, const SceneRequest& request);
 
+// What is said where a scene's GPU memory is too small for what a picture shows. what: "this view".
+Error lacks_gpu_memory(Scene& scene, const std::string& what);
+
 // What to tell of a style that asks for means of the ground over pages that have none, being of too many
 // posts: each pixel then has the colour of the ground in its middle. "" where nothing of that is so.
 std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages);

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "apps/drawing/pipeline_choice.h"
+#include "apps/drawing/region_scene.h"
 #include "apps/maps/ortho_map.h"
 #include "apps/report/region_json.h"
 #include "apps/view/fingerprints_json.h"
@@ -95,10 +96,7 @@ class MapRows {
 Result<void> check_drawn(const Gpu& gpu, Scene& scene, const PictureReport& report) {
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
-    if (!report.settled)
-        return Error{ErrorKind::failed, "--gpu-memory",
-                     "the GPU may hold " + std::to_string(scene.store().capacity()) +
-                         " pages of terrain; this view needs more (a larger --tau needs fewer)"};
+    if (!report.settled) return lacks_gpu_memory(scene, "this view");
     if (!report.images_settled)
         return Error{ErrorKind::failed, "--gpu-memory",
                      "the GPU may hold " + std::to_string(scene.image_tiles_max()) +

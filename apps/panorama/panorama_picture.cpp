@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/drawing/pipeline_choice.h"
+#include "apps/drawing/region_scene.h"
 #include "apps/names/names_in_view.h"
 #include "apps/output/picture_file.h"
 #include "apps/overlay/overlay_in_view.h"
@@ -166,10 +167,7 @@ Result<CylinderPicture> draw_scene(const View& view, const Region& region, const
                             picture_options(view, path), extras, progress));
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
-    if (!picture.report.settled)
-        return Error{ErrorKind::failed, "--gpu-memory",
-                     "the GPU may hold " + std::to_string(scene.store().capacity()) +
-                         " pages of terrain; this panorama needs more (a larger --tau needs fewer)"};
+    if (!picture.report.settled) return lacks_gpu_memory(scene, "this panorama");
     if (!picture.report.images_settled)
         return Error{ErrorKind::failed, "--gpu-memory",
                      "the GPU may hold " + std::to_string(scene.image_tiles_max()) +

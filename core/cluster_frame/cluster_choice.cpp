@@ -1,14 +1,8 @@
 #include "core/cluster_frame/cluster_choice.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
-#include <glm/geometric.hpp>
 #include <tuple>
 #include <utility>
-
-#include "core/cluster_frame/group_rule.h"
-#include "core/frame/culling.h"
 
 namespace oro {
 namespace {
@@ -17,18 +11,8 @@ enum class Asked : char { no, hidden, stands, gives_way };
 
 class Cut {
   public:
-    Cut(RegionClusters& clusters, const Camera& camera, const Tile& tile, double tau_px,
-        const WorldModel& model, const HorizonOccluder& occluder, const HeightQuantization& coding,
-        std::optional<std::uint32_t> level)
-        : clusters_(clusters),
-          rule_(camera, tau_px, model.air, level),
-          planes_(frustum_planes_view(projection_of_tile(camera, tile))),
-          asked_(clusters.groups().size(), Asked::no) {
-        const ModelView view(camera, model, coding);
-        horizon_ = view.horizon(occluder);
-        // Drawn places are rounded.
-        for (Plane& plane : planes_) plane.w += view.rounding_m() + 0.01;
-    }
+    Cut(RegionClusters& clusters, const ClusterView& view)
+        : clusters_(clusters), view_(view), asked_(clusters.groups().size(), Asked::no) {}
 
     Result<ClusterChoice> choose() {
         meet(clusters_.roots(), no_group);
@@ -69,11 +53,10 @@ class Cut {
     // A group's sphere holds what it made, too: where it is hidden nobody needs to read the group.
     void ask(std::uint32_t number) {
         const ClusterGroup& group = clusters_.groups()[number];
-        const GroupRule::SeenSphere seen = rule_.seen(group.centre, group.radius_m);
-        if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
+        if (view_.is_beyond_frustum(group)) {
             ++choice_.beyond_frustum;
             asked_[number] = Asked::hidden;
-        } else if (rule_.stands(group)) {
+        } else if (view_.stands(group)) {
             asked_[number] = Asked::stands;
         } else {
             asked_[number] = Asked::gives_way;
@@ -84,24 +67,15 @@ class Cut {
 
     Result<void> draw(std::uint32_t cluster, std::uint32_t group) {
         ORO_TRY(const ClusterReach* const reach, clusters_.reach(cluster));
-        const GroupRule::SeenSphere seen = rule_.seen(reach->centre, reach->radius_m);
-        if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
-            ++choice_.beyond_frustum;
-            return {};
-        }
-        if (beyond_horizon(horizon_.eye,
-                           {reach->horizon.direction, reach->horizon.angle_rad * horizon_.stretch})) {
-            ++choice_.beyond_horizon;
-            return {};
-        }
-        found_.emplace_back(std::max(0.0, glm::length(seen.centre_m) - seen.radius_m), cluster, group);
+        const ClusterView::Look look = view_.look_at(*reach);
+        choice_.beyond_frustum += look.seen == ClusterView::Seen::beyond_frustum ? 1U : 0U;
+        choice_.beyond_horizon += look.seen == ClusterView::Seen::beyond_horizon ? 1U : 0U;
+        if (look.seen == ClusterView::Seen::yes) found_.emplace_back(look.distance_m, cluster, group);
         return {};
     }
 
     RegionClusters& clusters_;
-    GroupRule rule_;
-    std::array<Plane, 5> planes_;
-    SeenHorizon horizon_;
+    const ClusterView& view_;
     std::vector<Asked> asked_;  // of each group
     std::vector<std::uint32_t> open_;
     std::vector<std::uint32_t> cut_;     // of what may be seen,
@@ -112,11 +86,23 @@ class Cut {
 
 }  // namespace
 
+Result<ClusterChoice> choose_clusters(RegionClusters& clusters, const ClusterView& view) {
+    return Cut(clusters, view).choose();
+}
+
 Result<ClusterChoice> choose_clusters(RegionClusters& clusters, const Camera& camera, const Tile& tile,
                                       double tau_px, const WorldModel& model, const HorizonOccluder& occluder,
                                       const HeightQuantization& coding, std::optional<std::uint32_t> level) {
-    assert(model.earth == Earth::ellipsoid);
-    return Cut(clusters, camera, tile, tau_px, model, occluder, coding, level).choose();
+    return choose_clusters(clusters, ClusterView(camera, tile, tau_px, model, occluder, coding, level));
+}
+
+unsigned coarser_steps_until(const std::function<bool(unsigned steps)>& holds) {
+    unsigned too_few = 0, enough = GroupRule::most_coarser_steps;
+    while (enough - too_few > 1) {
+        const unsigned middle = (too_few + enough) / 2;
+        (holds(middle) ? enough : too_few) = middle;
+    }
+    return enough;
 }
 
 }  // namespace oro

@@ -11,6 +11,10 @@ namespace oro {
 struct ClusterPlan {
     bool on{};  // clusters are drawn, and no nodes of pages: these are for shading alone
     std::vector<gpu::DrawnCluster> drawn;
+    // Groups and clusters that the cut lacks; where there are any, coarser clusters stand in for them, and
+    // the picture still has no cracks.
+    std::size_t missing{};
+    std::size_t without_room{};  // of those: clusters that the GPU may not hold beside the others
     std::size_t groups_opened{};
     std::size_t beyond_frustum{};
     std::size_t beyond_horizon{};

@@ -53,6 +53,18 @@ double GroupRule::error_px(const ClusterGroup& group) const {
     return px;
 }
 
+GroupRule GroupRule::coarser(unsigned steps) const {
+    GroupRule other = *this;
+    if (steps >= most_coarser_steps) {
+        other.level_ = std::numeric_limits<std::uint32_t>::max();
+    } else if (level_) {
+        other.level_ = std::min(*level_, std::numeric_limits<std::uint32_t>::max() - steps) + steps;
+    } else if (steps > 0) {
+        other.tau_px_ = std::max(tau_px_, 1.0 / 16.0) * std::pow(2.0, 0.5 * steps);
+    }
+    return other;
+}
+
 bool GroupRule::stands(const ClusterGroup& group) const {
     if (level_) return group.level <= *level_;
     return error_px(group) <= tau_px_ * (1.0 - 1.0e-7 * group.level);

@@ -26,6 +26,10 @@ class GroupRule {
               std::optional<std::uint32_t> level = {});
 
     [[nodiscard]] bool stands(const ClusterGroup& group) const;
+    // The same eye where less is asked for: each step is sqrt(2) times the tau, of at least 1/16 px, or one
+    // level more. After the last all groups stand.
+    [[nodiscard]] GroupRule coarser(unsigned steps) const;
+    static constexpr unsigned most_coarser_steps = 64;
     // The bound itself, pixels; infinite where nothing can be promised.
     [[nodiscard]] double error_px(const ClusterGroup& group) const;
 

@@ -86,13 +86,19 @@ Result<std::span<const std::uint32_t>> RegionClusters::members(std::uint32_t gro
 Result<std::span<const VertexTriangle>> RegionClusters::triangles(std::uint32_t cluster,
                                                                   std::vector<VertexTriangle>& leaf) {
     const std::uint32_t group = maker(cluster);
-    if (group == no_group) {
-        leaf = surface_.leaf(leaf_nodes_[cluster]);
-        return std::span<const VertexTriangle>(leaf);
-    }
+    if (group == no_group) return triangles_of(cluster, nullptr, leaf);
     ORO_TRY(const GroupPart* const whole, part(group));
-    const Cluster& made = whole->made[cluster - groups_[group].first_made];
-    return std::span<const VertexTriangle>(whole->triangles).subspan(made.first_triangle, made.triangles);
+    return triangles_of(cluster, whole, leaf);
+}
+
+std::span<const VertexTriangle> RegionClusters::triangles_of(std::uint32_t cluster, const GroupPart* part,
+                                                             std::vector<VertexTriangle>& leaf) const {
+    if (part == nullptr) {
+        leaf = surface_.leaf(leaf_nodes_[cluster]);
+        return leaf;
+    }
+    const Cluster& made = part->made[cluster - part->group.first_made];
+    return std::span<const VertexTriangle>(part->triangles).subspan(made.first_triangle, made.triangles);
 }
 
 Result<std::uint32_t> RegionClusters::triangle_count(std::uint32_t cluster) {
@@ -173,6 +179,12 @@ Result<std::uint32_t> RegionClusters::fill(std::uint32_t cluster, const HeightQu
                                            gpu::ClusterBlock& block) {
     std::vector<VertexTriangle> leaf;
     ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster, leaf));
+    return fill_with(all, level_of(cluster), coding, block);
+}
+
+Result<std::uint32_t> RegionClusters::fill_with(std::span<const VertexTriangle> all, std::uint32_t level,
+                                                const HeightQuantization& coding,
+                                                gpu::ClusterBlock& block) const {
     const std::vector<VertexNumber> vertices = vertices_of(all);
     if (all.empty() || all.size() > gpu::cluster_triangles || vertices.size() > gpu::cluster_vertices)
         return no_graph("have one with " + std::to_string(all.size()) + " triangles and " +
@@ -190,7 +202,42 @@ Result<std::uint32_t> RegionClusters::fill(std::uint32_t cluster, const HeightQu
     // Clockwise on the map in the graph, the other way round as pages' triangles are.
     for (std::size_t i = 0; i < all.size(); ++i)
         block.corners[i] = place(all[i][0]) | place(all[i][2]) << 8U | place(all[i][1]) << 16U;
-    return static_cast<std::uint32_t>(all.size() | vertices.size() << 8U) | level_of(cluster) << 16U;
+    return static_cast<std::uint32_t>(all.size() | vertices.size() << 8U) | level << 16U;
+}
+
+Result<RegionClusters::LoadedGroup> RegionClusters::load_group(std::uint32_t group) const {
+    LoadedGroup loaded{group, std::make_unique<GroupPart>(), {}};
+    ORO_CHECK(read_(group, *loaded.part));
+    std::vector<VertexTriangle> leaf;
+    const auto measure = [&](std::uint32_t cluster, const GroupPart* part) {
+        loaded.reaches.emplace_back(cluster, reach_of(triangles_of(cluster, part, leaf)));
+    };
+    for (std::uint32_t i = 0; i < groups_[group].made; ++i)
+        measure(groups_[group].first_made + i, loaded.part.get());
+    for (const std::uint32_t member : loaded.part->members)
+        if (maker(member) == no_group) measure(member, nullptr);
+    return loaded;
+}
+
+Result<RegionClusters::LoadedCluster> RegionClusters::load_cluster(std::uint32_t cluster,
+                                                                   const HeightQuantization& coding) const {
+    const GroupPart* const part = maker(cluster) == no_group ? nullptr : read_part(maker(cluster));
+    std::vector<VertexTriangle> leaf;
+    const std::span<const VertexTriangle> all = triangles_of(cluster, part, leaf);
+    LoadedCluster loaded{cluster, 0, std::make_unique<gpu::ClusterBlock>(), {}};
+    ORO_TRY(loaded.counts, fill_with(all, level_of(cluster), coding, *loaded.block));
+    loaded.reach = reach_of(all);
+    return loaded;
+}
+
+// What is known stays where it is: threads may be reading it.
+void RegionClusters::keep(LoadedGroup group) {
+    for (const auto& [cluster, reach] : group.reaches) keep(cluster, reach);
+    if (!parts_[group.number]) parts_[group.number] = std::move(group.part);
+}
+
+void RegionClusters::keep(std::uint32_t cluster, const ClusterReach& reach) {
+    if (!reaches_[cluster]) reaches_[cluster] = std::make_unique<ClusterReach>(reach);
 }
 
 Result<std::unique_ptr<RegionClusters>> clusters_of_file(std::shared_ptr<const ClusterFile> file,

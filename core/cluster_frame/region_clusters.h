@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -30,8 +31,8 @@ struct ClusterReach {
     std::int32_t first_row, last_row, first_column, last_column;  // posts of the region
 };
 
-// For one thread at a time. Keeps 5 bytes a post, and what was asked for: up to some 40 bytes a triangle of
-// the graph above the leaves.
+// For one thread at a time, but for what says otherwise. Keeps 5 bytes a post, and what was asked for: up to
+// some 40 bytes a triangle of the graph above the leaves.
 class RegionClusters {
   public:
     // groups: of the whole graph, in its order; leaves: number of clusters before theirs, which `field` must
@@ -65,12 +66,43 @@ class RegionClusters {
                                gpu::ClusterBlock& block);
     [[nodiscard]] const PostGrid& grid() const { return grid_; }
 
+    // For those who do not wait: what was read, and where a cluster is, null where nobody has asked yet.
+    [[nodiscard]] const GroupPart* read_part(std::uint32_t group) const { return parts_[group].get(); }
+    [[nodiscard]] const ClusterReach* known_reach(std::uint32_t cluster) const {
+        return reaches_[cluster].get();
+    }
+    // A group with the reach of what it made, and of leaves that it uses.
+    struct LoadedGroup {
+        std::uint32_t number{};
+        std::unique_ptr<GroupPart> part;
+        std::vector<std::pair<std::uint32_t, ClusterReach>> reaches;
+    };
+    struct LoadedCluster {
+        std::uint32_t number{};
+        std::uint32_t counts{};  // DrawnCluster::counts
+        std::unique_ptr<gpu::ClusterBlock> block;
+        ClusterReach reach{};
+    };
+    // Any number of threads may load, beside the one that uses the rest. A cluster's maker must have been
+    // read (read_part) before a thread is told of it. Errors: damage.
+    [[nodiscard]] Result<LoadedGroup> load_group(std::uint32_t group) const;
+    [[nodiscard]] Result<LoadedCluster> load_cluster(std::uint32_t cluster,
+                                                     const HeightQuantization& coding) const;
+    // What a thread has loaded is known from now on.
+    void keep(LoadedGroup group);
+    void keep(std::uint32_t cluster, const ClusterReach& reach);
+
   private:
     RegionClusters(const HeightField& field, const HorizonOccluder& occluder);
     Result<const GroupPart*> part(std::uint32_t group);
     // A leaf's are put into `leaf`.
     Result<std::span<const VertexTriangle>> triangles(std::uint32_t cluster,
                                                       std::vector<VertexTriangle>& leaf);
+    // The same of what was read. part: of its maker; null: it is a leaf.
+    [[nodiscard]] std::span<const VertexTriangle> triangles_of(std::uint32_t cluster, const GroupPart* part,
+                                                               std::vector<VertexTriangle>& leaf) const;
+    Result<std::uint32_t> fill_with(std::span<const VertexTriangle> triangles, std::uint32_t level,
+                                    const HeightQuantization& coding, gpu::ClusterBlock& block) const;
     [[nodiscard]] ClusterReach reach_of(std::span<const VertexTriangle> triangles) const;
 
     PostGrid grid_;

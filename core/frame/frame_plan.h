@@ -43,12 +43,13 @@ struct FramePlan {
     std::vector<FramePlan> beside;
     // Whether nothing is missing, of any grid.
     [[nodiscard]] bool is_settled() const {
-        return missing.empty() &&
+        return missing.empty() && clusters.missing == 0 &&
                std::ranges::all_of(beside, [](const FramePlan& other) { return other.missing.empty(); });
     }
     // Whether nothing is missing that might show, of any grid.
     [[nodiscard]] bool shows_all() const {
-        return missing.size() == missing_hidden && std::ranges::all_of(beside, [](const FramePlan& other) {
+        return missing.size() == missing_hidden && clusters.missing == 0 &&
+               std::ranges::all_of(beside, [](const FramePlan& other) {
                    return other.missing.size() == other.missing_hidden;
                });
     }

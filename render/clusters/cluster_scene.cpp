@@ -1,41 +1,138 @@
 #include "render/clusters/cluster_scene.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/cluster_frame/cluster_choice.h"
 #include "core/cluster_frame/cluster_frame.h"
 #include "core/cluster_frame/region_clusters.h"
 
 namespace oro {
+namespace {
+
+// Of groups and clusters between two frames: a few MB, which are sent in a millisecond.
+constexpr std::size_t most_on_the_way = 512;
+
+}  // namespace
 
 ClusterScene::ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store)
     : clusters_(std::move(clusters)), store_(std::move(store)) {}
 ClusterScene::ClusterScene(ClusterScene&&) noexcept = default;
-ClusterScene& ClusterScene::operator=(ClusterScene&&) noexcept = default;
+ClusterScene& ClusterScene::operator=(ClusterScene&& other) noexcept {
+    stream_ = nullptr;  // its threads read clusters_
+    clusters_ = std::move(other.clusters_);
+    store_ = std::move(other.store_);
+    level_ = other.level_;
+    stream_ = std::move(other.stream_);
+    view_ = std::move(other.view_);
+    drawn_ = std::move(other.drawn_);
+    is_whole_ = other.is_whole_;
+    has_room_ = other.has_room_;
+    most_without_room_ = other.most_without_room_;
+    return *this;
+}
 ClusterScene::~ClusterScene() = default;
 
 Result<ClusterScene> ClusterScene::create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
                                           std::uint64_t bytes) {
-    ORO_TRY(ClusterStore store, ClusterStore::create(gpu, bytes));
+    ORO_TRY(ClusterStore store,
+            ClusterStore::create(
+                gpu, std::max<std::uint64_t>(bytes, clusters->roots().size() * sizeof(gpu::ClusterBlock))));
     return ClusterScene(std::move(clusters), std::move(store));
 }
 
 Result<void> ClusterScene::add_to(FramePlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                                   const WorldModel& model, const HorizonOccluder& occluder,
                                   const HeightQuantization& coding) {
-    ORO_TRY(const ClusterChoice choice,
-            choose_clusters(*clusters_, camera, tile, tau_px, model, occluder, coding, level_));
-    ORO_TRY(const std::vector<ClusterStore::Held> held,
-            store_.hold(choice.clusters, [&](std::uint32_t cluster, gpu::ClusterBlock& block) {
-                return clusters_->fill(cluster, coding, block);
-            }));
+    const ClusterView view(camera, tile, tau_px, model, occluder, coding, level_);
+    ORO_TRY(ClusterChoice choice, choose_clusters(*clusters_, view));
+    std::size_t without_room = 0;
+    if (choice.clusters.size() > store_.capacity()) {
+        without_room = choice.clusters.size() - store_.capacity();
+        // What they need was read for the finer one.
+        const unsigned steps = coarser_steps_until([&](unsigned more) {
+            const auto coarser = choose_clusters(*clusters_, view.coarser(more));
+            return !coarser.ok() || coarser->clusters.size() <= store_.capacity();
+        });
+        ORO_TRY(choice, choose_clusters(*clusters_, view.coarser(steps)));
+    }
+    store_.begin_frame();
+    ORO_CHECK(store_.hold(choice.clusters, [&](std::uint32_t cluster, gpu::ClusterBlock& block) {
+        return clusters_->fill(cluster, coding, block);
+    }));
+    if (stream_) stream_->want({}, {});
+    view_.reset();
+    plan.clusters.missing = plan.clusters.without_room = without_room;
+    most_without_room_ = std::max(most_without_room_, without_room);
+    return draw(choice, camera, plan);
+}
+
+Result<void> ClusterScene::add_what_is_here(FramePlan& plan, const Camera& camera, const Tile& tile,
+                                            double tau_px, const WorldModel& model,
+                                            const HorizonOccluder& occluder,
+                                            const HeightQuantization& coding) {
+    if (!stream_)
+        stream_ = std::make_unique<ClusterStream>(*clusters_, coding, thread_count(), most_on_the_way);
+    store_.begin_frame();
+    // Everything else may be missing.
+    ORO_CHECK(store_.hold(clusters_->roots(), [&](std::uint32_t cluster, gpu::ClusterBlock& block) {
+        return clusters_->fill(cluster, coding, block);
+    }));
+    view_.emplace(camera, tile, tau_px, model, occluder, coding, level_);
+    ORO_TRY(StreamedChoice choice, choose_here());
+    ORO_CHECK(draw(choice.drawn, camera, plan));
+    drawn_ = std::move(choice.drawn.clusters);
+    plan.clusters.missing = choice.missing;
+    plan.clusters.without_room = choice.without_room;
+    is_whole_ = choice.missing == 0;
+    has_room_ = choice.without_room == 0;
+    most_without_room_ = std::max(most_without_room_, choice.without_room);
+    return {};
+}
+
+// Tells the background what is wanted, and the store what is to stay.
+Result<StreamedChoice> ClusterScene::choose_here() {
+    ORO_TRY(StreamedChoice choice,
+            choose_clusters_here(*clusters_, *view_, store_.capacity() - clusters_->roots().size(),
+                                 [&](std::uint32_t cluster) { return store_.is_here(cluster); }));
+    std::vector<std::uint32_t> to_come;
+    for (const std::uint32_t cluster : choice.clusters_wanted) {
+        if (store_.is_here(cluster))
+            store_.use(cluster);
+        else
+            to_come.push_back(cluster);
+    }
+    stream_->want(choice.groups_wanted, to_come);
+    return choice;
+}
+
+Result<bool> ClusterScene::advance() {
+    if (!view_) return false;
+    ORO_TRY(ClusterStream::Ready ready, stream_->take());
+    if (ready.groups.empty() && ready.clusters.empty()) return false;
+    for (RegionClusters::LoadedGroup& group : ready.groups) clusters_->keep(std::move(group));
+    std::vector<ClusterStore::Loaded> loaded;
+    for (const RegionClusters::LoadedCluster& cluster : ready.clusters) {
+        clusters_->keep(cluster.number, cluster.reach);
+        loaded.push_back({cluster.number, cluster.counts, cluster.block.get()});
+    }
+    ORO_CHECK(store_.send(loaded));
+    store_.begin_frame();
+    ORO_TRY(const StreamedChoice choice, choose_here());
+    return choice.drawn.clusters != drawn_ || (choice.missing == 0) != is_whole_ ||
+           (choice.without_room == 0) != has_room_;
+}
+
+Result<void> ClusterScene::draw(const ClusterChoice& choice, const Camera& camera, FramePlan& plan) {
     std::vector<ResidentCluster> resident;
-    resident.reserve(held.size());
-    for (std::size_t i = 0; i < held.size(); ++i) {
+    resident.reserve(choice.clusters.size());
+    for (std::size_t i = 0; i < choice.clusters.size(); ++i) {
+        const ClusterStore::Held held = store_.use(choice.clusters[i]);
         ORO_TRY(const ClusterReach* const reach, clusters_->reach(choice.clusters[i]));
-        resident.push_back({held[i].address, held[i].counts, choice.clusters[i], choice.groups[i],
-                            reach->first_row, reach->last_row, reach->first_column, reach->last_column});
+        resident.push_back({held.address, held.counts, choice.clusters[i], choice.groups[i], reach->first_row,
+                            reach->last_row, reach->first_column, reach->last_column});
     }
     draw_clusters(clusters_->grid(), resident, camera, plan);
     plan.clusters.groups_opened = choice.groups_opened;

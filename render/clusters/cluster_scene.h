@@ -4,20 +4,21 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "core/cluster_frame/streamed_choice.h"
 #include "core/frame/frame_plan.h"
 #include "render/clusters/cluster_store.h"
+#include "render/clusters/cluster_stream.h"
 
 namespace oro {
-
-class RegionClusters;
 
 class ClusterScene {
   public:
     ClusterScene(ClusterScene&&) noexcept;
     ClusterScene& operator=(ClusterScene&&) noexcept;
     ~ClusterScene();
-    // Clusters may take `bytes` on the GPU. Errors: out of memory.
+    // Clusters may take `bytes` on the GPU, and at least what the coarsest take. Errors: out of memory.
     static Result<ClusterScene> create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
                                        std::uint64_t bytes);
 
@@ -25,20 +26,40 @@ class ClusterScene {
     // alone.
     void keep_to_level(std::uint32_t level) { level_ = level; }
 
-    // Puts the cut for an eye into the plan of its pages (plan_frame), and what of it is missing on the GPU.
-    // model: on the ellipsoid. Errors: damage; too little memory for the cut; the device.
+    // Puts the cut for an eye into the plan of its pages (plan_frame). Where it takes more than the GPU may
+    // hold, it is a coarser one that does not, and the plan says so. model: on the ellipsoid. Errors: damage;
+    // the device.
+    //
+    // This one waits for what of the cut is not on the GPU;
     Result<void> add_to(FramePlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                         const WorldModel& model, const HorizonOccluder& occluder,
                         const HeightQuantization& coding);
+    // ... this one takes the finest cut of what is there, and lets the background read the rest.
+    Result<void> add_what_is_here(FramePlan& plan, const Camera& camera, const Tile& tile, double tau_px,
+                                  const WorldModel& model, const HorizonOccluder& occluder,
+                                  const HeightQuantization& coding);
+    // Sends what is ready of what the last of these plans lacks: true when the next one will be better. Does
+    // not wait for what is not ready. Errors: damage, the device.
+    Result<bool> advance();
 
     [[nodiscard]] const ClusterStore& store() const { return store_; }
+    // The most clusters of a plan that there was no room for, of all plans so far.
+    [[nodiscard]] std::size_t most_without_room() const { return most_without_room_; }
 
   private:
     ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store);
+    Result<void> draw(const ClusterChoice& choice, const Camera& camera, FramePlan& plan);
+    Result<StreamedChoice> choose_here();
 
     std::unique_ptr<RegionClusters> clusters_;
     ClusterStore store_;
     std::optional<std::uint32_t> level_;
+    std::unique_ptr<ClusterStream> stream_;  // after clusters_: it ends before; null: nothing was streamed
+    // Of the last plan that did not wait: its eye, what it draws, and whether that is all of the cut.
+    std::optional<ClusterView> view_;
+    std::vector<std::uint32_t> drawn_;
+    bool is_whole_{}, has_room_{};
+    std::size_t most_without_room_{};
 };
 
 }  // namespace oro

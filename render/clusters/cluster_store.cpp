@@ -1,6 +1,7 @@
 #include "render/clusters/cluster_store.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <string>
 
@@ -35,7 +36,7 @@ std::uint64_t ClusterStore::address(std::size_t slot) const {
     return chunks_[slot / slots_per_chunk].address + slot % slots_per_chunk * slot_bytes;
 }
 
-// A slot that nothing of this frame is in.
+// A slot that nothing of this frame is in; no_slot where there is none.
 Result<std::size_t> ClusterStore::free_slot() {
     if (slots_.size() < capacity_) {
         const std::size_t slot = slots_.size();
@@ -59,6 +60,9 @@ Result<std::size_t> ClusterStore::free_slot() {
             return slots_[a].used != slots_[b].used ? slots_[a].used > slots_[b].used : a > b;
         });
     }
+    // What was unused when they were listed may be in use by now.
+    while (!unused_.empty() && slots_[unused_.back()].used == frame_) unused_.pop_back();
+    if (unused_.empty()) return no_slot;
     const std::size_t slot = unused_.back();
     unused_.pop_back();
     // What never arrived in it may be in another by now.
@@ -72,62 +76,84 @@ void ClusterStore::forget(std::uint32_t cluster) {
     --held_;
 }
 
-Result<std::vector<ClusterStore::Held>> ClusterStore::hold(std::span<const std::uint32_t> clusters,
-                                                           const Fill& fill) {
-    if (clusters.size() > capacity_)
-        return Error{ErrorKind::failed, "--gpu-memory",
-                     "is too small for this view's clusters: they take " +
-                         std::to_string((clusters.size() * slot_bytes + 999'999) / 1'000'000) + " MB, and " +
-                         std::to_string(capacity_ * slot_bytes / 1'000'000) +
-                         " MB are there for them (half of all); a larger --tau takes fewer"};
+void ClusterStore::begin_frame() {
     ++frame_;
     unused_.clear();
-    for (const std::uint32_t cluster : clusters) {
-        if (cluster >= slot_of_.size()) slot_of_.resize(cluster + std::size_t{1}, no_slot);
-        if (slot_of_[cluster] != no_slot) slots_[slot_of_[cluster]].used = frame_;
-    }
+}
+
+bool ClusterStore::is_here(std::uint32_t cluster) const {
+    return cluster < slot_of_.size() && slot_of_[cluster] != no_slot;
+}
+
+ClusterStore::Held ClusterStore::use(std::uint32_t cluster) {
+    const std::size_t slot = slot_of_[cluster];
+    slots_[slot].used = frame_;
+    return {address(slot), slots_[slot].counts};
+}
+
+Result<std::vector<ClusterStore::Held>> ClusterStore::hold(std::span<const std::uint32_t> clusters,
+                                                           const Fill& fill) {
+    for (const std::uint32_t cluster : clusters)
+        if (is_here(cluster)) use(cluster);
     std::vector<Held> held;
-    std::vector<std::size_t> batch;
     gpu::ClusterBlock block{};
     for (const std::uint32_t cluster : clusters) {
-        if (slot_of_[cluster] == no_slot) {
+        if (!is_here(cluster)) {
             const Result<std::uint32_t> filled = fill(cluster, block);
             // What is staged goes first: it counts as being here.
-            if (!filled.ok()) ORO_CHECK(copy(batch));
+            if (!filled.ok()) ORO_CHECK(copy_staged());
             ORO_TRY(const std::uint32_t counts, filled);
-            const Result<std::size_t> free = free_slot();
-            if (!free.ok()) ORO_CHECK(copy(batch));
-            ORO_TRY(const std::size_t slot, free);
-            std::memcpy(staging_.mapped + batch.size() * slot_bytes, &block, slot_bytes);
-            slots_[slot] = {cluster, counts, frame_};
-            slot_of_[cluster] = slot;
-            ++held_;
-            batch.push_back(slot);
-            if (batch.size() == slots_in_staging) {
-                ORO_CHECK(copy(batch));
-                batch.clear();
-            }
+            ORO_CHECK(stage({cluster, counts, &block}));
+            assert(is_here(cluster));
         }
-        held.push_back({address(slot_of_[cluster]), slots_[slot_of_[cluster]].counts});
+        held.push_back(use(cluster));
     }
-    ORO_CHECK(copy(batch));
+    ORO_CHECK(copy_staged());
     return held;
 }
 
+Result<std::size_t> ClusterStore::send(std::span<const Loaded> clusters) {
+    std::size_t count = 0;
+    for (const Loaded& cluster : clusters) {
+        if (!is_here(cluster.cluster)) ORO_CHECK(stage(cluster));
+        if (!is_here(cluster.cluster)) break;
+        use(cluster.cluster);
+        ++count;
+    }
+    ORO_CHECK(copy_staged());
+    return count;
+}
+
+// Gives a cluster a slot, where there is one, and copies when enough have come.
+Result<void> ClusterStore::stage(const Loaded& loaded) {
+    const Result<std::size_t> free = free_slot();
+    if (!free.ok()) ORO_CHECK(copy_staged());
+    ORO_TRY(const std::size_t slot, free);
+    if (slot == no_slot) return {};
+    std::memcpy(staging_.mapped + staged_.size() * slot_bytes, loaded.block, slot_bytes);
+    slots_[slot] = {loaded.cluster, loaded.counts, frame_};
+    if (loaded.cluster >= slot_of_.size()) slot_of_.resize(loaded.cluster + std::size_t{1}, no_slot);
+    slot_of_[loaded.cluster] = slot;
+    ++held_;
+    staged_.push_back(slot);
+    return staged_.size() == slots_in_staging ? copy_staged() : Result<void>();
+}
+
 // What does not arrive is not here.
-Result<void> ClusterStore::copy(std::span<const std::size_t> slots) {
-    if (slots.empty()) return {};
+Result<void> ClusterStore::copy_staged() {
+    if (staged_.empty()) return {};
     const Result<void> copied = commands_.run(*gpu_, [&](VkCommandBuffer commands) {
-        for (std::size_t i = 0; i < slots.size(); ++i) {
-            const VkBufferCopy region{i * slot_bytes, slots[i] % slots_per_chunk * slot_bytes, slot_bytes};
-            vkCmdCopyBuffer(commands, staging_.handle.get(), chunks_[slots[i] / slots_per_chunk].handle.get(),
-                            1, &region);
+        for (std::size_t i = 0; i < staged_.size(); ++i) {
+            const VkBufferCopy region{i * slot_bytes, staged_[i] % slots_per_chunk * slot_bytes, slot_bytes};
+            vkCmdCopyBuffer(commands, staging_.handle.get(),
+                            chunks_[staged_[i] / slots_per_chunk].handle.get(), 1, &region);
         }
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
     });
-    for (std::size_t i = 0; !copied.ok() && i < slots.size(); ++i) forget(slots_[slots[i]].cluster);
-    sent_ += slots.size();
+    for (std::size_t i = 0; !copied.ok() && i < staged_.size(); ++i) forget(slots_[staged_[i]].cluster);
+    sent_ += staged_.size();
+    staged_.clear();
     return copied;
 }
 

@@ -27,10 +27,25 @@ class ClusterStore {
     // Fills a cluster's block and gives its counts.
     using Fill = std::function<Result<std::uint32_t>(std::uint32_t cluster, gpu::ClusterBlock& block)>;
 
-    // Sends those of a frame's clusters that are not here, and tells where all are, in the same order. Waits
-    // for the GPU. Errors: more clusters than there are slots (told as the megabytes that they take); those
-    // of `fill`; the device.
+    // From here on clusters count as used by another frame: those of earlier ones may make room.
+    void begin_frame();
+    // Sends those of a frame's clusters that are not here, and tells where all are, in the same order; no
+    // more than there are slots, with what the frame uses already. Begins no frame. Waits for the GPU.
+    // Errors: those of `fill`; the device.
     Result<std::vector<Held>> hold(std::span<const std::uint32_t> clusters, const Fill& fill);
+
+    [[nodiscard]] bool is_here(std::uint32_t cluster) const;
+    // One that is here is used by the frame.
+    Held use(std::uint32_t cluster);
+    // A cluster on its way.
+    struct Loaded {
+        std::uint32_t cluster;
+        std::uint32_t counts;
+        const gpu::ClusterBlock* block;
+    };
+    // Sends clusters until there is no slot that the frame does not use; how many are here then. Waits for
+    // the GPU. Errors: the device.
+    Result<std::size_t> send(std::span<const Loaded> clusters);
 
     [[nodiscard]] std::size_t size() const { return held_; }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
@@ -46,7 +61,8 @@ class ClusterStore {
     explicit ClusterStore(const Gpu& gpu) : gpu_(&gpu) {}
     Result<std::size_t> free_slot();
     void forget(std::uint32_t cluster);
-    Result<void> copy(std::span<const std::size_t> slots);
+    Result<void> stage(const Loaded& cluster);
+    Result<void> copy_staged();
     [[nodiscard]] std::uint64_t address(std::size_t slot) const;
 
     const Gpu* gpu_;
@@ -57,6 +73,7 @@ class ClusterStore {
     std::vector<Slot> slots_;           // those ever used
     std::vector<std::size_t> unused_;   // by the frame, oldest last
     std::vector<std::size_t> slot_of_;  // of each cluster ever asked for; no_slot where it is not here
+    std::vector<std::size_t> staged_;   // slots of what is to be copied
     std::size_t held_{0};
     std::uint64_t frame_{0};
     std::uint64_t sent_{0};

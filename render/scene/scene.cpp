@@ -79,9 +79,9 @@ std::size_t Scene::image_tiles_max() const {
 
 Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau_px,
                               const WorldModel& model) {
-    ORO_TRY(FramePlan plan, own_plan(camera, tile, tau_px, model));
+    ORO_TRY(FramePlan plan, own_plan(camera, tile, tau_px, model, Clusters::that_are_here));
     for (Scene& other : beside_) {
-        ORO_TRY(FramePlan more, other.own_plan(camera, tile, tau_px, model));
+        ORO_TRY(FramePlan more, other.own_plan(camera, tile, tau_px, model, Clusters::that_are_here));
         other.missed_ = more.missing;
         plan.beside.push_back(std::move(more));
     }
@@ -146,14 +146,21 @@ Result<void> Scene::add_casters(const Camera& camera, const Tile& tile, FramePla
     return {};
 }
 
+Result<void> Scene::add_clusters(const Camera& camera, const Tile& tile, double tau_px,
+                                 const WorldModel& model, Clusters clusters, FramePlan& plan) {
+    // A plan with no page shows nothing.
+    if (!clusters_ || !beside_.empty() || model.earth != Earth::ellipsoid || plan.pages.empty()) return {};
+    const HorizonOccluder& occluder = pages_->facts().shape.occluder;
+    if (clusters == Clusters::waited_for)
+        return clusters_->add_to(plan, camera, tile, tau_px, model, occluder, store_.coding());
+    return clusters_->add_what_is_here(plan, camera, tile, tau_px, model, occluder, store_.coding());
+}
+
 Result<FramePlan> Scene::own_plan(const Camera& camera, const Tile& tile, double tau_px,
-                                  const WorldModel& model) {
+                                  const WorldModel& model, Clusters clusters) {
     ORO_TRY(FramePlan plan, plan_of_pages(camera, tile, tau_px, model));
     for (const PageIndex& page : plan.hidden) store_.note_hidden(page);
-    // A plan with no page shows nothing.
-    if (clusters_ && beside_.empty() && model.earth == Earth::ellipsoid && !plan.pages.empty())
-        ORO_CHECK(clusters_->add_to(plan, camera, tile, tau_px, model, pages_->facts().shape.occluder,
-                                    store_.coding()));
+    ORO_CHECK(add_clusters(camera, tile, tau_px, model, clusters, plan));
     if (cast_.any()) ORO_CHECK(add_casters(camera, tile, plan));
     full_for_hidden_ = false;
     hidden_.clear();
@@ -195,6 +202,9 @@ Result<bool> Scene::advance(std::span<const PageIndex> missing) {
         ORO_TRY(const bool more, other.advance(other.missed_));
         better = better || more;
     }
+    if (clusters_) {
+        ORO_TRY(better, clusters_->advance());
+    }
     if (full_) return better;
     if (full_for_hidden_)
         stream_->want(shown_of(missing));
@@ -230,7 +240,8 @@ Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, do
         if (!plan.missing.empty() && !beside_.empty()) {
             // Others may hold what earlier frames used. What this frame uses of theirs they say by a plan.
             for (Scene* const other : all())
-                if (other != scene) ORO_CHECK(other->own_plan(camera, tile, tau_px, model));
+                if (other != scene)
+                    ORO_CHECK(other->own_plan(camera, tile, tau_px, model, Clusters::waited_for));
             if (make_room()) {
                 ORO_TRY(plan, scene->own_settled_plan(camera, tile, tau_px, model));
             }
@@ -266,7 +277,7 @@ Result<bool> Scene::bring(std::span<const PageIndex> all_pages) {
 Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                           const WorldModel& model) {
     for (bool begun_anew = false;;) {
-        ORO_TRY(FramePlan frame, own_plan(camera, tile, tau_px, model));
+        ORO_TRY(FramePlan frame, own_plan(camera, tile, tau_px, model, Clusters::waited_for));
         if (frame.missing.empty()) return frame;
         ORO_TRY(bool fits, bring(shown_of(frame.missing)));
         if (!fits && can_give_way_) {
@@ -281,7 +292,7 @@ Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile
             store_.forget_pages();
             continue;
         }
-        if (!fits) return own_plan(camera, tile, tau_px, model);
+        if (!fits) return own_plan(camera, tile, tau_px, model, Clusters::waited_for);
     }
 }
 

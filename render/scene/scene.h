@@ -60,18 +60,19 @@ class Scene {
     // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h);
     // terrain of one grid is none for another.
     void cast(const CastRequest& request);
-    // What a frame draws with the pages that are on the GPU now.
+    // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px,
                            const WorldModel& model = {});
-    // Lets the background read what a plan misses (those beside it know what theirs missed), and sends what
-    // is ready: true when the next plan may be better. Does not wait for pages that are not ready; asks for
-    // none once the frame's own fill the GPU. Errors: a page that cannot be read, the device.
+    // Lets the background read what a plan misses (those beside it and clusters know what theirs missed), and
+    // sends what is ready: true when the next plan may be better. Does not wait for what is not ready; asks
+    // for no pages once the frame's own fill the GPU. Errors: what cannot be read, the device.
     Result<bool> advance(std::span<const PageIndex> missing);
     // What a frame of this scene has shown (FrameReport::sights): from the next plan on ground that is hidden
     // comes last, and where the GPU is full gives way to what shows. True where that is news.
     bool saw(std::span<const FrameSights> sights);
     // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
-    // hold, `missing` names the rest; drawing it, saw() and another plan may bring what of that shows.
+    // hold, `missing` names the rest; drawing it, saw() and another plan may bring what of that shows. Of
+    // clusters it tells how many there is no room for.
     Result<FramePlan> settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                    const WorldModel& model = {});
 
@@ -114,8 +115,11 @@ class Scene {
     // Those of missing pages that may show.
     [[nodiscard]] std::vector<PageIndex> shown_of(std::span<const PageIndex> missing) const;
     [[nodiscard]] bool is_hidden(const PageIndex& page) const;
-    Result<FramePlan> own_plan(const Camera& camera, const Tile& tile, double tau_px,
-                               const WorldModel& model);
+    enum class Clusters { that_are_here, waited_for };
+    Result<FramePlan> own_plan(const Camera& camera, const Tile& tile, double tau_px, const WorldModel& model,
+                               Clusters clusters);
+    Result<void> add_clusters(const Camera& camera, const Tile& tile, double tau_px, const WorldModel& model,
+                              Clusters clusters, FramePlan& plan);
     Result<FramePlan> own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                        const WorldModel& model);
     // This and those beside it.

@@ -15,6 +15,7 @@
 #include "tests/support/cracks.h"
 #include "tests/support/drawn_scene.h"
 #include "tests/support/real_views.h"
+#include "tests/support/streamed_frames.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -32,6 +33,45 @@ class ClusterPictures : public test::GpuTest {
         auto region = open_region(request);
         EXPECT_TRUE(region.ok()) << region.error().line();
         return std::move(region->field);
+    }
+
+    void fly(const test::ClusterTerrain& terrain, RasterPath path, std::uint64_t bytes, int cameras,
+             unsigned seed) {
+        constexpr int side_px = test::crack_side_px;
+        const auto scene_of = [&](std::uint64_t cluster_bytes) {
+            auto drawn = std::make_unique<test::DrawnScene>(*gpu_, pages_in_memory(terrain.field, 1.0, 2),
+                                                            path, side_px, side_px);
+            test::draw_by_clusters(*gpu_, terrain, drawn->scene(), cluster_bytes);
+            return drawn;
+        };
+        const auto waits = scene_of(std::uint64_t{256} << 20U), streams = scene_of(bytes);
+        std::mt19937_64 random(seed);
+        int frames = 0, coarser = 0, looked_at = 0, settled = 0;
+        for (int i = 0; i < cameras; ++i) {
+            SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+            const Camera camera = test::random_camera(random, terrain.field);
+            const test::StreamedFrames streamed =
+                test::stream_frames(*streams, camera, 1.0, [&](const test::DrawnFrame& frame) {
+                    if (test::ground_may_be_over_the_eye(terrain, camera, frame.plan)) return;
+                    ++looked_at;
+                    EXPECT_LT(test::pixel_of_a_hole(camera, frame.ids), 0)
+                        << frame.plan.clusters.missing << " missing";
+                });
+            frames += streamed.frames;
+            coarser += streamed.coarser;
+            EXPECT_LE(streams->scene().clusters()->store().bytes(), bytes);
+            if (streamed.last.plan.clusters.without_room > 0) continue;
+            EXPECT_TRUE(streamed.last.plan.is_settled());
+            EXPECT_EQ(waits->draw(camera, 1.0).ids, streamed.last.ids);
+            ++settled;
+        }
+        std::printf(
+            "N46E008, %s path, %.1f MB for clusters, seed %u: %d eyes, %d frames, %d coarser, %d looked at, "
+            "%d settled\n",
+            name_of(path).c_str(), static_cast<double>(bytes) * 1e-6, seed, cameras, frames, coarser,
+            looked_at, settled);
+        EXPECT_GT(coarser, cameras);
+        EXPECT_GT(looked_at, frames / 3);
     }
 
     void look_for_holes(const char* name, const test::ClusterTerrain& terrain, RasterPath path, int cameras,
@@ -79,6 +119,18 @@ TEST_F(ClusterPictures, OfTheAlpsHaveNoCracks) {
     const test::ClusterTerrain alps(std::move(*field));
     for (const RasterPath path : {RasterPath::mesh, RasterPath::compute})
         look_for_holes("N46E008", alps, path, camera_count() / 8, 322);
+}
+
+// Frames of a flight that do not wait, and with room for few clusters besides: no crack while any are
+// missing, and the picture that waiting gives in the end.
+TEST_F(ClusterPictures, HaveNoCracksWhileTheyStream) {
+    auto field = tile();
+    if (!field) GTEST_SKIP() << "needs the tiles of the Alps";
+    const test::ClusterTerrain alps(std::move(*field));
+    for (const RasterPath path : {RasterPath::mesh, RasterPath::compute}) {
+        fly(alps, path, std::uint64_t{64} << 20U, camera_count() / 25, 323);
+        fly(alps, path, 400 * sizeof(gpu::ClusterBlock), camera_count() / 25, 324);
+    }
 }
 
 TEST_F(ClusterPictures, AreWithinTau) {

@@ -13,7 +13,7 @@
 #include "core/cluster_frame/region_clusters.h"
 #include "core/terrain/ground.h"
 #include "geo/region/region.h"
-#include "tests/support/drawn_scene.h"
+#include "tests/support/streamed_frames.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -71,7 +71,7 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForSixtyEightTiles) {
 }
 
 // A file that is baked beforehand, for that takes long: OROGRAPH_TEST_CLUSTERS names it
-// (orograph bake --mesh clusters). Frames wait for what they lack, so there is no crack while clusters come.
+// (orograph bake --mesh clusters). Frames that wait and, in the end, frames that do not.
 TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
     const char* const path = std::getenv("OROGRAPH_TEST_CLUSTERS");
     if (!path) GTEST_SKIP() << "needs a baked file with clusters";
@@ -93,13 +93,14 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
         drawn->scene().draw_clusters(std::move(made).value());
         return drawn;
     };
-    const auto all = scene_of(std::uint64_t{1} << 30U), few = scene_of(budget);
+    const auto all = scene_of(std::uint64_t{1} << 30U), few = scene_of(budget), flown = scene_of(budget);
     const auto bytes_of = [](test::DrawnScene& drawn) {
         return drawn.scene().store().bytes() + drawn.scene().clusters()->store().bytes();
     };
     const PostGrid& grid = field->grid;
     constexpr int steps = 24;
     std::size_t ground = 0;
+    int frames = 0, coarser = 0;
     for (int i = 0; i <= steps; ++i) {
         const double share = std::abs(1.0 - 2.0 * i / steps);  // 1 .. 0 .. 1
         const double way = 0.15 + 0.7 * i / steps;
@@ -117,6 +118,15 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
         ASSERT_TRUE(bound.plan.missing.empty()) << "frame " << i << " is not settled";
         ASSERT_EQ(free.ids, bound.ids) << "frame " << i;
         ASSERT_LE(bytes_of(*few), budget);
+        const test::StreamedFrames streamed =
+            test::stream_frames(*flown, camera, 1.0, [&](const test::DrawnFrame& frame) {
+                EXPECT_EQ(frame.plan.clusters.without_room, 0U);
+                EXPECT_LE(bytes_of(*flown), budget);
+            });
+        ASSERT_TRUE(streamed.last.plan.is_settled()) << "frame " << i;
+        ASSERT_EQ(free.ids, streamed.last.ids) << "frame " << i;
+        frames += streamed.frames;
+        coarser += streamed.coarser;
         ground += bound.ids.size() - static_cast<std::size_t>(std::ranges::count(bound.ids, 0U));
     }
     std::printf(
@@ -129,6 +139,8 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
                                  all->scene().clusters()->store().bytes_sent()) /
             sizeof(gpu::ClusterBlock),
         static_cast<std::size_t>(all->scene().clusters()->store().bytes_sent()) / sizeof(gpu::ClusterBlock));
+    std::printf("without waiting: %d frames, %d of them coarser, %.1f MB on the GPU\n", frames, coarser,
+                static_cast<double>(bytes_of(*flown)) * 1e-6);
     EXPECT_GT(ground, 100'000U);
 }
 

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 
 #include "core/cluster_frame/region_clusters.h"
+#include "core/terrain/ground.h"
 #include "render/clusters/cluster_scene.h"
 #include "render/scene/scene.h"
 #include "tests/core/clusters/cluster_terrain.h"
@@ -23,6 +26,18 @@ inline void draw_by_clusters(const Gpu& gpu, const ClusterTerrain& terrain, Scen
     ASSERT_TRUE(made.ok()) << made.error().line();
     if (level) made->keep_to_level(*level);
     scene.draw_clusters(std::move(made).value());
+}
+
+// Ground that is coarser may reach above an eye that stands lower over the true one than it is off.
+inline bool ground_may_be_over_the_eye(const ClusterTerrain& terrain, const Camera& camera,
+                                       const FramePlan& plan) {
+    const double ground_m = ground_h_m(terrain.field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
+    return std::ranges::any_of(plan.clusters.drawn, [&](const gpu::DrawnCluster& drawn) {
+        if (terrain.graph.clusters[drawn.number].made_by == no_group) return false;
+        const ClusterGroup& group = terrain.graph.groups[drawn.group];
+        return group.error_m >= camera.eye.h_m - ground_m &&
+               glm::distance(group.centre.m, camera.eye_ecef().m) <= group.radius_m + group.error_m;
+    });
 }
 
 }  // namespace oro::test

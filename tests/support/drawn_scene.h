@@ -40,7 +40,18 @@ class DrawnScene {
     }
 
     DrawnFrame draw(const Camera& camera, double tau_px, const gpu::FrameStyle& style = {}) {
-        auto plan = scene_->settled_plan(camera, whole_picture(camera), tau_px);
+        return draw(camera, scene_->settled_plan(camera, whole_picture(camera), tau_px), style);
+    }
+    // With what is there, as a window does.
+    DrawnFrame draw_what_is_here(const Camera& camera, double tau_px, const gpu::FrameStyle& style = {}) {
+        return draw(camera, scene_->plan(camera, whole_picture(camera), tau_px), style);
+    }
+
+    Scene& scene() { return *scene_; }
+    FrameRenderer& renderer() { return *renderer_; }
+
+  private:
+    DrawnFrame draw(const Camera& camera, Result<FramePlan> plan, const gpu::FrameStyle& style) {
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         DrawnFrame frame{*plan, {}, {}};
         auto report = renderer_->draw(std::move(plan).value(), style);
@@ -53,10 +64,6 @@ class DrawnScene {
         return frame;
     }
 
-    Scene& scene() { return *scene_; }
-    FrameRenderer& renderer() { return *renderer_; }
-
-  private:
     std::optional<Scene> scene_;
     std::optional<FrameRenderer> renderer_;
 };

@@ -109,15 +109,6 @@ TEST_P(ClustersByPath, MakeRoomForEachOther) {
         EXPECT_EQ(a.rgba, b.rgba) << "seed 313";
         EXPECT_LE(few.scene().clusters()->store().size(), most);
     }
-    // One slot fewer than a frame needs: told in one line.
-    test::DrawnScene none = scene(GetParam(), true, sizeof(gpu::ClusterBlock));
-    Camera camera;
-    camera.width_px = camera.height_px = side_px;
-    camera.eye = {46.9, 8.13, 20000.0};
-    camera.attitude.pitch_deg = -90.0;
-    const auto plan = none.scene().settled_plan(camera, test::whole_picture(camera), 0.5);
-    ASSERT_FALSE(plan.ok());
-    EXPECT_EQ(plan.error().where, "--gpu-memory");
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, ClustersByPath, ::testing::Values(RasterPath::mesh, RasterPath::compute),

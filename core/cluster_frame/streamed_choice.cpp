@@ -1,0 +1,233 @@
+#include "core/cluster_frame/streamed_choice.h"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace oro {
+namespace {
+
+// open: gives way, as far as is known. unread: would, and nobody knows to what. closed: would, and must not.
+enum class Asked : char { no, hidden, stands, unread, open, closed };
+
+// Where in a list a number is.
+class Places {
+  public:
+    template <class T>
+    Places(const std::vector<T>& list, std::uint32_t T::*number) {
+        places_.reserve(list.size());
+        for (std::size_t i = 0; i < list.size(); ++i) places_.emplace_back(list[i].*number, i);
+        std::ranges::sort(places_);
+    }
+    [[nodiscard]] std::optional<std::size_t> find(std::uint32_t number) const {
+        const auto at = std::ranges::lower_bound(places_, std::pair(number, std::size_t{0}));
+        if (at == places_.end() || at->first != number) return std::nullopt;
+        return at->second;
+    }
+
+  private:
+    std::vector<std::pair<std::uint32_t, std::size_t>> places_;
+};
+
+class StreamedCut {
+  public:
+    StreamedCut(const RegionClusters& clusters, const ClusterView& view, const IsClusterHere& is_here)
+        : clusters_(clusters), view_(view), is_here_(is_here), asked_(clusters.groups().size(), Asked::no) {}
+
+    // Finds what the rule says of all that is known.
+    void walk() {
+        meet(clusters_.roots(), no_group);
+        // Users lie on the level above: wave after wave is level after level.
+        std::vector<std::uint32_t> wave;
+        while (!next_.empty()) {
+            wave.clear();
+            wave.swap(next_);
+            for (const std::uint32_t group : wave) {
+                const std::size_t first = met_.size();
+                meet(clusters_.read_part(group)->members, group);
+                opened_.push_back({group, first, met_.size()});
+            }
+        }
+        for (const Met& met : met_)
+            in_cut_ += is_of_cut(met) && met.is_known && is_seen(met) && met.user != no_group ? 1U : 0U;
+    }
+    // Clusters of the cut that can be seen, without the roots.
+    [[nodiscard]] std::size_t in_cut() const { return in_cut_; }
+
+    // What may not give way yet does not.
+    void close_what_lacks() {
+        for (const Opened& opened : opened_)
+            if (asked_[opened.group] == Asked::open && !may_open(opened)) close(opened.group);
+        if (closing_.empty()) return;
+        const Places opened_at(opened_, &Opened::group), met_at(met_, &Met::cluster);
+        while (!closing_.empty()) {
+            const std::uint32_t group = closing_.back();
+            closing_.pop_back();
+            const Opened& opened = opened_[*opened_at.find(group)];
+            for (std::size_t i = opened.first; i < opened.last; ++i) {
+                const std::uint32_t maker = clusters_.maker(met_[i].cluster);
+                if (maker != no_group && asked_[maker] == Asked::open) close(maker);
+            }
+            // Now it is drawn what it made, where that is met.
+            const ClusterGroup& closed = clusters_.groups()[group];
+            for (std::uint32_t made = closed.first_made; made < closed.first_made + closed.made; ++made) {
+                const auto at = met_at.find(made);
+                if (!at || !lacks(met_[*at])) continue;
+                const std::uint32_t user = met_[*at].user;
+                if (user != no_group && asked_[user] == Asked::open) close(user);
+            }
+        }
+    }
+
+    Result<StreamedChoice> take(RegionClusters& clusters, std::size_t room) {
+        want(room);
+        std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> found;
+        for (const Met& met : met_) {
+            if (met.user != no_group && asked_[met.user] != Asked::open) continue;
+            const std::uint32_t maker = clusters_.maker(met.cluster);
+            if (maker != no_group && (asked_[maker] == Asked::open || asked_[maker] == Asked::hidden))
+                continue;
+            ClusterView::Look look = met.look;
+            if (!met.is_known && is_here_(met.cluster)) {
+                ORO_TRY(const ClusterReach* const reach, clusters.reach(met.cluster));
+                look = view_.look_at(*reach);
+            }
+            ClusterChoice& drawn = choice_.drawn;
+            drawn.beyond_frustum += look.seen == ClusterView::Seen::beyond_frustum ? 1U : 0U;
+            drawn.beyond_horizon += look.seen == ClusterView::Seen::beyond_horizon ? 1U : 0U;
+            if (look.seen != ClusterView::Seen::yes || !is_here_(met.cluster)) continue;
+            found.emplace_back(look.distance_m, met.cluster, maker == no_group ? met.user : maker);
+        }
+        std::ranges::sort(found);
+        for (const auto& [distance_m, cluster, group] : found) {
+            choice_.drawn.clusters.push_back(cluster);
+            choice_.drawn.groups.push_back(group);
+        }
+        return std::move(choice_);
+    }
+
+  private:
+    // A cluster that the rule comes to.
+    struct Met {
+        std::uint32_t cluster;
+        std::uint32_t user;  // the group that it comes from
+        bool is_known;       // where it reaches; what nobody knows of may be seen
+        ClusterView::Look look;
+    };
+    struct Opened {
+        std::uint32_t group;
+        std::size_t first, last;  // of what it uses, in met_
+    };
+
+    void meet(std::span<const std::uint32_t> clusters, std::uint32_t user) {
+        for (const std::uint32_t cluster : clusters) {
+            const std::uint32_t maker = clusters_.maker(cluster);
+            if (maker != no_group && asked_[maker] == Asked::no) ask(maker);
+            if (maker != no_group && asked_[maker] == Asked::hidden) continue;
+            const ClusterReach* const reach = clusters_.known_reach(cluster);
+            met_.push_back(
+                {cluster, user, reach != nullptr,
+                 reach != nullptr ? view_.look_at(*reach) : ClusterView::Look{ClusterView::Seen::yes, 0.0}});
+        }
+    }
+
+    void ask(std::uint32_t number) {
+        const ClusterGroup& group = clusters_.groups()[number];
+        const bool is_read = clusters_.read_part(number) != nullptr;
+        if (view_.is_beyond_frustum(group)) {
+            ++choice_.drawn.beyond_frustum;
+            asked_[number] = Asked::hidden;
+            return;
+        }
+        if (!is_read) choice_.groups_wanted.push_back(number);
+        if (view_.stands(group)) {
+            asked_[number] = Asked::stands;
+        } else {
+            asked_[number] = is_read ? Asked::open : Asked::unread;
+            ++choice_.drawn.groups_opened;
+            if (is_read) next_.push_back(number);
+        }
+    }
+
+    [[nodiscard]] static bool is_seen(const Met& met) { return met.look.seen == ClusterView::Seen::yes; }
+    [[nodiscard]] bool lacks(const Met& met) const { return is_seen(met) && !is_here_(met.cluster); }
+    // Of the cut that the rule asks for, as far as groups are read.
+    [[nodiscard]] bool is_of_cut(const Met& met) const {
+        const std::uint32_t maker = clusters_.maker(met.cluster);
+        return maker == no_group || asked_[maker] == Asked::stands || asked_[maker] == Asked::unread;
+    }
+
+    // A group that uses what this one made and was not asked has none above it in view, or an unread one.
+    [[nodiscard]] bool gives_way(std::uint32_t user) const {
+        if (user == no_group || asked_[user] == Asked::open || asked_[user] == Asked::hidden) return true;
+        return asked_[user] == Asked::no && view_.is_beyond_frustum(clusters_.groups()[user]);
+    }
+    [[nodiscard]] bool may_open(const Opened& opened) const {
+        const GroupPart& part = *clusters_.read_part(opened.group);
+        return std::ranges::all_of(part.made, [&](const Cluster& made) { return gives_way(made.used_by); }) &&
+               std::none_of(met_.begin() + static_cast<std::ptrdiff_t>(opened.first),
+                            met_.begin() + static_cast<std::ptrdiff_t>(opened.last),
+                            [&](const Met& met) { return is_of_cut(met) && lacks(met); });
+    }
+    void close(std::uint32_t group) {
+        asked_[group] = Asked::closed;
+        closing_.push_back(group);
+    }
+
+    void want(std::size_t room) {
+        std::size_t left = room - std::min(room, in_cut_);
+        for (const Met& met : met_) {
+            if (!is_seen(met)) continue;
+            const bool of_cut = is_of_cut(met);
+            if (of_cut && lacks(met)) ++choice_.missing;
+            // Nobody can send what was not read.
+            const std::uint32_t maker = clusters_.maker(met.cluster);
+            if (maker != no_group && clusters_.read_part(maker) == nullptr) continue;
+            if (!of_cut && met.user != no_group) {
+                if (left == 0) continue;
+                --left;
+            }
+            choice_.clusters_wanted.push_back(met.cluster);
+        }
+        for (const Asked asked : asked_)
+            choice_.missing += asked == Asked::unread || asked == Asked::closed ? 1U : 0U;
+    }
+
+    const RegionClusters& clusters_;
+    const ClusterView& view_;
+    const IsClusterHere& is_here_;
+    std::vector<Asked> asked_;  // of each group
+    std::vector<std::uint32_t> next_, closing_;
+    std::vector<Opened> opened_;
+    std::vector<Met> met_;  // coarsest first
+    std::size_t in_cut_{};
+    StreamedChoice choice_;
+};
+
+}  // namespace
+
+Result<StreamedChoice> choose_clusters_here(RegionClusters& clusters, const ClusterView& view,
+                                            std::size_t room, const IsClusterHere& is_here) {
+    const auto cut_for = [&](const ClusterView& asked) {
+        StreamedCut cut(clusters, asked, is_here);
+        cut.walk();
+        return cut;
+    };
+    StreamedCut cut = cut_for(view);
+    if (cut.in_cut() <= room) {
+        cut.close_what_lacks();
+        return cut.take(clusters, room);
+    }
+    const std::size_t without_room = cut.in_cut() - room;
+    const ClusterView coarser = view.coarser(
+        coarser_steps_until([&](unsigned steps) { return cut_for(view.coarser(steps)).in_cut() <= room; }));
+    StreamedCut fitting = cut_for(coarser);
+    fitting.close_what_lacks();
+    ORO_TRY(StreamedChoice choice, fitting.take(clusters, room));
+    choice.without_room = without_room;
+    choice.missing = std::max(choice.missing, without_room);
+    return choice;
+}
+
+}  // namespace oro

@@ -1,0 +1,36 @@
+// Which clusters a frame draws that does not wait: the finest cut of those that are here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/cluster_frame/cluster_choice.h"
+
+namespace oro {
+
+struct StreamedChoice {
+    ClusterChoice drawn;  // all of them are here
+    // What should come, coarsest first, as groups need not be asked for before those above them are known.
+    std::vector<std::uint32_t> groups_wanted;    // to be read
+    std::vector<std::uint32_t> clusters_wanted;  // to be here, and to stay; as many as there is room for
+    std::size_t missing{};       // groups and clusters that the cut lacks; 0: it is that of choose_clusters()
+    std::size_t without_room{};  // clusters that the cut has too many for the room: a coarser one is drawn
+};
+
+// Whether a cluster is on the GPU.
+using IsClusterHere = std::function<bool(std::uint32_t cluster)>;
+
+// A group gives way to what it uses where the rule says so, where all of that is here that would then be
+// drawn and may be seen, and where each group gives way that uses what it made. Of all sets of groups with
+// these properties it is the largest; there is one, as two such sets together are one. So each place is
+// covered once, whatever is here, as long as the coarsest clusters (roots()) are.
+//
+// Reads nothing: what nobody has read is wanted. Wanted beside the cut are the clusters above it, so that
+// there is something to go back to when the eye moves; of these the coarsest, as far as there is room.
+// room: clusters that the GPU may hold beside the roots. Errors: damage.
+Result<StreamedChoice> choose_clusters_here(RegionClusters& clusters, const ClusterView& view,
+                                            std::size_t room, const IsClusterHere& is_here);
+
+}  // namespace oro

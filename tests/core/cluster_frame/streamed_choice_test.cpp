@@ -1,0 +1,248 @@
+// What a frame draws while its clusters stream: whatever is here, each place once, as fine as may be.
+#include "core/cluster_frame/streamed_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <random>
+#include <set>
+
+#include "tests/core/clusters/cut_cover.h"
+#include "tests/support/cracks.h"
+
+namespace oro {
+namespace {
+
+using Numbers = std::set<std::uint32_t>;
+using Seen = ClusterView::Seen;
+
+class StreamedChoices : public ::testing::Test {
+  protected:
+    explicit StreamedChoices(HeightField field = test::rough_field(47.0, 8.0, 261, 303))
+        : terrain_(std::move(field)) {}
+
+    test::ClusterTerrain terrain_;
+    HorizonOccluder occluder_ = region_shape(terrain_.field, 1.0).occluder;
+    const ClusterGraph& graph_ = terrain_.graph;
+
+    std::unique_ptr<RegionClusters> clusters() {
+        auto made = clusters_of_graph(graph_, terrain_.field, occluder_);
+        EXPECT_TRUE(made.ok()) << made.error().line();
+        return std::move(made).value();
+    }
+    [[nodiscard]] ClusterView view(const Camera& camera, double tau_px,
+                                   std::optional<std::uint32_t> level = {}) const {
+        return {camera, test_picture(camera), tau_px, {}, occluder_, {}, level};
+    }
+    static Tile test_picture(const Camera& camera) {
+        return {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+    }
+    static StreamedChoice choose(RegionClusters& region, const ClusterView& view, std::size_t room,
+                                 const Numbers& here) {
+        auto choice =
+            choose_clusters_here(region, view, room, [&](std::uint32_t c) { return here.contains(c); });
+        EXPECT_TRUE(choice.ok()) << choice.error().line();
+        return std::move(choice).value();
+    }
+    static void read(RegionClusters& region, std::uint32_t group) {
+        auto loaded = region.load_group(group);
+        ASSERT_TRUE(loaded.ok());
+        region.keep(std::move(loaded).value());
+    }
+
+    // By loops over all of the graph: the largest set of groups that may give way.
+    [[nodiscard]] Numbers brute_force(RegionClusters& region, const ClusterView& view,
+                                      const Numbers& here) const {
+        Numbers open;
+        for (std::uint32_t i = 0; i < graph_.groups.size(); ++i)
+            if (!view.stands(graph_.groups[i]) && !view.is_beyond_frustum(graph_.groups[i]) &&
+                region.read_part(i) != nullptr)
+                open.insert(i);
+        const auto may_open = [&](std::uint32_t group) {
+            for (std::uint32_t i = 0; i < graph_.groups[group].made; ++i) {
+                const std::uint32_t user = graph_.clusters[graph_.groups[group].first_made + i].used_by;
+                if (user != no_group && !open.contains(user)) return false;
+            }
+            return std::ranges::all_of(graph_.members_of(graph_.groups[group]), [&](std::uint32_t member) {
+                const std::uint32_t maker = graph_.clusters[member].made_by;
+                if (maker != no_group &&
+                    (open.contains(maker) || view.is_beyond_frustum(graph_.groups[maker])))
+                    return true;
+                const ClusterReach* const reach = region.known_reach(member);
+                return here.contains(member) || (reach != nullptr && view.look_at(*reach).seen != Seen::yes);
+            });
+        };
+        for (bool changed = true; changed;) {
+            const auto gone = std::erase_if(open, [&](std::uint32_t group) { return !may_open(group); });
+            changed = gone > 0;
+        }
+        return open;
+    }
+
+    // The clusters that are drawn are those of a cut that covers each place once, but for what cannot be
+    // seen.
+    void expect_cut(RegionClusters& region, const ClusterView& view, const test::Whole& whole,
+                    const Numbers& gave_way, const ClusterChoice& drawn) {
+        std::vector<char> stands(graph_.groups.size(), 1);
+        for (const std::uint32_t group : gave_way) stands[group] = 0;
+        const auto cut = cut_of(graph_, stands);
+        test::expect_cover(terrain_, whole, cut);
+        const Numbers chosen(drawn.clusters.begin(), drawn.clusters.end());
+        EXPECT_EQ(chosen.size(), drawn.clusters.size()) << "one is drawn twice";
+        Numbers can_be_seen;
+        for (const std::uint32_t cluster : cut) {
+            const std::uint32_t maker = graph_.clusters[cluster].made_by;
+            if (maker != no_group && view.is_beyond_frustum(graph_.groups[maker])) continue;
+            if (view.look_at(**region.reach(cluster)).seen == Seen::yes) can_be_seen.insert(cluster);
+        }
+        EXPECT_EQ(chosen, can_be_seen);
+    }
+};
+
+// Random sets of clusters that are here and of groups that were read: each place is covered once, by what is
+// here, and no group more could give way.
+TEST_F(StreamedChoices, CoverEachPlaceOnceWhateverIsHere) {
+    constexpr unsigned seed = 331;
+    std::mt19937_64 random(seed);
+    const test::Whole whole = test::whole_of(terrain_.surface);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    std::size_t drawn = 0, coarser = 0, whole_cuts = 0;
+    for (int i = 0; i < 60; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+        const auto region = clusters();
+        const double read_share = i % 3 == 0 ? 1.0 : 1.0 - 0.2 * std::pow(unit(random), 4.0);
+        for (std::uint32_t group = 0; group < graph_.groups.size(); ++group)
+            if (unit(random) <= read_share) read(*region, group);
+        const double here_share = i % 5 == 0 ? 1.0 : 1.0 - 0.3 * std::pow(unit(random), 4.0);
+        Numbers here(region->roots().begin(), region->roots().end());
+        for (std::uint32_t cluster = 0; cluster < graph_.clusters.size(); ++cluster) {
+            const std::uint32_t maker = graph_.clusters[cluster].made_by;
+            const bool is_read = maker == no_group || region->read_part(maker) != nullptr;
+            if (is_read && unit(random) <= here_share) here.insert(cluster);
+        }
+        const Camera camera = test::random_camera(random, terrain_.field);
+        const ClusterView eye = view(camera, i % 2 == 0 ? 1.0 : 4.0);
+        const Numbers gave_way = brute_force(*region, eye, here);
+        const StreamedChoice choice = choose(*region, eye, 1'000'000, here);
+        for (const std::uint32_t cluster : choice.drawn.clusters) EXPECT_TRUE(here.contains(cluster));
+        expect_cut(*region, eye, whole, gave_way, choice.drawn);
+        EXPECT_EQ(choice.without_room, 0U);
+        drawn += choice.drawn.clusters.size();
+        (choice.missing > 0 ? coarser : whole_cuts) += 1;
+        const auto waited = choose_clusters(*region, eye);
+        EXPECT_TRUE(choice.missing > 0 || waited->clusters == choice.drawn.clusters);
+        EXPECT_TRUE(choice.missing == 0 || read_share < 1.0 || here_share < 1.0);
+    }
+    std::printf("seed %u: 60 eyes, %zu clusters drawn, %zu coarser cuts, %zu whole\n", seed, drawn, coarser,
+                whole_cuts);
+    EXPECT_GT(drawn, 1000U);
+    EXPECT_GT(coarser, 10U);
+    EXPECT_GT(whole_cuts, 3U);
+}
+
+// Some of what is wanted comes between two frames, and what is not wanted may go: the whole cut is there in
+// the end, and what is drawn before covers each place once. No more is ever wanted than there is room for.
+TEST_F(StreamedChoices, ComeToTheWholeCut) {
+    constexpr unsigned seed = 332;
+    std::mt19937_64 random(seed);
+    const test::Whole whole = test::whole_of(terrain_.surface);
+    const auto region = clusters();
+    Numbers here(region->roots().begin(), region->roots().end());
+    int frames = 0;
+    for (int i = 0; i < 12; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+        const ClusterView eye = view(test::random_camera(random, terrain_.field), 1.0);
+        const auto asked = clusters();
+        const ClusterChoice waited = *choose_clusters(*asked, eye);
+        const std::size_t room = waited.clusters.size() + (i % 2 == 0 ? 0 : random() % 500);
+        for (int frame = 0;; ++frame, ++frames) {
+            ASSERT_LT(frame, 400);
+            const StreamedChoice choice = choose(*region, eye, room, here);
+            EXPECT_EQ(choice.without_room, 0U);
+            EXPECT_LE(choice.clusters_wanted.size(), room + region->roots().size());
+            if (frame % 8 == 0)
+                expect_cut(*region, eye, whole, brute_force(*region, eye, here), choice.drawn);
+            if (choice.missing == 0) {
+                EXPECT_EQ(choice.drawn.clusters, waited.clusters);
+                EXPECT_EQ(choice.drawn.groups, waited.groups);
+                break;
+            }
+            const Numbers wanted(choice.clusters_wanted.begin(), choice.clusters_wanted.end());
+            std::erase_if(here, [&](std::uint32_t cluster) {
+                return !wanted.contains(cluster) && graph_.clusters[cluster].used_by != no_group &&
+                       here.size() > room;
+            });
+            for (std::size_t at = 0; at < std::min<std::size_t>(3, choice.groups_wanted.size()); ++at)
+                read(*region, choice.groups_wanted[at]);
+            std::size_t sent = 0;
+            for (const std::uint32_t cluster : choice.clusters_wanted)
+                if (sent < 12 && here.insert(cluster).second) ++sent;
+        }
+    }
+    std::printf("seed %u: 12 eyes, %d frames until all was there\n", seed, frames);
+}
+
+// With too little room it is a coarser cut, which is told, and it comes to an end.
+TEST_F(StreamedChoices, AreCoarserWhereThereIsNoRoom) {
+    constexpr unsigned seed = 333;
+    std::mt19937_64 random(seed);
+    const auto region = clusters();
+    for (std::uint32_t group = 0; group < graph_.groups.size(); ++group) read(*region, group);
+    std::size_t short_of_room = 0;
+    for (int i = 0; i < 40; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+        const Camera camera = test::random_camera(random, terrain_.field);
+        const ClusterView eye =
+            i % 4 == 0 ? view(camera, 1.0, static_cast<std::uint32_t>(i % 3)) : view(camera, i % 2);
+        const std::size_t room = i % 5 == 0 ? 0 : random() % 60;
+        Numbers here(region->roots().begin(), region->roots().end());
+        const StreamedChoice first = choose(*region, eye, room, here);
+        here.insert(first.clusters_wanted.begin(), first.clusters_wanted.end());
+        EXPECT_LE(here.size(), room + region->roots().size());
+        const StreamedChoice choice = choose(*region, eye, room, here);
+        const std::size_t whole = choose_clusters(*region, eye)->clusters.size();
+        if (choice.without_room == 0) {
+            EXPECT_EQ(choice.missing, 0U);
+            continue;
+        }
+        ++short_of_room;
+        EXPECT_GT(choice.missing, 0U);
+        EXPECT_GT(whole, room);
+        // There is no better one to come.
+        EXPECT_EQ(first.clusters_wanted, choice.clusters_wanted);
+        EXPECT_LE(choice.drawn.clusters.size(), room + region->roots().size());
+        EXPECT_GT(choice.drawn.clusters.size() + choice.drawn.beyond_frustum + choice.drawn.beyond_horizon,
+                  0U);
+    }
+    EXPECT_GT(short_of_room, 10U);
+}
+
+class StreamedChoicesWithHoles : public StreamedChoices {
+  protected:
+    StreamedChoicesWithHoles() : StreamedChoices(test::holed_field(120, 130, 5)) {}
+};
+
+// Ground with holes has many coarsest clusters.
+TEST_F(StreamedChoicesWithHoles, CoverEachPlaceOnceWhateverIsHere) {
+    constexpr unsigned seed = 334;
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const test::Whole whole = test::whole_of(terrain_.surface);
+    const auto region = clusters();
+    EXPECT_GT(region->roots().size(), 1U);
+    for (std::uint32_t group = 0; group < graph_.groups.size(); ++group) read(*region, group);
+    for (int i = 0; i < 30; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+        Numbers here(region->roots().begin(), region->roots().end());
+        const double share = 1.0 - 0.3 * std::pow(unit(random), 2.0);
+        for (std::uint32_t cluster = 0; cluster < graph_.clusters.size(); ++cluster)
+            if (unit(random) <= share) here.insert(cluster);
+        const ClusterView eye = view(test::random_camera(random, terrain_.field), 1.0);
+        const StreamedChoice choice = choose(*region, eye, 1'000'000, here);
+        for (const std::uint32_t cluster : choice.drawn.clusters) EXPECT_TRUE(here.contains(cluster));
+        expect_cut(*region, eye, whole, brute_force(*region, eye, here), choice.drawn);
+    }
+}
+
+}  // namespace
+}  // namespace oro

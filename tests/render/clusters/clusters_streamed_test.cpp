@@ -1,0 +1,126 @@
+// Frames of clusters that do not wait for those that they lack.
+#include <algorithm>
+#include <cstdio>
+#include <random>
+
+#include "tests/support/cluster_scene.h"
+#include "tests/support/cracks.h"
+#include "tests/support/rough_terrain.h"
+#include "tests/support/streamed_frames.h"
+
+namespace oro {
+namespace {
+
+constexpr int side_px = test::crack_side_px;
+
+class StreamedClusters : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
+  protected:
+    test::ClusterTerrain terrain_{test::rough_field(47.0, 8.0, 260, 310)};
+
+    test::DrawnScene scene(std::uint64_t bytes) {
+        test::DrawnScene drawn(*gpu_, pages_in_memory(terrain_.field, 1.0, 2), GetParam(), side_px, side_px);
+        test::draw_by_clusters(*gpu_, terrain_, drawn.scene(), bytes);
+        return drawn;
+    }
+    static std::size_t ground_in(const std::vector<std::uint32_t>& ids) {
+        return ids.size() - static_cast<std::size_t>(std::ranges::count(ids, 0U));
+    }
+    // No background within the terrain, and ground from the first frame that has any pages.
+    void expect_whole(const Camera& camera, const test::DrawnFrame& frame) {
+        EXPECT_TRUE(frame.plan.clusters.on || frame.plan.pages.empty());
+        if (test::ground_may_be_over_the_eye(terrain_, camera, frame.plan)) return;
+        ++looked_at_;
+        EXPECT_LT(test::pixel_of_a_hole(camera, frame.ids), 0)
+            << "background within the terrain; eye " << camera.eye.lat_deg << "," << camera.eye.lon_deg
+            << " h " << camera.eye.h_m << ", " << frame.plan.clusters.missing << " missing";
+    }
+    int looked_at_{0};  // frames
+};
+
+constexpr std::uint64_t slot_bytes = sizeof(gpu::ClusterBlock);
+
+// Whatever has come, no frame has a hole; the last is the picture of a scene that waited, to the byte.
+TEST_P(StreamedClusters, HaveNoCracksAndEndAsThoseThatAreWaitedFor) {
+    constexpr unsigned seed = 341;
+    std::mt19937_64 random(seed);
+    test::DrawnScene waits = scene(std::uint64_t{64} << 20U), streams = scene(std::uint64_t{64} << 20U);
+    int frames = 0, coarser = 0;
+    std::size_t ground = 0;
+    for (int i = 0; i < 25; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+        const Camera camera = test::random_camera(random, terrain_.field);
+        const double tau_px = i % 3 == 0 ? 4.0 : 1.0;
+        const test::StreamedFrames streamed = test::stream_frames(
+            streams, camera, tau_px, [&](const test::DrawnFrame& frame) { expect_whole(camera, frame); });
+        EXPECT_TRUE(streamed.last.plan.is_settled());
+        const auto picture = *streams.renderer().read_picture(side_px, side_px);
+        const test::DrawnFrame waited = waits.draw(camera, tau_px);
+        EXPECT_EQ(waited.ids, streamed.last.ids);
+        EXPECT_EQ(*waits.renderer().read_picture(side_px, side_px), picture);
+        frames += streamed.frames;
+        coarser += streamed.coarser;
+        ground += ground_in(waited.ids);
+    }
+    std::printf("seed %u: 25 eyes, %d frames, %d of them coarser, %d looked at, %zu pixels of ground\n", seed,
+                frames, coarser, looked_at_, ground);
+    EXPECT_GT(coarser, 10);
+    EXPECT_GT(looked_at_, frames / 3);
+    EXPECT_GT(ground, 20000U);
+}
+
+// With room for the largest cut, and the coarsest clusters, frames come to the same pictures.
+TEST_P(StreamedClusters, NeedNoMoreMemoryThanTheirCut) {
+    constexpr unsigned seed = 342;
+    std::mt19937_64 random(seed);
+    test::DrawnScene waits = scene(std::uint64_t{64} << 20U);
+    std::vector<Camera> cameras;
+    std::size_t most = 0;
+    for (int i = 0; i < 12; ++i) {
+        cameras.push_back(test::random_camera(random, terrain_.field));
+        most = std::max(most, waits.draw(cameras.back(), 1.0).plan.clusters.drawn.size());
+    }
+    const auto clusters =
+        clusters_of_graph(terrain_.graph, terrain_.field, waits.scene().pages().facts().shape.occluder);
+    const std::uint64_t bytes = (most + (*clusters)->roots().size()) * slot_bytes;
+    test::DrawnScene streams = scene(bytes);
+    for (const Camera& camera : cameras) {
+        const test::StreamedFrames streamed = test::stream_frames(
+            streams, camera, 1.0, [&](const test::DrawnFrame& frame) { expect_whole(camera, frame); });
+        EXPECT_TRUE(streamed.last.plan.is_settled()) << "seed " << seed;
+        EXPECT_EQ(waits.draw(camera, 1.0).ids, streamed.last.ids) << "seed " << seed;
+        EXPECT_LE(streams.scene().clusters()->store().bytes(), bytes);
+    }
+}
+
+// With less a coarser cut is drawn, whole, and the plan says so: streamed or waited for.
+TEST_P(StreamedClusters, AreCoarserWithTooLittleMemory) {
+    constexpr unsigned seed = 343;
+    for (const std::size_t slots : {std::size_t{1}, std::size_t{24}}) {
+        std::mt19937_64 random(seed);
+        test::DrawnScene few = scene(slots * slot_bytes), waits = scene(slots * slot_bytes);
+        int too_little = 0;
+        for (int i = 0; i < 12; ++i) {
+            SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+            const Camera camera = test::random_camera(random, terrain_.field);
+            const test::StreamedFrames streamed = test::stream_frames(
+                few, camera, 0.5, [&](const test::DrawnFrame& frame) { expect_whole(camera, frame); });
+            const test::DrawnFrame waited = waits.draw(camera, 0.5);
+            expect_whole(camera, waited);
+            for (const FramePlan* const plan : {&streamed.last.plan, &waited.plan}) {
+                EXPECT_EQ(plan->is_settled(), plan->clusters.without_room == 0);
+                EXPECT_EQ(plan->shows_all(), plan->clusters.without_room == 0);
+                EXPECT_LE(plan->clusters.drawn.size(), slots);
+            }
+            too_little += waited.plan.clusters.without_room > 0 ? 1 : 0;
+            EXPECT_LE(few.scene().clusters()->store().bytes(), slots * slot_bytes);
+        }
+        EXPECT_GT(too_little, 3) << slots;
+        EXPECT_GT(waits.scene().clusters()->most_without_room(), 0U);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, StreamedClusters, ::testing::Values(RasterPath::mesh, RasterPath::compute),
+                         [](const auto& path) { return name_of(path.param); });
+
+}  // namespace
+}  // namespace oro
