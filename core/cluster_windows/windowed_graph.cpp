@@ -32,6 +32,9 @@ std::int32_t highest_steps_of(const HeightField& field, int threads) {
     return *std::ranges::max_element(highest);
 }
 
+// Counted up when the same ground comes to other groups: windows that another program left are built again.
+constexpr std::uint64_t rules_of_groups = 4;
+
 // What was to be built, of what.
 std::uint64_t plan_of(const WindowedBake& how, const PostGrid& grid, const WindowSizes& sizes,
                       std::size_t number) {
@@ -43,7 +46,7 @@ std::uint64_t plan_of(const WindowedBake& how, const PostGrid& grid, const Windo
                                              static_cast<std::uint64_t>(sizes.above),
                                              xxh64(std::as_bytes(std::span(&sizes.kept_share, 1))),
                                              number};
-    return xxh64(std::as_bytes(std::span(facts)), 3);
+    return xxh64(std::as_bytes(std::span(facts)), rules_of_groups);
 }
 
 // What a broken-off bake left behind may be replaced; what anybody else has under that name stays.

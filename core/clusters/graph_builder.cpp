@@ -53,7 +53,8 @@ class Builder {
                                std::span<const std::size_t> clusters) const;
     void add_clusters(const std::vector<Part>& shared, GraphLevel& report);
     void add_groups(std::size_t groups, std::uint32_t first_cluster, GraphLevel& report);
-    void make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simplifier, Made& made) const;
+    void make(std::uint32_t group, const EdgeLimit& edges, GroupMesh& mesh, GroupSimplifier& simplifier,
+              Made& made) const;
     void add_level();
     void begin_with_leaves();
     void begin_with(ClusterGraph begun);
@@ -162,7 +163,8 @@ void Builder::add_groups(std::size_t groups, std::uint32_t first_cluster, GraphL
     report.groups = groups;
 }
 
-void Builder::make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simplifier, Made& made) const {
+void Builder::make(std::uint32_t group, const EdgeLimit& edges, GroupMesh& mesh, GroupSimplifier& simplifier,
+                   Made& made) const {
     std::vector<VertexTriangle> triangles;
     for (const std::uint32_t member : graph_.members_of(graph_.groups[group])) {
         const auto of_member = graph_.triangles_of(graph_.clusters[member]);
@@ -176,7 +178,8 @@ void Builder::make(std::uint32_t group, GroupMesh& mesh, GroupSimplifier& simpli
     if (graph_.groups[group].whole || !options_.whole_alone)
         simplifier.simplify(mesh, {.triangles = static_cast<int>(target),
                                    .most_share = most_share * (1.0 - options_.kept_share),
-                                   .free_difference = floor_m / height_step_m});
+                                   .free_difference = floor_m / height_step_m,
+                                   .edges = edges});
     made.triangles_in = triangles.size();
     mesh.copy_to(made.triangles);
     made.bounds = group_bounds(surface_, bounds_, graph_, group, made.triangles, mesh.difference(surface_));
@@ -212,7 +215,8 @@ void Builder::add_level() {
         GroupSimplifier simplifier(surface_);
         const std::size_t first = static_cast<std::size_t>(turn) * groups_at_a_time;
         for (std::size_t i = first; i < std::min(made.size(), first + groups_at_a_time); ++i)
-            make(first_group + static_cast<std::uint32_t>(i), mesh, simplifier, made[i]);
+            make(first_group + static_cast<std::uint32_t>(i), assignment.longest_edges(), mesh, simplifier,
+                 made[i]);
     });
     parts_.clear();
     made_by_.clear();

@@ -63,6 +63,10 @@ class GroupAssignment {
     [[nodiscard]] GroupTile tile(std::size_t group) const {
         return tiles_.empty() ? GroupTile{} : tiles_[group];
     }
+    // That a group may make; of any length where all triangles go to one.
+    [[nodiscard]] EdgeLimit longest_edges() const {
+        return tiles_.empty() ? EdgeLimit{} : tiling_.longest_edges();
+    }
     // A group's tile, widened.
     [[nodiscard]] PlaneBox around(std::size_t group) const { return tiling_.widened(tiles_[group]); }
     // Of the triangles of a part.

@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <limits>
 
 #include "core/surface/surface_vertex.h"
 
@@ -32,6 +33,12 @@ struct PlaneBox {
     }
 };
 
+// The longest edges that may be made, along each axis, in units of the plane.
+struct EdgeLimit {
+    std::int64_t rows{std::numeric_limits<std::int64_t>::max()};
+    std::int64_t columns{std::numeric_limits<std::int64_t>::max()};
+};
+
 // Lines of one level, the same for any part of the plane that is built: what becomes of a place depends on
 // what is around it alone. Lines of a level keep away from those of the two levels before. So what is locked
 // on a line is free on the next level, but near the points where lines of two levels cross; and there it is
@@ -52,6 +59,11 @@ class GroupTiling {
     [[nodiscard]] PlaneBox box_of(const GroupTile& tile) const;
     // A tile, and a quarter of its side around it.
     [[nodiscard]] PlaneBox widened(const GroupTile& tile) const;
+
+    // A quarter of a tile's sides. Were edges as long as tiles, a group of flat ground would keep no vertex
+    // but those on its border; the next level's borders could run along these alone, and all of them would
+    // have to stay twice.
+    [[nodiscard]] EdgeLimit longest_edges() const { return {row_.period / 4, column_.period / 4}; }
 
   private:
     struct Lines {

@@ -19,9 +19,19 @@ std::int64_t cross(const SurfaceVertex& a, const SurfaceVertex& b) {
 
 }  // namespace
 
+// Those beside it in the ring are there already.
+bool GroupSimplifier::makes_long_edge(int target) const {
+    const SurfaceVertex& to = offsets_[at(target)];
+    return std::any_of(offsets_.begin(), offsets_.end(), [&](const SurfaceVertex& from) {
+        return std::abs(from.row - to.row) > edges_.rows ||
+               std::abs(from.column - to.column) > edges_.columns;
+    });
+}
+
 // A trial is possible where all new triangles have an area; the one that covers the vertex says what the
 // trial costs at least. Areas come from those of triangles with the vertex itself.
 void GroupSimplifier::add_trial(const SurfaceVertex& middle, int target, double below) {
+    if (makes_long_edge(target)) return;
     const int count = ring_.count(), triangles = ring_.triangles();
     const SurfaceVertex& to = offsets_[at(target)];
     double least = 0.0;
@@ -164,6 +174,7 @@ void GroupSimplifier::fill_queue(const GroupMesh& mesh) {
 }
 
 void GroupSimplifier::simplify(GroupMesh& mesh, const Aim& aim) {
+    edges_ = aim.edges;
     fill_queue(mesh);
     const auto most = static_cast<int>(aim.most_share * static_cast<double>(queue_.size()));
     double reached = aim.free_difference;

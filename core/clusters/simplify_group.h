@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/clusters/group_mesh.h"
+#include "core/clusters/group_tiling.h"
 
 namespace oro {
 
@@ -18,6 +19,7 @@ class GroupSimplifier {
             1.0};  // of the vertices that may go: no more of them go for the sake of `triangles`
         double free_difference{};                 // steps: what costs no more goes in any case
         double limit{OriginalSurface::no_limit};  // steps: what costs more stays
+        EdgeLimit edges{};                        // no longer ones are made
     };
     // Collapses vertices that are not locked, always the one next whose new triangles have the least largest
     // difference from the original, over every place; in the end also what costs no more than what went
@@ -41,6 +43,7 @@ class GroupSimplifier {
 
     // The best of a vertex's collapses, if it costs less than `below`; leaves its ring in ring_.
     [[nodiscard]] Choice best_choice(const GroupMesh& mesh, int vertex, double below);
+    [[nodiscard]] bool makes_long_edge(int target) const;
     void add_trial(const SurfaceVertex& middle, int target, double below);
     [[nodiscard]] double trial_difference(int target, double limit);
     [[nodiscard]] double chord_difference(int from, int to, double limit);
@@ -57,6 +60,7 @@ class GroupSimplifier {
     void change_cost(int vertex, double cost);
 
     const OriginalSurface& surface_;
+    EdgeLimit edges_;
     std::vector<double> cost_;    // by vertex
     std::vector<char> outdated_;  // by vertex: it may cost more by now
     std::vector<int> touched_;

@@ -73,6 +73,19 @@ TEST_F(WindowedGraph, HasTheBytesOfOneGoInStages) {
     }
 }
 
+// Flat ground, where groups go on as long as moves cost nothing.
+TEST_F(WindowedGraph, HasTheBytesOfOneGoOverASea) {
+    const ClusterTerrain terrain(coast_field(420, 560));
+    const std::string whole = in_one_go(terrain);
+    for (const std::vector<WindowSizes>& stages :
+         {std::vector<WindowSizes>{{3, 70'000}}, {{2, 40'000}, {4, 90'000}}}) {
+        WindowedBake bake = how(path_, 2, 40'000);
+        bake.stages = stages;
+        EXPECT_TRUE(in_windows(terrain.field, bake) == whole) << stages.size() << " stages";
+        EXPECT_EQ(files(), 2U) << "windows are gone";
+    }
+}
+
 // On an island in a wide sea of voids the first levels are one group sooner than their lines say.
 TEST_F(WindowedGraph, HasTheBytesOfOneGoWhereThereIsLittleGround) {
     HeightField field = rough_field(47.0, 8.0, 300, 400);

@@ -74,6 +74,18 @@ inline HeightField holed_field(int rows, int columns, std::uint64_t seed) {
     return field;
 }
 
+// A sea at H 0 that reaches over most of the field, and an island's coast.
+inline HeightField coast_field(int rows, int columns) {
+    HeightField field = rough_field(47.0, 8.0, rows, columns);
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const double from_corner = std::hypot(row, column) + 9.0 * std::sin(0.1 * row);
+            if (from_corner > 0.4 * rows) post_of(field, row, column) = 0.0F;
+        }
+    }
+    return field;
+}
+
 using DirectedEdge = std::pair<VertexNumber, VertexNumber>;
 
 // The edges of triangles that have no triangle on their other side; empty where an edge is there twice, too:

@@ -126,6 +126,23 @@ TEST(ClusterGraph, HalfFlatGround) {
     expect_sound(ClusterTerrain(std::move(field)), true);
 }
 
+// Once the groups of flat ground kept no vertex but those on their borders. Then all borders of the next
+// level ran along these, all triangles of the level after that went to one group, and so a cut near the coast
+// took the whole sea as it was on the second level.
+TEST(ClusterGraph, ASeaIsNotOneGroup) {
+    const ClusterTerrain terrain(coast_field(420, 420));
+    expect_sound(terrain, true);
+    for (const GraphLevel& level : terrain.graph.levels) EXPECT_LE(level.largest_group, 2 * 1152U);
+    std::size_t of_the_sea = 0;
+    for (const std::uint32_t i : cut_by_metres(terrain.graph, 10.0)) {
+        for (const VertexTriangle& triangle : terrain.graph.triangles_of(terrain.graph.clusters[i]))
+            of_the_sea += std::all_of(triangle.begin(), triangle.end(), [&](VertexNumber vertex) {
+                return terrain.surface.vertex(vertex).steps == 0;
+            });
+    }
+    EXPECT_LT(of_the_sea, 4000U);
+}
+
 TEST(ClusterGraph, TinyGrids) {
     for (const auto& [rows, columns] : {std::pair{2, 2}, {2, 4}, {4, 2}, {3, 3}, {9, 10}})
         expect_sound(ClusterTerrain(rough_field(47.0, 8.0, rows, columns)), false);
