@@ -215,8 +215,10 @@ struct RasterLists {
     uint large;  // triangles that many workgroups share
     uint tasks;  // squares of pixels of those
     uint task_groups[3];
+    uint boxes;  // triangles that some invocations of one workgroup share
+    uint box_groups[3];
 };
-ORO_CONST uint raster_lists_bytes = 64u;  // from one to the next
+ORO_CONST uint raster_lists_bytes = 80u;  // from one to the next
 // A triangle on the pixel grid, 1/256 px, with reversed depths; positive area.
 struct LargeTriangle {
     int ax, ay, bx, by, cx, cy;
@@ -231,6 +233,9 @@ ORO_CONST uint no_triangle = 0xffffffffu;  // a task whose triangle found no roo
 ORO_CONST uint large_square_px = 32u;
 ORO_CONST uint clips_max = 4194304u;
 ORO_CONST uint large_max = 262144u;
+ORO_CONST uint boxes_max = 262144u;  // in the same list, behind large_max
+ORO_CONST uint boxes_per_group = 4u;
+ORO_CONST uint clear_group_px = 1024u;  // pixels that a workgroup clears
 ORO_CONST uint tasks_max = 1048576u;
 
 #include "shaders/shared_style.h"
@@ -350,7 +355,7 @@ struct FrameConstants {
     uvec2 lists;       // RasterLists
     uvec2 meshlet_list;  // frame page * 256 + meshlet, edges << 28
     uvec2 clip_list;     // triangle ids
-    uvec2 large_list;    // LargeTriangle[large_max]
+    uvec2 large_list;    // LargeTriangle[large_max + boxes_max]
     uvec2 task_list;     // LargeTask[tasks_max]
     uvec2 air;           // vec3[air_entries]; 0 without air
     uvec2 casters;       // Casters; 0: no shadows

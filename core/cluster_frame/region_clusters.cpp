@@ -205,17 +205,33 @@ Result<std::uint32_t> RegionClusters::fill_with(std::span<const VertexTriangle> 
     return static_cast<std::uint32_t>(all.size() | vertices.size() << 8U) | level << 16U;
 }
 
-Result<RegionClusters::LoadedGroup> RegionClusters::load_group(std::uint32_t group) const {
-    LoadedGroup loaded{group, std::make_unique<GroupPart>(), {}};
+Result<RegionClusters::LoadedGroup> RegionClusters::load_group(std::uint32_t group,
+                                                               const SeenOfGroup* seen) const {
+    LoadedGroup loaded{group, std::make_unique<GroupPart>(), {}, {}};
     ORO_CHECK(read_(group, *loaded.part));
     std::vector<VertexTriangle> leaf;
-    const auto measure = [&](std::uint32_t cluster, const GroupPart* part) {
-        loaded.reaches.emplace_back(cluster, reach_of(triangles_of(cluster, part, leaf)));
+    const auto add = [&](std::uint32_t cluster, const GroupPart* part, bool with_block) -> Result<void> {
+        const std::span<const VertexTriangle> all = triangles_of(cluster, part, leaf);
+        loaded.reaches.emplace_back(cluster, reach_of(all));
+        if (!with_block || !seen->is_seen(loaded.reaches.back().second)) return {};
+        ORO_TRY(LoadedCluster one, loaded_cluster(cluster, all, seen->coding));
+        one.reach = loaded.reaches.back().second;
+        loaded.seen.push_back(std::move(one));
+        return {};
     };
     for (std::uint32_t i = 0; i < groups_[group].made; ++i)
-        measure(groups_[group].first_made + i, loaded.part.get());
+        ORO_CHECK(add(groups_[group].first_made + i, loaded.part.get(), seen != nullptr));
     for (const std::uint32_t member : loaded.part->members)
-        if (maker(member) == no_group) measure(member, nullptr);
+        if (maker(member) == no_group) ORO_CHECK(add(member, nullptr, seen != nullptr && seen->leaves));
+    return loaded;
+}
+
+// Without its reach.
+Result<RegionClusters::LoadedCluster> RegionClusters::loaded_cluster(std::uint32_t cluster,
+                                                                     std::span<const VertexTriangle> all,
+                                                                     const HeightQuantization& coding) const {
+    LoadedCluster loaded{cluster, 0, std::make_unique<gpu::ClusterBlock>(), {}};
+    ORO_TRY(loaded.counts, fill_with(all, level_of(cluster), coding, *loaded.block));
     return loaded;
 }
 
@@ -224,14 +240,13 @@ Result<RegionClusters::LoadedCluster> RegionClusters::load_cluster(std::uint32_t
     const GroupPart* const part = maker(cluster) == no_group ? nullptr : read_part(maker(cluster));
     std::vector<VertexTriangle> leaf;
     const std::span<const VertexTriangle> all = triangles_of(cluster, part, leaf);
-    LoadedCluster loaded{cluster, 0, std::make_unique<gpu::ClusterBlock>(), {}};
-    ORO_TRY(loaded.counts, fill_with(all, level_of(cluster), coding, *loaded.block));
+    ORO_TRY(LoadedCluster loaded, loaded_cluster(cluster, all, coding));
     loaded.reach = reach_of(all);
     return loaded;
 }
 
 // What is known stays where it is: threads may be reading it.
-void RegionClusters::keep(LoadedGroup group) {
+void RegionClusters::keep(LoadedGroup& group) {
     for (const auto& [cluster, reach] : group.reaches) keep(cluster, reach);
     if (!parts_[group.number]) parts_[group.number] = std::move(group.part);
 }

@@ -71,25 +71,34 @@ class RegionClusters {
     [[nodiscard]] const ClusterReach* known_reach(std::uint32_t cluster) const {
         return reaches_[cluster].get();
     }
-    // A group with the reach of what it made, and of leaves that it uses.
-    struct LoadedGroup {
-        std::uint32_t number{};
-        std::unique_ptr<GroupPart> part;
-        std::vector<std::pair<std::uint32_t, ClusterReach>> reaches;
-    };
     struct LoadedCluster {
         std::uint32_t number{};
         std::uint32_t counts{};  // DrawnCluster::counts
         std::unique_ptr<gpu::ClusterBlock> block;
         ClusterReach reach{};
     };
+    // A group with the reach of what it made, and of leaves that it uses.
+    struct LoadedGroup {
+        std::uint32_t number{};
+        std::unique_ptr<GroupPart> part;
+        std::vector<std::pair<std::uint32_t, ClusterReach>> reaches;
+        std::vector<LoadedCluster> seen;  // of these, as far as they were asked for
+    };
+    // Which clusters come with their group: those that can be seen of what it made, and of leaves that it
+    // uses.
+    struct SeenOfGroup {
+        std::function<bool(const ClusterReach& reach)> is_seen;
+        bool leaves{};
+        const HeightQuantization& coding;
+    };
     // Any number of threads may load, beside the one that uses the rest. A cluster's maker must have been
     // read (read_part) before a thread is told of it. Errors: damage.
-    [[nodiscard]] Result<LoadedGroup> load_group(std::uint32_t group) const;
+    [[nodiscard]] Result<LoadedGroup> load_group(std::uint32_t group,
+                                                 const SeenOfGroup* seen = nullptr) const;
     [[nodiscard]] Result<LoadedCluster> load_cluster(std::uint32_t cluster,
                                                      const HeightQuantization& coding) const;
-    // What a thread has loaded is known from now on.
-    void keep(LoadedGroup group);
+    // What a thread has loaded is known from now on. Takes the group's part.
+    void keep(LoadedGroup& group);
     void keep(std::uint32_t cluster, const ClusterReach& reach);
 
   private:
@@ -101,6 +110,9 @@ class RegionClusters {
     // The same of what was read. part: of its maker; null: it is a leaf.
     [[nodiscard]] std::span<const VertexTriangle> triangles_of(std::uint32_t cluster, const GroupPart* part,
                                                                std::vector<VertexTriangle>& leaf) const;
+    [[nodiscard]] Result<LoadedCluster> loaded_cluster(std::uint32_t cluster,
+                                                       std::span<const VertexTriangle> triangles,
+                                                       const HeightQuantization& coding) const;
     Result<std::uint32_t> fill_with(std::span<const VertexTriangle> triangles, std::uint32_t level,
                                     const HeightQuantization& coding, gpu::ClusterBlock& block) const;
     [[nodiscard]] ClusterReach reach_of(std::span<const VertexTriangle> triangles) const;

@@ -1,6 +1,7 @@
 #include "render/clusters/cluster_scene.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -12,8 +13,8 @@
 namespace oro {
 namespace {
 
-// Of groups and clusters between two frames: a few MB, which are sent in a millisecond.
-constexpr std::size_t most_on_the_way = 512;
+// Of groups and clusters between two frames: 2 MB of clusters at most, which are sent in a millisecond.
+constexpr std::size_t most_on_the_way = 1024;
 
 }  // namespace
 
@@ -62,7 +63,7 @@ Result<void> ClusterScene::add_to(FramePlan& plan, const Camera& camera, const T
     ORO_CHECK(store_.hold(choice.clusters, [&](std::uint32_t cluster, gpu::ClusterBlock& block) {
         return clusters_->fill(cluster, coding, block);
     }));
-    if (stream_) stream_->want({}, {});
+    if (stream_) stream_->want_nothing();
     view_.reset();
     plan.clusters.missing = plan.clusters.without_room = without_room;
     most_without_room_ = std::max(most_without_room_, without_room);
@@ -82,6 +83,7 @@ Result<void> ClusterScene::add_what_is_here(FramePlan& plan, const Camera& camer
     }));
     view_.emplace(camera, tile, tau_px, model, occluder, coding, level_);
     ORO_TRY(StreamedChoice choice, choose_here());
+    want(choice);
     ORO_CHECK(draw(choice.drawn, camera, plan));
     drawn_ = std::move(choice.drawn.clusters);
     plan.clusters.missing = choice.missing;
@@ -92,35 +94,50 @@ Result<void> ClusterScene::add_what_is_here(FramePlan& plan, const Camera& camer
     return {};
 }
 
-// Tells the background what is wanted, and the store what is to stay.
+// What is wanted and here is to stay.
 Result<StreamedChoice> ClusterScene::choose_here() {
     ORO_TRY(StreamedChoice choice,
             choose_clusters_here(*clusters_, *view_, store_.capacity() - clusters_->roots().size(),
                                  [&](std::uint32_t cluster) { return store_.is_here(cluster); }));
-    std::vector<std::uint32_t> to_come;
-    for (const std::uint32_t cluster : choice.clusters_wanted) {
-        if (store_.is_here(cluster))
-            store_.use(cluster);
-        else
-            to_come.push_back(cluster);
-    }
-    stream_->want(choice.groups_wanted, to_come);
+    for (const std::uint32_t cluster : choice.clusters_wanted)
+        if (store_.is_here(cluster)) store_.use(cluster);
     return choice;
+}
+
+void ClusterScene::want(const StreamedChoice& choice) {
+    std::vector<std::uint32_t> to_come;
+    std::ranges::copy_if(choice.clusters_wanted, std::back_inserter(to_come),
+                         [&](std::uint32_t cluster) { return !store_.is_here(cluster); });
+    stream_->want(*view_, choice.groups_wanted, to_come);
+}
+
+// A group's clusters come with it: which of them are wanted is known once it is.
+Result<void> ClusterScene::send(ClusterStream::Ready ready) {
+    for (RegionClusters::LoadedGroup& group : ready.groups) clusters_->keep(group);
+    for (const RegionClusters::LoadedCluster& cluster : ready.clusters)
+        clusters_->keep(cluster.number, cluster.reach);
+    store_.begin_frame();
+    ORO_TRY(const StreamedChoice choice, choose_here());
+    std::vector<std::uint32_t> wanted = choice.clusters_wanted;
+    std::ranges::sort(wanted);
+    std::vector<ClusterStore::Loaded> loaded;
+    const auto add = [&](const RegionClusters::LoadedCluster& cluster) {
+        if (std::ranges::binary_search(wanted, cluster.number))
+            loaded.push_back({cluster.number, cluster.counts, cluster.block.get()});
+    };
+    for (const RegionClusters::LoadedGroup& group : ready.groups) std::ranges::for_each(group.seen, add);
+    std::ranges::for_each(ready.clusters, add);
+    ORO_CHECK(store_.send(loaded));
+    return {};
 }
 
 Result<bool> ClusterScene::advance() {
     if (!view_) return false;
     ORO_TRY(ClusterStream::Ready ready, stream_->take());
     if (ready.groups.empty() && ready.clusters.empty()) return false;
-    for (RegionClusters::LoadedGroup& group : ready.groups) clusters_->keep(std::move(group));
-    std::vector<ClusterStore::Loaded> loaded;
-    for (const RegionClusters::LoadedCluster& cluster : ready.clusters) {
-        clusters_->keep(cluster.number, cluster.reach);
-        loaded.push_back({cluster.number, cluster.counts, cluster.block.get()});
-    }
-    ORO_CHECK(store_.send(loaded));
-    store_.begin_frame();
+    ORO_CHECK(send(std::move(ready)));
     ORO_TRY(const StreamedChoice choice, choose_here());
+    want(choice);
     return choice.drawn.clusters != drawn_ || (choice.missing == 0) != is_whole_ ||
            (choice.without_room == 0) != has_room_;
 }

@@ -50,6 +50,8 @@ class ClusterScene {
     ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store);
     Result<void> draw(const ClusterChoice& choice, const Camera& camera, FramePlan& plan);
     Result<StreamedChoice> choose_here();
+    void want(const StreamedChoice& choice);
+    Result<void> send(ClusterStream::Ready ready);
 
     std::unique_ptr<RegionClusters> clusters_;
     ClusterStore store_;

@@ -12,43 +12,46 @@ ClusterStream::ClusterStream(const RegionClusters& clusters, const HeightQuantiz
     : clusters_(clusters),
       coding_(coding),
       most_threads_(std::max(1, threads)),
-      capacity_(std::max<std::size_t>(1, capacity)) {}
+      capacity_(std::max<std::size_t>(1, capacity)),
+      begun_(clusters.groups().size(), false) {}
 
 ClusterStream::~ClusterStream() {
     for (std::jthread& thread : threads_) thread.request_stop();
     changed_.notify_all();
 }
 
-void ClusterStream::want(std::span<const std::uint32_t> groups, std::span<const std::uint32_t> clusters) {
+void ClusterStream::want(const ClusterView& view, std::span<const std::uint32_t> groups,
+                         std::span<const std::uint32_t> clusters) {
     if (!(groups.empty() && clusters.empty()) && most_threads_ > 0)
         start_threads(threads_, std::exchange(most_threads_, 0),
                       [this](const std::stop_token& stop) { work(stop); });
     const std::scoped_lock lock(mutex_);
-    std::set<Item> needed;
-    for (const std::uint32_t group : groups) needed.insert({true, group});
-    for (const std::uint32_t cluster : clusters) needed.insert({false, cluster});
-    // A group that is read stays of use.
-    std::erase_if(ready_.clusters, [&](const auto& loaded) {
-        return !needed.contains({false, loaded.number});
-    });
-    std::set<Item> here = under_way_;
-    for (const auto& loaded : ready_.groups) here.insert({true, loaded.number});
-    for (const auto& loaded : ready_.clusters) here.insert({false, loaded.number});
+    view_ = view;
+    std::set<std::uint32_t> here;
+    for (const Item& item : under_way_)
+        if (!item.is_group) here.insert(item.number);
+    for (const auto& loaded : ready_.clusters) here.insert(loaded.number);
     wanted_.clear();
-    const auto add = [&](const Item& item) {
-        if (!here.contains(item)) wanted_.push_back(item);
-    };
-    for (const std::uint32_t group : groups) add({true, group});
-    for (const std::uint32_t cluster : clusters) add({false, cluster});
+    for (const std::uint32_t group : groups)
+        if (!begun_[group]) wanted_.push_back({true, group});
+    for (const std::uint32_t cluster : clusters)
+        if (!here.contains(cluster)) wanted_.push_back({false, cluster});
     changed_.notify_all();
+}
+
+void ClusterStream::want_nothing() {
+    const std::scoped_lock lock(mutex_);
+    wanted_.clear();
+    view_.reset();
 }
 
 Result<ClusterStream::Ready> ClusterStream::take() {
     std::unique_lock lock(mutex_);
-    if (threads_.empty() && count_ready() == 0 && !wanted_.empty()) load_next(lock);
+    if (threads_.empty() && ready_count_ == 0 && !wanted_.empty()) load_next(lock);
     if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
     if (failed_) return *std::exchange(failed_, std::nullopt);
     Ready ready = std::exchange(ready_, {});
+    ready_count_ = 0;
     changed_.notify_all();
     return ready;
 }
@@ -56,9 +59,7 @@ Result<ClusterStream::Ready> ClusterStream::take() {
 void ClusterStream::work(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     for (;;) {
-        const auto can_begin = [&] {
-            return !wanted_.empty() && under_way_.size() + count_ready() < capacity_;
-        };
+        const auto can_begin = [&] { return !wanted_.empty() && ready_count_ < capacity_; };
         if (!changed_.wait(lock, stop, can_begin)) return;
         load_next(lock);
     }
@@ -67,27 +68,14 @@ void ClusterStream::work(const std::stop_token& stop) {
 void ClusterStream::load_next(std::unique_lock<std::mutex>& lock) {
     const Item item = wanted_.front();
     wanted_.pop_front();
-    const auto fail = [&](const Error& error) {
-        if (!failed_) failed_ = error;
-        wanted_.clear();
-    };
+    if (item.is_group && begun_[item.number]) return;  // two groups may lead to it
     try {
         under_way_.insert(item);
-        lock.unlock();
         if (item.is_group) {
-            Result<RegionClusters::LoadedGroup> loaded = clusters_.load_group(item.number);
-            lock.lock();
-            if (loaded.ok())
-                ready_.groups.push_back(std::move(loaded).value());
-            else
-                fail(loaded.error());
+            begun_[item.number] = true;
+            load_group(item.number, lock);
         } else {
-            Result<RegionClusters::LoadedCluster> loaded = clusters_.load_cluster(item.number, coding_);
-            lock.lock();
-            if (loaded.ok())
-                ready_.clusters.push_back(std::move(loaded).value());
-            else
-                fail(loaded.error());
+            load_cluster(item.number, lock);
         }
     } catch (...) {  // no memory: the caller's business, not this thread's
         if (!lock.owns_lock()) lock.lock();
@@ -96,6 +84,42 @@ void ClusterStream::load_next(std::unique_lock<std::mutex>& lock) {
     }
     under_way_.erase(item);
     changed_.notify_all();
+}
+
+void ClusterStream::load_group(std::uint32_t group, std::unique_lock<std::mutex>& lock) {
+    const ClusterView view = *view_;
+    lock.unlock();
+    const RegionClusters::SeenOfGroup seen{
+        [&](const ClusterReach& reach) { return view.look_at(reach).seen == ClusterView::Seen::yes; },
+        !view.stands(clusters_.groups()[group]), coding_};
+    Result<RegionClusters::LoadedGroup> loaded = clusters_.load_group(group, &seen);
+    lock.lock();
+    if (!loaded.ok()) return fail(loaded.error());
+    if (view_ && !view_->stands(clusters_.groups()[group])) want_below(*loaded);
+    ready_count_ += 1 + loaded->seen.size();
+    ready_.groups.push_back(std::move(loaded).value());
+}
+
+void ClusterStream::want_below(const RegionClusters::LoadedGroup& loaded) {
+    for (const std::uint32_t member : loaded.part->members) {
+        const std::uint32_t maker = clusters_.maker(member);
+        if (maker != no_group && !begun_[maker] && !view_->is_beyond_frustum(clusters_.groups()[maker]))
+            wanted_.push_back({true, maker});
+    }
+}
+
+void ClusterStream::load_cluster(std::uint32_t cluster, std::unique_lock<std::mutex>& lock) {
+    lock.unlock();
+    Result<RegionClusters::LoadedCluster> loaded = clusters_.load_cluster(cluster, coding_);
+    lock.lock();
+    if (!loaded.ok()) return fail(loaded.error());
+    ++ready_count_;
+    ready_.clusters.push_back(std::move(loaded).value());
+}
+
+void ClusterStream::fail(const Error& error) {
+    if (!failed_) failed_ = error;
+    wanted_.clear();
 }
 
 }  // namespace oro

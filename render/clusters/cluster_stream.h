@@ -14,14 +14,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/cluster_frame/cluster_view.h"
 #include "core/cluster_frame/region_clusters.h"
 
 namespace oro {
 
+// It goes on from group to group by itself, so a frame that takes long keeps it from nothing.
 class ClusterStream {
   public:
-    // `capacity`: groups and clusters that may be under way or ready at a time, at least 1; 2 KB a cluster,
-    // some 20 KB a group. `clusters` outlives the stream. Threads begin with what is wanted first. Where
+    // `capacity`: with so many groups and clusters ready no more are begun, at least 1; 2 KB a cluster, some
+    // 20 KB a group. `clusters` outlives the stream. Threads begin with what is wanted first. Where
     // fewer are to be had, or none, it does with those: without any, take() loads one thing a time.
     ClusterStream(const RegionClusters& clusters, const HeightQuantization& coding, int threads,
                   std::size_t capacity);
@@ -29,9 +31,12 @@ class ClusterStream {
     ClusterStream(const ClusterStream&) = delete;
     ClusterStream& operator=(const ClusterStream&) = delete;
 
-    // What is needed now, each most wanted first, groups before clusters; makers of clusters were read. What
-    // was wanted before and is not any more is dropped.
-    void want(std::span<const std::uint32_t> groups, std::span<const std::uint32_t> clusters);
+    // What an eye needs now, each most wanted first, groups before clusters; makers of clusters were read.
+    // What was wanted before and is not any more is dropped. With a group come its clusters that can be seen,
+    // and what made those that it uses, where it gives way.
+    void want(const ClusterView& view, std::span<const std::uint32_t> groups,
+              std::span<const std::uint32_t> clusters);
+    void want_nothing();
 
     struct Ready {
         std::vector<RegionClusters::LoadedGroup> groups;
@@ -50,17 +55,24 @@ class ClusterStream {
     void work(const std::stop_token& stop);
     // Loads what is most wanted; there is something. Lets go of the lock meanwhile.
     void load_next(std::unique_lock<std::mutex>& lock);
-    [[nodiscard]] std::size_t count_ready() const { return ready_.groups.size() + ready_.clusters.size(); }
+    void load_group(std::uint32_t group, std::unique_lock<std::mutex>& lock);
+    void load_cluster(std::uint32_t cluster, std::unique_lock<std::mutex>& lock);
+    void fail(const Error& error);
+    // Groups that made what a loaded one uses, of those that can be seen.
+    void want_below(const RegionClusters::LoadedGroup& loaded);
 
     const RegionClusters& clusters_;
     HeightQuantization coding_;
     int most_threads_;  // to be begun; 0: they are
     std::size_t capacity_;
+    std::optional<ClusterView> view_;
     std::mutex mutex_;
     std::condition_variable_any changed_;
     std::deque<Item> wanted_;
     std::set<Item> under_way_;
+    std::vector<bool> begun_;  // of each group: it was loaded, or is under way
     Ready ready_;
+    std::size_t ready_count_{};  // groups and clusters, those of groups, too
     std::optional<Error> failed_;
     std::exception_ptr thrown_;
     std::vector<std::jthread> threads_;  // last: they end before what they use

@@ -87,6 +87,7 @@ struct PipelinesKey {
     bool leave_out_small{};
     bool overdraw{};
     bool packed_heights{};
+    bool shares_triangles{};
     auto operator<=>(const PipelinesKey&) const = default;
 };
 

@@ -44,9 +44,13 @@ Result<void> number_pages(FramePlan& plan) {
 }
 
 PipelineWants wants_of(const FrameRendererOptions& options, bool packed_heights) {
-    return {options.record_positions,           options.keep_triangles,
-            options.show != gpu::show_colours,  options.leave_out_small && !options.record_positions,
-            options.show == gpu::show_overdraw, packed_heights};
+    return {options.record_positions,
+            options.keep_triangles,
+            options.show != gpu::show_colours,
+            options.leave_out_small && !options.record_positions,
+            options.show == gpu::show_overdraw,
+            options.shares_triangles,
+            packed_heights};
 }
 
 bool has_packed_heights(const FramePlan& plan) {
@@ -229,6 +233,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
     vkCmdResetQueryPool(commands, timestamps_.get(), 0, timestamp_count);
     record_upload(commands, 1 + plan.beside.size());
     stamp(0);
+    record_clear(commands, plan);
     for (std::size_t i = 0; i <= plan.beside.size(); ++i)
         record_choice(commands, grids_[i], i == 0 ? plan : plan.beside[i - 1]);
     stamp(1);

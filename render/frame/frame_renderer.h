@@ -44,6 +44,9 @@ struct FrameRendererOptions {
     OcclusionUse occlusion{OcclusionUse::if_it_pays};  // without record_positions
     // Mesh path: triangles that cover no pixel's centre are not drawn; the ids are the same.
     bool leave_out_small{false};
+    // Compute path: triangles are shared between invocations as on a GPU, also where a processor draws
+    // (tests); the ids are the same.
+    bool shares_triangles{false};
     bool nearest_pyramid{false};  // wrong occlusion, for the test that notices it
     RasterPath path{RasterPath::mesh};
 };
@@ -117,6 +120,7 @@ class FrameRenderer {
                                                   std::size_t count);
     void record(VkCommandBuffer commands, const FramePlan& plan);
     void record_upload(VkCommandBuffer commands, std::size_t grids) const;
+    void record_clear(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_choice(VkCommandBuffer commands, const GridFrame& grid, const FramePlan& plan) const;
     void record_rounds(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_round(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;

@@ -13,6 +13,16 @@ void FrameRenderer::push(VkCommandBuffer commands, const gpu::FrameRound& round)
                        &round);
 }
 
+// Of the compute path: its own buffer, while levels are chosen.
+void FrameRenderer::record_clear(VkCommandBuffer commands, const FramePlan& plan) const {
+    if (!compute_) return;
+    grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+    gpu::FrameRound round{};
+    round.lists = compute_->lists();
+    push(commands, round);
+    compute_->record_clear(commands, *pipelines_, plan);
+}
+
 // Levels: which nodes of which pages, for whichever way of drawing follows.
 void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& grid,
                                   const FramePlan& plan) const {
@@ -144,7 +154,6 @@ void FrameRenderer::record_round(VkCommandBuffer commands, const FramePlan& plan
 
 void FrameRenderer::record_rounds(VkCommandBuffer commands, const FramePlan& plan) const {
     const std::size_t count = occlusion_->rounds().size();
-    if (compute_) compute_->record_clear(commands, plan);
     for (std::size_t number = 0; number < count; ++number) {
         if (number > 0) record_pyramid(commands, plan);
         record_round(commands, plan, number);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/raster/raster_pipelines.h"
 #include "shaders/shared.h"
 #include "spirv/accept_comp.h"
 #include "spirv/cluster_clip_comp.h"
@@ -18,9 +19,6 @@
 #include "spirv/live_pages_comp.h"
 #include "spirv/pyramid_comp.h"
 #include "spirv/pyramid_images_comp.h"
-#include "spirv/raster_clip_comp.h"
-#include "spirv/raster_comp.h"
-#include "spirv/raster_large_comp.h"
 #include "spirv/show_comp.h"
 #include "spirv/terrain_count_frag.h"
 #include "spirv/terrain_frag.h"
@@ -299,33 +297,12 @@ Result<void> create_choice(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
-Result<void> create_compute_path(const Gpu& gpu, bool overdraw, Pipelines& pipelines) {
-    // Measured: a software driver takes a third less time where no triangle of up to 64 x 64 pixels is handed
-    // on.
-    struct {
-        std::int32_t alone_max_px;
-        VkBool32 counts_overdraw;
-    } const values{gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU ? 4096 : 64,
-                   overdraw ? VK_TRUE : VK_FALSE};
-    const std::array entries{VkSpecializationMapEntry{1, 0, sizeof(std::int32_t)},
-                             VkSpecializationMapEntry{3, sizeof(std::int32_t), sizeof(VkBool32)}};
-    const VkSpecializationInfo constants{2, entries.data(), sizeof(values), &values};
-    ORO_TRY(pipelines.raster,
-            create_compute_pipeline(gpu, pipelines, raster_comp_spirv, "raster", &constants));
-    const VkSpecializationInfo counts{1, &entries[1], sizeof(values), &values};
-    ORO_TRY(pipelines.raster_clip,
-            create_compute_pipeline(gpu, pipelines, raster_clip_comp_spirv, "raster clip", &counts));
-    ORO_TRY(pipelines.raster_large,
-            create_compute_pipeline(gpu, pipelines, raster_large_comp_spirv, "raster large", &counts));
-    return {};
-}
-
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants) {
     Pipelines pipelines;
     pipelines.packed_heights = wants.packed_heights;
     ORO_CHECK(create_layouts(gpu, path, pipelines));
     ORO_CHECK(path == RasterPath::mesh ? create_mesh_path(gpu, wants, pipelines)
-                                       : create_compute_path(gpu, wants.overdraw, pipelines));
+                                       : add_raster_pipelines(gpu, wants, pipelines));
     ORO_CHECK(create_choice(gpu, pipelines));
     ORO_CHECK(create_rounds(gpu, path, pipelines));
     return pipelines;
@@ -379,8 +356,9 @@ Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& p
 Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath path,
                                                     const PipelineWants& wants) {
     const bool small = wants.leave_out_small && path == RasterPath::mesh;
-    std::shared_ptr<Pipelines>& kept =
-        gpu.kept_pipelines({path, wants.record_positions, small, wants.overdraw, wants.packed_heights});
+    const bool shares = wants.shares_triangles && path == RasterPath::compute;
+    std::shared_ptr<Pipelines>& kept = gpu.kept_pipelines(
+        {path, wants.record_positions, small, wants.overdraw, wants.packed_heights, shares});
     if (!kept) {
         ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants));
         kept = std::make_shared<Pipelines>(std::move(pipelines));

@@ -49,9 +49,10 @@ struct Pipelines {
     OwnedPipeline terrain;              // mesh path: task, mesh, fragment
     OwnedPipeline terrain_ties;         // ... and what is as near as what is there, with lower ids
     std::uint32_t meshlets_per_task{1};
-    std::uint32_t meshlets_per_group{1};              // of a mesh workgroup
-    OwnedPipeline raster, raster_clip, raster_large;  // compute path, in this order
-    std::map<ShadingKind, OwnedPipeline> shades;      // compute, 8 x 8; see shading_for
+    std::uint32_t meshlets_per_group{1};  // of a mesh workgroup
+    // Compute path, in this order.
+    OwnedPipeline raster_clear, raster, raster_clip, raster_boxes, raster_large;
+    std::map<ShadingKind, OwnedPipeline> shades;  // compute, 8 x 8; see shading_for
     std::array<OwnedPipeline, 4> edges;  // without and with air, then both of clusters, 8 x 8; see edges_for
     std::array<OwnedPipeline, 2> drape_wants;  // what tiles of images are wanted (then of clusters), 8 x 8
     std::array<OwnedPipeline, 6> air;          // its tables, in this order, 64 entries a workgroup
@@ -73,7 +74,9 @@ struct PipelineWants {
     bool show{false};              // `show` is there
     bool leave_out_small{false};   // mesh path: triangles that cover no pixel's centre are not drawn
     bool overdraw{false};          // triangles are counted into FrameConstants.overdraw
-    bool packed_heights{false};    // pages may have packed heights: their code would cost others registers
+    // Compute path: invocations share triangles as on a GPU, also where a processor draws (tests only).
+    bool shares_triangles{false};
+    bool packed_heights{false};  // pages may have packed heights: their code would cost others registers
 };
 
 // Made once and kept until the device ends, with all that has been added since: drivers take longer to make

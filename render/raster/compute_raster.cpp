@@ -22,8 +22,8 @@ Result<ComputeRaster> ComputeRaster::create(const Gpu& gpu, VkExtent2D extent) {
     ComputeRaster raster(gpu);
     ORO_TRY(raster.clips_, create_buffer(gpu, gpu::clips_max * sizeof(std::uint32_t), listed,
                                          MemoryKind::device, "clip list"));
-    ORO_TRY(raster.large_, create_buffer(gpu, gpu::large_max * sizeof(gpu::LargeTriangle), listed,
-                                         MemoryKind::device, "large triangles"));
+    ORO_TRY(raster.large_, create_buffer(gpu, (gpu::large_max + gpu::boxes_max) * sizeof(gpu::LargeTriangle),
+                                         listed, MemoryKind::device, "large triangles"));
     ORO_TRY(raster.tasks_, create_buffer(gpu, gpu::tasks_max * sizeof(gpu::LargeTask), listed,
                                          MemoryKind::device, "large tasks"));
     ORO_CHECK(raster.resize(extent));
@@ -63,29 +63,23 @@ void ComputeRaster::address(gpu::FrameConstants& constants) const {
     constants.task_list = address_words(tasks_.address);
 }
 
-void ComputeRaster::record_clear(VkCommandBuffer commands, const FramePlan& plan) const {
-    const VkDeviceSize used = VkDeviceSize{8} * plan.constants.width_px * plan.constants.height_px;
-    vkCmdFillBuffer(commands, visibility_.handle.get(), 0, used, 0);
-    // One group along y and z even where there are none along x: an indirect dispatch of nothing.
-    gpu::RasterLists empty{};
-    empty.meshlet_groups[1] = empty.meshlet_groups[2] = 1;
-    empty.clip_groups[1] = empty.clip_groups[2] = 1;
-    empty.task_groups[1] = empty.task_groups[2] = 1;
-    for (VkDeviceSize at = 0; at < lists_.size; at += gpu::raster_lists_bytes)
-        vkCmdUpdateBuffer(commands, lists_.handle.get(), at, sizeof(empty), &empty);
-    memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
-                   VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+void ComputeRaster::record_clear(VkCommandBuffer commands, const Pipelines& pipelines,
+                                 const FramePlan& plan) const {
+    const gpu::uint pixels = plan.constants.width_px * plan.constants.height_px;
+    const gpu::uint groups = (pixels + gpu::clear_group_px - 1) / gpu::clear_group_px;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.raster_clear.get());
+    vkCmdDispatch(commands, std::min(groups, gpu::groups_per_row),
+                  (groups + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
 }
 
 void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines, const ClusterPlan& clusters,
                            gpu::uint lists) const {
     const VkDeviceSize at = VkDeviceSize{lists} * gpu::raster_lists_bytes;
     const auto step = [&](const OwnedPipeline& pipeline, VkDeviceSize groups) {
-        wait_for_lists(commands);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
         vkCmdDispatchIndirect(commands, lists_.handle.get(), at + groups);
     };
+    wait_for_lists(commands);
     if (clusters.on) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.cluster_raster.get());
         const auto count = static_cast<std::uint32_t>(clusters.drawn.size());
@@ -95,8 +89,12 @@ void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines,
     } else {
         step(pipelines.raster, offsetof(gpu::RasterLists, meshlet_groups));
     }
+    wait_for_lists(commands);
+    // At the same time: few triangles are cut, and that takes long.
     step(clusters.on ? pipelines.cluster_clip : pipelines.raster_clip,
          offsetof(gpu::RasterLists, clip_groups));
+    step(pipelines.raster_boxes, offsetof(gpu::RasterLists, box_groups));
+    wait_for_lists(commands);
     step(pipelines.raster_large, offsetof(gpu::RasterLists, task_groups));
     wait_for_lists(commands);
 }

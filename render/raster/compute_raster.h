@@ -8,8 +8,8 @@
 namespace oro {
 
 // The buffers of the compute path. Its steps: cull, and in later rounds uncover, lists meshlets, raster draws
-// them (one workgroup each) and hands on what is large or must be clipped, raster_clip cuts the latter,
-// raster_large draws squares of the former.
+// them (one workgroup each) and hands on what is large or must be clipped, raster_clip cuts the latter while
+// raster_boxes draws what is of middling size, raster_large draws squares of the rest.
 class ComputeRaster {
   public:
     static Result<ComputeRaster> create(const Gpu& gpu, VkExtent2D extent);
@@ -19,8 +19,13 @@ class ComputeRaster {
 
     // Puts its addresses into the frame's constants.
     void address(gpu::FrameConstants& constants) const;
-    // Clears the visibility buffer, and empties the lists of all grids and rounds.
-    void record_clear(VkCommandBuffer commands, const FramePlan& plan) const;
+    // How many lists there is room for.
+    [[nodiscard]] gpu::uint lists() const {
+        return static_cast<gpu::uint>(lists_.size / gpu::raster_lists_bytes);
+    }
+    // Clears the visibility buffer, and empties all lists. The frame's first set is bound, and lists() pushed
+    // as FrameRound::lists. What touches none of both may run beside it.
+    void record_clear(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan) const;
     // Draws what was listed in one of them, or the clusters of a plan that has some; FrameRound::lists is its
     // number, and pushed. Leaves the buffer ready for compute reads.
     void record(VkCommandBuffer commands, const Pipelines& pipelines, const ClusterPlan& clusters,

@@ -7,8 +7,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer LargeTasks 
 
 layout(push_constant, scalar) uniform Round { FrameRound round; };
 
-// Those of this grid and round.
-Lists lists() {
-    uint carry, low = uaddCarry(FRAME.lists.x, round.lists * raster_lists_bytes, carry);
+Lists lists_at(uint number) {
+    uint carry, low = uaddCarry(FRAME.lists.x, number * raster_lists_bytes, carry);
     return Lists(uvec2(low, FRAME.lists.y + carry));
 }
+// Those of this grid and round.
+Lists lists() { return lists_at(round.lists); }

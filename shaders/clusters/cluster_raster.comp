@@ -11,9 +11,8 @@
 #include "shaders/clusters/cluster.glsl"
 
 layout(local_size_x = 128) in;  // cluster_triangles, cluster_vertices
+#include "shaders/raster/list_large.glsl"
 
-// Pixels of the largest box that a team draws.
-const int team_max_px = 1024;
 const uint team_size = 32u, teams = 4u;
 const uint waiting_max = 48u;  // triangles for teams: with more, the cluster's workgroup would keep all others waiting
 
@@ -25,30 +24,21 @@ shared ivec2 waiting_c[waiting_max];
 shared vec3 waiting_depth[waiting_max];
 shared uint waiting_id[waiting_max];
 
-void draw_triangle(vec4 a, vec4 b, vec4 c, uint id) {
-    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
+// What becomes of an invocation's triangle. One of middling size goes to this workgroup's teams, while they have room.
+uint kind_of_triangle(vec4 a, vec4 b, vec4 c, uint id, out ScreenTriangle t) {
+    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return shows_nowhere;
     if (!fits_grid(a, b, c)) {
         list_clip(id);
-        return;
+        return shows_nowhere;
     }
-    ScreenTriangle t;
-    if (!screen_triangle(a, b, c, id, t)) return;
-    ivec4 box = pixel_box(t);
-    ivec2 size = box.zw - box.xy + 1;
-    if (min(size.x, size.y) <= 0) return;
-    if (fits_near(t) && size.x * size.y <= alone_max_px) {
-        draw_near(t, box, 0u, 1u);
-        return;
-    }
-    uint at = fits_near(t) && size.x * size.y <= team_max_px ? atomicAdd(waiting, 1u) : waiting_max;
-    if (at >= waiting_max) {
-        if (!list_large(t, box)) list_clip(id);
-    } else {
-        waiting_ab[at] = ivec4(t.a, t.b);
-        waiting_c[at] = t.c;
-        waiting_depth[at] = t.depth;
-        waiting_id[at] = t.id;
-    }
+    uint kind = screen_triangle(a, b, c, id, t) ? kind_of(t) : shows_nowhere;
+    uint at = kind == is_box ? atomicAdd(waiting, 1u) : waiting_max;
+    if (at >= waiting_max) return kind;
+    waiting_ab[at] = ivec4(t.a, t.b);
+    waiting_c[at] = t.c;
+    waiting_depth[at] = t.depth;
+    waiting_id[at] = t.id;
+    return shows_nowhere;
 }
 
 // Each team takes every fourth of them.
@@ -71,17 +61,22 @@ void main() {
     ClusterBlocks block = ClusterBlocks(drawn.block);
     uint lane = gl_LocalInvocationIndex, triangles = triangles_of_cluster(drawn);
     if (lane == 0u) waiting = 0u;
+    begin_listing();
     if (lane < vertices_of_cluster(drawn)) {
         vertices[lane] = project(vertex_in_view(block.at.vertices[lane]));
         // A post exactly beside the eye has w = 0: moved by less than any float at its distance shows.
         if (vertices[lane].w == 0.0) vertices[lane].w = -1.0e-30;
     }
     barrier();
+    ScreenTriangle t;
+    uint kind = shows_nowhere;
     if (lane < triangles) {
         uvec3 at = corners_in_cluster(block, lane);
-        draw_triangle(vertices[at.x], vertices[at.y], vertices[at.z], number * cluster_triangles + lane + 1u);
+        kind = kind_of_triangle(vertices[at.x], vertices[at.y], vertices[at.z], number * cluster_triangles + lane + 1u, t);
     }
+    ToList noted = note_triangle(kind, t);
     barrier();
+    draw_rest(noted, list_noted(noted, t), t);
     draw_waiting(lane);
     if (lane != 0u) return;
     atomicAdd(Counts(FRAME.counts).at.triangles_drawn, triangles);

@@ -10,6 +10,7 @@
 #include "shaders/raster/draw_alone.glsl"
 
 layout(local_size_x = 128) in;  // a triangle an invocation
+#include "shaders/raster/list_large.glsl"
 
 shared vec4 posts[meshlet_vertices];  // clip coordinates; w = 0 where void
 shared uint places[meshlet_vertices];  // row << 8 | column in the page, after stitching
@@ -28,25 +29,18 @@ bool corners(uint frame_page, uint meshlet, uint triangle, uint edges, out vec4 
     return a.w != 0.0 && b.w != 0.0 && c.w != 0.0 && has_area(at_a, at_b, at_c) && !is_cut(frame_page, at_a, at_b, at_c);
 }
 
-// What one invocation does with its triangle.
-void draw_triangle(uint frame_page, uint meshlet, uint triangle, uint edges) {
+// What becomes of an invocation's triangle.
+uint kind_of_triangle(uint frame_page, uint meshlet, uint triangle, uint edges, out ScreenTriangle t) {
     vec4 a, b, c;
-    if (!corners(frame_page, meshlet, triangle, edges, a, b, c)) return;
+    if (!corners(frame_page, meshlet, triangle, edges, a, b, c)) return shows_nowhere;
     atomicAdd(drawn_count, 1u);
-    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return;
+    if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return shows_nowhere;
     uint id = triangle_id(frame_page, meshlet, triangle);
     if (!fits_grid(a, b, c)) {
         list_clip(id);
-        return;
+        return shows_nowhere;
     }
-    ScreenTriangle t;
-    if (!screen_triangle(a, b, c, id, t)) return;
-    ivec4 box = pixel_box(t);
-    ivec2 size = box.zw - box.xy + 1;
-    if (min(size.x, size.y) <= 0) return;
-    // Where the lists are full raster_clip draws it alone: that code would take registers from all others here.
-    if (fits_near(t) && size.x * size.y <= alone_max_px) draw_near(t, box, 0u, 1u);
-    else if (!list_large(t, box)) list_clip(id);
+    return screen_triangle(a, b, c, id, t) ? kind_of(t) : shows_nowhere;
 }
 
 void main() {
@@ -56,6 +50,7 @@ void main() {
     uint frame_page = (listed & 0xfffffffu) / meshlets_per_page, meshlet = listed % meshlets_per_page;
     uint lane = gl_LocalInvocationIndex;
     if (lane == 0u) drawn_count = 0u;
+    begin_listing();
     if (lane < meshlet_vertices) {
         FramePage page = frame_pages().at[frame_page];
         PageBlocks block = PageBlocks(page.block);
@@ -68,7 +63,9 @@ void main() {
         if (there && posts[lane].w == 0.0) posts[lane].w = -1.0e-30;
     }
     barrier();
-    draw_triangle(frame_page, meshlet, lane, listed >> 28);
+    ScreenTriangle t;
+    ToList noted = note_triangle(kind_of_triangle(frame_page, meshlet, lane, listed >> 28, t), t);
     barrier();
     if (lane == 0u) atomicAdd(Counts(FRAME.counts).at.triangles_drawn, drawn_count);
+    draw_rest(noted, list_noted(noted, t), t);
 }

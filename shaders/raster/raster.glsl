@@ -98,63 +98,93 @@ float depth_at(ScreenTriangle t, float share_b, float share_c) {
     return depth;
 }
 
-// At most near_px wide and high: then 32 bits hold every product of draw_near.
+// At most near_px wide and high: then 32 bits hold every product of draw_near, and its depths do not depend on where a box begins.
 const int near_px = 64;
 bool fits_near(ScreenTriangle t) {
     ivec2 size = max(t.a, max(t.b, t.c)) - min(t.a, min(t.b, t.c));
     return max(size.x, size.y) <= near_px * subpixels;
 }
 
-// The pixels of `box` that are inside, every `stride`-th from `start` on. The triangle fits_near.
-void draw_near(ScreenTriangle t, ivec4 box, uint start, uint stride) {
+// Edge functions of a triangle that fits_near at a box's first pixel, and their steps from pixel to pixel.
+struct NearEdges {
+    ivec3 first, by_x, by_y;  // a to b, b to c, c to a
+    ivec3 bias;
+    float area;
+};
+NearEdges near_edges(ScreenTriangle t, ivec4 box) {
     ivec2 origin = box.xy * subpixels + ivec2(subpixels / 2);
     ivec2 a = t.a - origin, b = t.b - origin, c = t.c - origin;
-    // Edge functions at the first pixel's centre, and their steps from pixel to pixel.
-    int ab = (b.x - a.x) * (0 - a.y) - (b.y - a.y) * (0 - a.x);
-    int bc = (c.x - b.x) * (0 - b.y) - (c.y - b.y) * (0 - b.x);
-    int ca = (a.x - c.x) * (0 - c.y) - (a.y - c.y) * (0 - c.x);
-    float area = float(ab + bc + ca);
-    ivec3 by_x = -subpixels * ivec3(b.y - a.y, c.y - b.y, a.y - c.y);
-    ivec3 by_y = subpixels * ivec3(b.x - a.x, c.x - b.x, a.x - c.x);
-    ivec3 bias = ivec3(edge_bias(t.a, t.b), edge_bias(t.b, t.c), edge_bias(t.c, t.a));
+    NearEdges e;
+    e.first.x = (b.x - a.x) * (0 - a.y) - (b.y - a.y) * (0 - a.x);
+    e.first.y = (c.x - b.x) * (0 - b.y) - (c.y - b.y) * (0 - b.x);
+    e.first.z = (a.x - c.x) * (0 - c.y) - (a.y - c.y) * (0 - c.x);
+    e.by_x = -subpixels * ivec3(b.y - a.y, c.y - b.y, a.y - c.y);
+    e.by_y = subpixels * ivec3(b.x - a.x, c.x - b.x, a.x - c.x);
+    e.bias = ivec3(edge_bias(t.a, t.b), edge_bias(t.b, t.c), edge_bias(t.c, t.a));
+    e.area = float(e.first.x + e.first.y + e.first.z);
+    return e;
+}
+
+void draw_near_pixel(ScreenTriangle t, NearEdges e, ivec2 pixel, ivec3 edges) {
+    ivec3 biased = edges + e.bias;
+    if ((biased.x | biased.y | biased.z) < 0) return;
+    keep_nearest(pixel, depth_at(t, float(edges.z) / e.area, float(edges.x) / e.area), t.id);
+}
+
+// The pixels of `box` that are inside, every `stride`-th from `start` on. The triangle fits_near.
+void draw_near(ScreenTriangle t, ivec4 box, uint start, uint stride) {
+    NearEdges e = near_edges(t, box);
     int width = box.z - box.x + 1;
     uint count = uint(width * (box.w - box.y + 1));
     for (uint i = start; i < count; i += stride) {
         ivec2 step = ivec2(int(i) % width, int(i) / width);
-        ivec3 edges = ivec3(ab, bc, ca) + by_x * step.x + by_y * step.y;
-        ivec3 biased = edges + bias;
-        if ((biased.x | biased.y | biased.z) < 0) continue;
-        keep_nearest(box.xy + step, depth_at(t, float(edges.z) / area, float(edges.x) / area), t.id);
+        draw_near_pixel(t, e, box.xy + step, e.first + e.by_x * step.x + e.by_y * step.y);
     }
 }
 
-// The same in 64 bits, for any triangle on the grid. `box` is a square of large_square_px at most, all of it or what of it is in the
-// triangle's own box: most of them lie wholly within a triangle, or beside it.
+// All of them, by one invocation: row by row, without a division.
+void draw_near_alone(ScreenTriangle t, ivec4 box) {
+    NearEdges e = near_edges(t, box);
+    ivec3 row = e.first, edges = row;
+    ivec2 pixel = box.xy;
+    while (pixel.y <= box.w) {
+        draw_near_pixel(t, e, pixel, edges);
+        ++pixel.x;
+        edges += e.by_x;
+        if (pixel.x <= box.z) continue;
+        pixel = ivec2(box.x, pixel.y + 1);
+        row += e.by_y;
+        edges = row;
+    }
+}
+
+// How many steps of `subpixels` a value of an edge function is from being negative. What is beyond all steps within a square is cut off.
+int steps_inside(int64_t edge) {
+    const int64_t most = int64_t(1 << 30);
+    return int(clamp(edge >> 8, -most, most));
+}
+
+// The same for any triangle on the grid. `box` is a square of large_square_px at most, all of it or what of it is in the triangle's own
+// box: most of them lie wholly within a triangle, or beside it. From pixel to pixel edge functions grow by multiples of `subpixels`: in
+// these, rounded down, 32 bits tell what is inside.
 void draw_far_square(ScreenTriangle t, ivec4 box, uint start, uint stride) {
     ivec2 origin = box.xy * subpixels + ivec2(subpixels / 2), more = box.zw - box.xy;
-    // At the first pixel's centre, and from pixel to pixel.
     int64_t ab = doubled_area(t.a, t.b, origin), bc = doubled_area(t.b, t.c, origin), ca = doubled_area(t.c, t.a, origin);
-    int64_t ab_x = -int64_t(t.b.y - t.a.y) * subpixels, ab_y = int64_t(t.b.x - t.a.x) * subpixels;
-    int64_t bc_x = -int64_t(t.c.y - t.b.y) * subpixels, bc_y = int64_t(t.c.x - t.b.x) * subpixels;
-    int64_t ca_x = -int64_t(t.a.y - t.c.y) * subpixels, ca_y = int64_t(t.a.x - t.c.x) * subpixels;
-    int64_t ab_in = ab + edge_bias(t.a, t.b), bc_in = bc + edge_bias(t.b, t.c), ca_in = ca + edge_bias(t.c, t.a);
-    const int64_t none = int64_t(0);
-    int64_t across = int64_t(more.x), down = int64_t(more.y);
-    int64_t most = min(ab_in + max(ab_x * across, none) + max(ab_y * down, none),
-                       min(bc_in + max(bc_x * across, none) + max(bc_y * down, none), ca_in + max(ca_x * across, none) + max(ca_y * down, none)));
-    if (most < 0) return;
-    int64_t least = min(ab_in + min(ab_x * across, none) + min(ab_y * down, none),
-                        min(bc_in + min(bc_x * across, none) + min(bc_y * down, none), ca_in + min(ca_x * across, none) + min(ca_y * down, none)));
-    bool within = least >= 0;
+    ivec3 by_x = -ivec3(t.b.y - t.a.y, t.c.y - t.b.y, t.a.y - t.c.y), by_y = ivec3(t.b.x - t.a.x, t.c.x - t.b.x, t.a.x - t.c.x);
+    ivec3 first = ivec3(steps_inside(ab + edge_bias(t.a, t.b)), steps_inside(bc + edge_bias(t.b, t.c)), steps_inside(ca + edge_bias(t.c, t.a)));
+    ivec3 across = by_x * more.x, down = by_y * more.y;
+    ivec3 most = first + max(across, ivec3(0)) + max(down, ivec3(0));
+    if (min(most.x, min(most.y, most.z)) < 0) return;
+    ivec3 least = first + min(across, ivec3(0)) + min(down, ivec3(0));
+    bool within = min(least.x, min(least.y, least.z)) >= 0;
     float area = float(doubled_area(t.a, t.b, t.c));
-    vec3 share_b = vec3(float(ca), float(ca_x), float(ca_y)) / area, share_c = vec3(float(ab), float(ab_x), float(ab_y)) / area;
+    vec3 share_b = vec3(float(ca), float(by_x.z) * float(subpixels), float(by_y.z) * float(subpixels)) / area;
+    vec3 share_c = vec3(float(ab), float(by_x.x) * float(subpixels), float(by_y.x) * float(subpixels)) / area;
     for (uint i = start; i < uint(more.y + 1) * large_square_px; i += stride) {
         ivec2 step = ivec2(i % large_square_px, i / large_square_px);
         if (step.x > more.x) continue;
-        if (!within) {
-            int64_t x = int64_t(step.x), y = int64_t(step.y);
-            if (((ab_in + ab_x * x + ab_y * y) | (bc_in + bc_x * x + bc_y * y) | (ca_in + ca_x * x + ca_y * y)) < 0) continue;
-        }
+        ivec3 edges = first + by_x * step.x + by_y * step.y;
+        if (!within && (edges.x | edges.y | edges.z) < 0) continue;
         precise float b = share_b.x + share_b.y * float(step.x) + share_b.z * float(step.y);
         precise float c = share_c.x + share_c.y * float(step.x) + share_c.z * float(step.y);
         keep_nearest(box.xy + step, depth_at(t, b, c), t.id);
@@ -167,45 +197,26 @@ ivec4 in_square(ivec4 box, ivec2 square) {
     return ivec4(max(box.xy, first), min(box.zw, first + int(large_square_px) - 1));
 }
 
-// All squares of a triangle, by one invocation.
-void draw_far(ScreenTriangle t, ivec4 box) {
+// All of a triangle, by one invocation, as those to which it is handed on would draw it.
+void draw_all(ScreenTriangle t, ivec4 box) {
+    if (fits_near(t)) {
+        draw_near_alone(t, box);
+        return;
+    }
     ivec4 squares = box / int(large_square_px);
     for (int y = squares.y; y <= squares.w; ++y) {
         for (int x = squares.x; x <= squares.z; ++x) draw_far_square(t, in_square(box, ivec2(x, y)), 0u, 1u);
     }
 }
 
-// Hands a triangle on to as many workgroups as it has squares. False when the lists are full.
-bool list_large(ScreenTriangle t, ivec4 box) {
-    ivec4 squares = box / int(large_square_px);
-    uvec2 counts = uvec2(squares.zw - squares.xy + 1);
-    uint count = counts.x * counts.y;
-    uint triangle = atomicAdd(lists().at.large, 1u);
-    uint first = atomicAdd(lists().at.tasks, count);
-    bool fits = triangle < large_max && first + count <= tasks_max;
-    if (fits) {
-        // Member by member: glslang 12.0 crashes on storing a whole struct that holds `precise` values.
-        LargeTriangles triangles = LargeTriangles(FRAME.large_list);
-        triangles.at[triangle].ax = t.a.x;
-        triangles.at[triangle].ay = t.a.y;
-        triangles.at[triangle].bx = t.b.x;
-        triangles.at[triangle].by = t.b.y;
-        triangles.at[triangle].cx = t.c.x;
-        triangles.at[triangle].cy = t.c.y;
-        triangles.at[triangle].az = t.depth.x;
-        triangles.at[triangle].bz = t.depth.y;
-        triangles.at[triangle].cz = t.depth.z;
-        triangles.at[triangle].id = t.id;
-    }
-    LargeTasks list = LargeTasks(FRAME.task_list);
-    for (uint i = 0u; i < count && first + i < tasks_max; ++i) {
-        uvec2 square = uvec2(squares.xy) + uvec2(i % counts.x, i / counts.x);
-        list.at[first + i].triangle = fits ? triangle : no_triangle;
-        list.at[first + i].square = square.x | (square.y << 16);
-    }
-    if (!fits) return false;
-    uint last = first + count;
-    atomicMax(lists().at.task_groups[0], min(last, groups_per_row));
-    atomicMax(lists().at.task_groups[1], (last + groups_per_row - 1u) / groups_per_row);
-    return true;
+// One of those that were handed on (list_large.glsl).
+ScreenTriangle large_triangle(uint at) {
+    LargeTriangle large = LargeTriangles(FRAME.large_list).at[at];
+    ScreenTriangle t;
+    t.a = ivec2(large.ax, large.ay);
+    t.b = ivec2(large.bx, large.by);
+    t.c = ivec2(large.cx, large.cy);
+    t.depth = vec3(large.az, large.bz, large.cz);
+    t.id = large.id;
+    return t;
 }

@@ -7,11 +7,13 @@
 #include "shaders/place/place.glsl"
 #include "shaders/choose/lists.glsl"
 #include "shaders/raster/raster.glsl"
+#include "shaders/raster/draw_alone.glsl"
 #ifdef CLUSTERS
 #include "shaders/clusters/cluster.glsl"
 #endif
 
 layout(local_size_x = 64) in;
+#include "shaders/raster/list_large.glsl"
 
 // Few triangles come here, and a driver takes twice as long to compile the copies of a loop as the loop: none is unrolled.
 const int corners_max = 9;  // three, and one more for each of five planes, and one to spare
@@ -37,10 +39,22 @@ int clipped(inout vec4 corners[corners_max], int count, int plane) {
     return kept_count;
 }
 
+bool is_cut_by(int plane, vec4 corners[corners_max], int count) {
+    bool inside = true;
+    for (int i = 0; i < count; ++i) inside = inside && side_of(plane, corners[i]) >= 0.0;
+    return !inside;
+}
+
+shared int most_corners;  // of the workgroup's triangles, cut
+
 void main() {
+    if (gl_LocalInvocationIndex == 0u) most_corners = 0;
+    barrier();
     uint number = folded(gl_WorkGroupID) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-    if (number >= min(lists().at.clips, clips_max)) return;
-    uint id = Words(FRAME.clip_list).at[number], own = triangle_of_id(id);
+    // All of a workgroup go on to the end, where they list together what is large. Those beyond the last triangle go with the first, for
+    // nothing.
+    bool there = number < min(lists().at.clips, clips_max);
+    uint id = Words(FRAME.clip_list).at[there ? number : 0u], own = triangle_of_id(id);
     vec4 corners[corners_max];
     // Not by functions: each would copy all corners.
 #ifdef CLUSTERS
@@ -59,13 +73,22 @@ void main() {
         corners[i] = project(place_in_view(page, post, post_height(block, post)));
     }
 #endif
-    int count = 3;
-    [[dont_unroll]] for (int plane = 0; plane < clip_planes && count >= 3; ++plane) count = clipped(corners, count, plane);
-    [[dont_unroll]] for (int i = 1; i + 1 < count; ++i) {
+    int count = there ? 3 : 0;
+    [[dont_unroll]] for (int plane = 0; plane < clip_planes && count >= 3; ++plane) {
+        if (is_cut_by(plane, corners, count)) count = clipped(corners, count, plane);
+    }
+    atomicMax(most_corners, count);
+    barrier();
+    [[dont_unroll]] for (int i = 1; i + 1 < most_corners; ++i) {
+        begin_listing();
+        barrier();
         ScreenTriangle t;
-        if (!screen_triangle(corners[0], corners[i], corners[i + 1], id, t)) continue;
-        ivec4 box = pixel_box(t);
-        if (box.z < box.x || box.w < box.y) continue;
-        if (!list_large(t, box)) draw_far(t, box);
+        bool drawn = i + 1 < count && screen_triangle(corners[0], corners[i], corners[i + 1], id, t);
+        ivec4 box = drawn ? pixel_box(t) : ivec4(0, 0, -1, -1);
+        // Teams draw at the same time as these are cut, so all are listed square by square.
+        ToList noted = note_triangle(box.z >= box.x && box.w >= box.y ? is_large : shows_nowhere, t);
+        barrier();
+        if (!list_noted(noted, t)) draw_all(t, box);
+        barrier();
     }
 }

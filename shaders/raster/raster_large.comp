@@ -12,13 +12,7 @@ void main() {
     if (number >= min(lists().at.tasks, tasks_max)) return;
     LargeTask task = LargeTasks(FRAME.task_list).at[number];
     if (task.triangle == no_triangle) return;
-    LargeTriangle large = LargeTriangles(FRAME.large_list).at[task.triangle];
-    ScreenTriangle t;
-    t.a = ivec2(large.ax, large.ay);
-    t.b = ivec2(large.bx, large.by);
-    t.c = ivec2(large.cx, large.cy);
-    t.depth = vec3(large.az, large.bz, large.cz);
-    t.id = large.id;
+    ScreenTriangle t = large_triangle(task.triangle);
     ivec4 box = in_square(pixel_box(t), ivec2(task.square & 0xffffu, task.square >> 16));
     if (box.z < box.x || box.w < box.y) return;
     if (fits_near(t)) draw_near(t, box, gl_LocalInvocationIndex, 128u);

@@ -104,6 +104,8 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(RasterLists, large),
         ORO_MEMBER(RasterLists, tasks),
         ORO_MEMBER(RasterLists, task_groups),
+        ORO_MEMBER(RasterLists, boxes),
+        ORO_MEMBER(RasterLists, box_groups),
         ORO_MEMBER(LargeTriangle, ax),
         ORO_MEMBER(LargeTriangle, ay),
         ORO_MEMBER(LargeTriangle, bx),

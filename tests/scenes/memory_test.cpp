@@ -70,6 +70,22 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForSixtyEightTiles) {
     std::filesystem::remove(file);
 }
 
+// From 300 km over one end of a region to 2 m over its middle, and up again to the other end.
+Camera on_the_way(const HeightField& field, int step, int steps, int width_px, int height_px) {
+    const PostGrid& grid = field.grid;
+    const double share = std::abs(1.0 - 2.0 * step / steps);  // 1 .. 0 .. 1
+    const double way = 0.15 + 0.7 * step / steps;
+    Camera camera;
+    camera.width_px = width_px;
+    camera.height_px = height_px;
+    camera.eye = {grid.lat.at_deg(0) + way * (grid.lat.at_deg(grid.rows() - 1) - grid.lat.at_deg(0)),
+                  grid.lon.at_deg(0) + way * (grid.lon.at_deg(grid.columns() - 1) - grid.lon.at_deg(0)), 0.0};
+    const double ground_m = ground_h_m(field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
+    camera.eye.h_m = ground_m + 2.0 * std::pow(1.5e5, share);
+    camera.attitude = {15.0 * step, -2.0 - 50.0 * share, 0.0};
+    return camera;
+}
+
 // A file that is baked beforehand, for that takes long: OROGRAPH_TEST_CLUSTERS names it
 // (orograph bake --mesh clusters). Frames that wait and, in the end, frames that do not.
 TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
@@ -97,22 +113,11 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
     const auto bytes_of = [](test::DrawnScene& drawn) {
         return drawn.scene().store().bytes() + drawn.scene().clusters()->store().bytes();
     };
-    const PostGrid& grid = field->grid;
     constexpr int steps = 24;
     std::size_t ground = 0;
     int frames = 0, coarser = 0;
     for (int i = 0; i <= steps; ++i) {
-        const double share = std::abs(1.0 - 2.0 * i / steps);  // 1 .. 0 .. 1
-        const double way = 0.15 + 0.7 * i / steps;
-        Camera camera;
-        camera.width_px = width_px;
-        camera.height_px = height_px;
-        camera.eye = {grid.lat.at_deg(0) + way * (grid.lat.at_deg(grid.rows() - 1) - grid.lat.at_deg(0)),
-                      grid.lon.at_deg(0) + way * (grid.lon.at_deg(grid.columns() - 1) - grid.lon.at_deg(0)),
-                      0.0};
-        const double ground_m = ground_h_m(*field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
-        camera.eye.h_m = ground_m + 2.0 * std::pow(1.5e5, share);
-        camera.attitude = {15.0 * i, -2.0 - 50.0 * share, 0.0};
+        const Camera camera = on_the_way(*field, i, steps, width_px, height_px);
         const test::DrawnFrame free = all->draw(camera, 1.0), bound = few->draw(camera, 1.0);
         ASSERT_TRUE(bound.plan.clusters.on);
         ASSERT_TRUE(bound.plan.missing.empty()) << "frame " << i << " is not settled";

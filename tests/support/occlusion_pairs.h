@@ -59,7 +59,7 @@ inline std::pair<Camera, Camera> eyes_in_motion(const EyeGround& where, std::mt1
     return {one, other};
 }
 
-// A renderer with occlusion and one without.
+// A renderer with occlusion and one without. The one with it draws as a GPU does, also where there is none.
 class OcclusionPair {
   public:
     OcclusionPair(const Gpu& gpu, RasterPath path, int width_px, int height_px, bool wrong = false) {
@@ -72,6 +72,7 @@ class OcclusionPair {
         plain_.emplace(made(gpu, options));
         options.occlusion = OcclusionUse::on;
         options.leave_out_small = true;
+        options.shares_triangles = true;
         options.nearest_pyramid = wrong;
         with_.emplace(made(gpu, options));
     }

@@ -47,7 +47,7 @@ class StreamedChoices : public ::testing::Test {
     static void read(RegionClusters& region, std::uint32_t group) {
         auto loaded = region.load_group(group);
         ASSERT_TRUE(loaded.ok());
-        region.keep(std::move(loaded).value());
+        region.keep(*loaded);
     }
 
     // By loops over all of the graph: the largest set of groups that may give way.
