@@ -9,7 +9,7 @@ namespace oro {
 namespace {
 
 // open: gives way, as far as is known. unread: would, and nobody knows to what. closed: would, and must not.
-enum class Asked : char { no, hidden, stands, unread, open, closed };
+enum class Answer : char { no, hidden, stands, unread, open, closed };
 
 // Where in a list a number is.
 class Places {
@@ -33,7 +33,7 @@ class Places {
 class StreamedCut {
   public:
     StreamedCut(const RegionClusters& clusters, const ClusterView& view, const IsClusterHere& is_here)
-        : clusters_(clusters), view_(view), is_here_(is_here), asked_(clusters.groups().size(), Asked::no) {}
+        : clusters_(clusters), view_(view), is_here_(is_here), asked_(clusters.groups().size(), Answer::no) {}
 
     // Finds what the rule says of all that is known.
     void walk() {
@@ -58,7 +58,7 @@ class StreamedCut {
     // What may not give way yet does not.
     void close_what_lacks() {
         for (const Opened& opened : opened_)
-            if (asked_[opened.group] == Asked::open && !may_open(opened)) close(opened.group);
+            if (asked_[opened.group] == Answer::open && !may_open(opened)) close(opened.group);
         if (closing_.empty()) return;
         const Places opened_at(opened_, &Opened::group), met_at(met_, &Met::cluster);
         while (!closing_.empty()) {
@@ -67,7 +67,7 @@ class StreamedCut {
             const Opened& opened = opened_[*opened_at.find(group)];
             for (std::size_t i = opened.first; i < opened.last; ++i) {
                 const std::uint32_t maker = clusters_.maker(met_[i].cluster);
-                if (maker != no_group && asked_[maker] == Asked::open) close(maker);
+                if (maker != no_group && asked_[maker] == Answer::open) close(maker);
             }
             // Now it is drawn what it made, where that is met.
             const ClusterGroup& closed = clusters_.groups()[group];
@@ -75,7 +75,7 @@ class StreamedCut {
                 const auto at = met_at.find(made);
                 if (!at || !lacks(met_[*at])) continue;
                 const std::uint32_t user = met_[*at].user;
-                if (user != no_group && asked_[user] == Asked::open) close(user);
+                if (user != no_group && asked_[user] == Answer::open) close(user);
             }
         }
     }
@@ -84,9 +84,9 @@ class StreamedCut {
         want(room);
         std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> found;
         for (const Met& met : met_) {
-            if (met.user != no_group && asked_[met.user] != Asked::open) continue;
+            if (met.user != no_group && asked_[met.user] != Answer::open) continue;
             const std::uint32_t maker = clusters_.maker(met.cluster);
-            if (maker != no_group && (asked_[maker] == Asked::open || asked_[maker] == Asked::hidden))
+            if (maker != no_group && (asked_[maker] == Answer::open || asked_[maker] == Answer::hidden))
                 continue;
             ClusterView::Look look = met.look;
             if (!met.is_known && is_here_(met.cluster)) {
@@ -123,8 +123,8 @@ class StreamedCut {
     void meet(std::span<const std::uint32_t> clusters, std::uint32_t user) {
         for (const std::uint32_t cluster : clusters) {
             const std::uint32_t maker = clusters_.maker(cluster);
-            if (maker != no_group && asked_[maker] == Asked::no) ask(maker);
-            if (maker != no_group && asked_[maker] == Asked::hidden) continue;
+            if (maker != no_group && asked_[maker] == Answer::no) ask(maker);
+            if (maker != no_group && asked_[maker] == Answer::hidden) continue;
             const ClusterReach* const reach = clusters_.known_reach(cluster);
             met_.push_back(
                 {cluster, user, reach != nullptr,
@@ -137,14 +137,14 @@ class StreamedCut {
         const bool is_read = clusters_.read_part(number) != nullptr;
         if (view_.is_beyond_frustum(group)) {
             ++choice_.drawn.beyond_frustum;
-            asked_[number] = Asked::hidden;
+            asked_[number] = Answer::hidden;
             return;
         }
         if (!is_read) choice_.groups_wanted.push_back(number);
         if (view_.stands(group)) {
-            asked_[number] = Asked::stands;
+            asked_[number] = Answer::stands;
         } else {
-            asked_[number] = is_read ? Asked::open : Asked::unread;
+            asked_[number] = is_read ? Answer::open : Answer::unread;
             ++choice_.drawn.groups_opened;
             if (is_read) next_.push_back(number);
         }
@@ -155,13 +155,13 @@ class StreamedCut {
     // Of the cut that the rule asks for, as far as groups are read.
     [[nodiscard]] bool is_of_cut(const Met& met) const {
         const std::uint32_t maker = clusters_.maker(met.cluster);
-        return maker == no_group || asked_[maker] == Asked::stands || asked_[maker] == Asked::unread;
+        return maker == no_group || asked_[maker] == Answer::stands || asked_[maker] == Answer::unread;
     }
 
     // A group that uses what this one made and was not asked has none above it in view, or an unread one.
     [[nodiscard]] bool gives_way(std::uint32_t user) const {
-        if (user == no_group || asked_[user] == Asked::open || asked_[user] == Asked::hidden) return true;
-        return asked_[user] == Asked::no && view_.is_beyond_frustum(clusters_.groups()[user]);
+        if (user == no_group || asked_[user] == Answer::open || asked_[user] == Answer::hidden) return true;
+        return asked_[user] == Answer::no && view_.is_beyond_frustum(clusters_.groups()[user]);
     }
     [[nodiscard]] bool may_open(const Opened& opened) const {
         const GroupPart& part = *clusters_.read_part(opened.group);
@@ -171,7 +171,7 @@ class StreamedCut {
                             [&](const Met& met) { return is_of_cut(met) && lacks(met); });
     }
     void close(std::uint32_t group) {
-        asked_[group] = Asked::closed;
+        asked_[group] = Answer::closed;
         closing_.push_back(group);
     }
 
@@ -190,14 +190,14 @@ class StreamedCut {
             }
             choice_.clusters_wanted.push_back(met.cluster);
         }
-        for (const Asked asked : asked_)
-            choice_.missing += asked == Asked::unread || asked == Asked::closed ? 1U : 0U;
+        for (const Answer asked : asked_)
+            choice_.missing += asked == Answer::unread || asked == Answer::closed ? 1U : 0U;
     }
 
     const RegionClusters& clusters_;
     const ClusterView& view_;
     const IsClusterHere& is_here_;
-    std::vector<Asked> asked_;  // of each group
+    std::vector<Answer> asked_;  // of each group
     std::vector<std::uint32_t> next_, closing_;
     std::vector<Opened> opened_;
     std::vector<Met> met_;  // coarsest first
