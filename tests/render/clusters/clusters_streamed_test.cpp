@@ -11,14 +11,14 @@
 namespace oro {
 namespace {
 
-constexpr int side_px = test::crack_side_px;
+constexpr int streamed_px = test::crack_side_px;
 
 class StreamedClusters : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
   protected:
     test::ClusterTerrain terrain_{test::rough_field(47.0, 8.0, 260, 310)};
 
     test::DrawnScene scene(std::uint64_t bytes) {
-        test::DrawnScene drawn(*gpu_, pages_in_memory(terrain_.field, 1.0, 2), GetParam(), side_px, side_px);
+        test::DrawnScene drawn(*gpu_, pages_in_memory(terrain_.field, 1.0, 2), GetParam(), streamed_px, streamed_px);
         test::draw_by_clusters(*gpu_, terrain_, drawn.scene(), bytes);
         return drawn;
     }
@@ -53,10 +53,10 @@ TEST_P(StreamedClusters, HaveNoCracksAndEndAsThoseThatAreWaitedFor) {
         const test::StreamedFrames streamed = test::stream_frames(
             streams, camera, tau_px, [&](const test::DrawnFrame& frame) { expect_whole(camera, frame); });
         EXPECT_TRUE(streamed.last.plan.is_settled());
-        const auto picture = *streams.renderer().read_picture(side_px, side_px);
+        const auto picture = *streams.renderer().read_picture(streamed_px, streamed_px);
         const test::DrawnFrame waited = waits.draw(camera, tau_px);
         EXPECT_EQ(waited.ids, streamed.last.ids);
-        EXPECT_EQ(*waits.renderer().read_picture(side_px, side_px), picture);
+        EXPECT_EQ(*waits.renderer().read_picture(streamed_px, streamed_px), picture);
         frames += streamed.frames;
         coarser += streamed.coarser;
         ground += ground_in(waited.ids);
