@@ -148,7 +148,7 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
         if (scene)
             scene->draw_beside(std::move(made));
         else
-            scene = std::move(made);
+            scene.emplace(std::move(made));
     }
     if (request.clusters) ORO_CHECK(add_clusters(gpu, region, bytes, request.mesh_level, *scene));
     if (pages.size() > 1) {

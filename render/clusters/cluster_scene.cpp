@@ -21,19 +21,6 @@ constexpr std::size_t most_on_the_way = 1024;
 ClusterScene::ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store)
     : clusters_(std::move(clusters)), store_(std::move(store)) {}
 ClusterScene::ClusterScene(ClusterScene&&) noexcept = default;
-ClusterScene& ClusterScene::operator=(ClusterScene&& other) noexcept {
-    stream_ = nullptr;  // its threads read clusters_
-    clusters_ = std::move(other.clusters_);
-    store_ = std::move(other.store_);
-    level_ = other.level_;
-    stream_ = std::move(other.stream_);
-    view_ = std::move(other.view_);
-    drawn_ = std::move(other.drawn_);
-    is_whole_ = other.is_whole_;
-    has_room_ = other.has_room_;
-    most_without_room_ = other.most_without_room_;
-    return *this;
-}
 ClusterScene::~ClusterScene() = default;
 
 Result<ClusterScene> ClusterScene::create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
@@ -127,8 +114,7 @@ Result<void> ClusterScene::send(ClusterStream::Ready ready) {
     };
     for (const RegionClusters::LoadedGroup& group : ready.groups) std::ranges::for_each(group.seen, add);
     std::ranges::for_each(ready.clusters, add);
-    ORO_CHECK(store_.send(loaded));
-    return {};
+    return store_.send(loaded);
 }
 
 Result<bool> ClusterScene::advance() {

@@ -16,7 +16,7 @@ namespace oro {
 class ClusterScene {
   public:
     ClusterScene(ClusterScene&&) noexcept;
-    ClusterScene& operator=(ClusterScene&&) noexcept;
+    ClusterScene& operator=(ClusterScene&&) = delete;  // a stream ends before what it reads
     ~ClusterScene();
     // Clusters may take `bytes` on the GPU, and at least what the coarsest take. Errors: out of memory.
     static Result<ClusterScene> create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,

@@ -91,37 +91,29 @@ ClusterStore::Held ClusterStore::use(std::uint32_t cluster) {
     return {address(slot), slots_[slot].counts};
 }
 
-Result<std::vector<ClusterStore::Held>> ClusterStore::hold(std::span<const std::uint32_t> clusters,
-                                                           const Fill& fill) {
+Result<void> ClusterStore::hold(std::span<const std::uint32_t> clusters, const Fill& fill) {
     for (const std::uint32_t cluster : clusters)
         if (is_here(cluster)) use(cluster);
-    std::vector<Held> held;
     gpu::ClusterBlock block{};
     for (const std::uint32_t cluster : clusters) {
-        if (!is_here(cluster)) {
-            const Result<std::uint32_t> filled = fill(cluster, block);
-            // What is staged goes first: it counts as being here.
-            if (!filled.ok()) ORO_CHECK(copy_staged());
-            ORO_TRY(const std::uint32_t counts, filled);
-            ORO_CHECK(stage({cluster, counts, &block}));
-            assert(is_here(cluster));
-        }
-        held.push_back(use(cluster));
+        if (is_here(cluster)) continue;
+        const Result<std::uint32_t> filled = fill(cluster, block);
+        // What is staged goes first: it counts as being here.
+        if (!filled.ok()) ORO_CHECK(copy_staged());
+        ORO_TRY(const std::uint32_t counts, filled);
+        ORO_CHECK(stage({cluster, counts, &block}));
+        assert(is_here(cluster));
     }
-    ORO_CHECK(copy_staged());
-    return held;
+    return copy_staged();
 }
 
-Result<std::size_t> ClusterStore::send(std::span<const Loaded> clusters) {
-    std::size_t count = 0;
+Result<void> ClusterStore::send(std::span<const Loaded> clusters) {
     for (const Loaded& cluster : clusters) {
         if (!is_here(cluster.cluster)) ORO_CHECK(stage(cluster));
         if (!is_here(cluster.cluster)) break;
         use(cluster.cluster);
-        ++count;
     }
-    ORO_CHECK(copy_staged());
-    return count;
+    return copy_staged();
 }
 
 // Gives a cluster a slot, where there is one, and copies when enough have come.

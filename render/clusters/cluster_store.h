@@ -29,10 +29,10 @@ class ClusterStore {
 
     // From here on clusters count as used by another frame: those of earlier ones may make room.
     void begin_frame();
-    // Sends those of a frame's clusters that are not here, and tells where all are, in the same order; no
-    // more than there are slots, with what the frame uses already. Begins no frame. Waits for the GPU.
-    // Errors: those of `fill`; the device.
-    Result<std::vector<Held>> hold(std::span<const std::uint32_t> clusters, const Fill& fill);
+    // Sends those of a frame's clusters that are not here: no more than there are slots, with what the frame
+    // uses already. All of them are used by it then. Begins no frame. Waits for the GPU. Errors: those of
+    // `fill`; the device.
+    Result<void> hold(std::span<const std::uint32_t> clusters, const Fill& fill);
 
     [[nodiscard]] bool is_here(std::uint32_t cluster) const;
     // One that is here is used by the frame.
@@ -43,9 +43,9 @@ class ClusterStore {
         std::uint32_t counts;
         const gpu::ClusterBlock* block;
     };
-    // Sends clusters until there is no slot that the frame does not use; how many are here then. Waits for
-    // the GPU. Errors: the device.
-    Result<std::size_t> send(std::span<const Loaded> clusters);
+    // Sends clusters until there is no slot that the frame does not use. Waits for the GPU. Errors: the
+    // device.
+    Result<void> send(std::span<const Loaded> clusters);
 
     [[nodiscard]] std::size_t size() const { return held_; }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }

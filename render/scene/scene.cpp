@@ -203,7 +203,8 @@ Result<bool> Scene::advance(std::span<const PageIndex> missing) {
         better = better || more;
     }
     if (clusters_) {
-        ORO_TRY(better, clusters_->advance());
+        ORO_TRY(const bool more, clusters_->advance());
+        better = better || more;
     }
     if (full_) return better;
     if (full_for_hidden_)
