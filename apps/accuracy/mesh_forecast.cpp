@@ -27,7 +27,7 @@ Result<MeshForecast> forecast_blocks(const RegionPages& all, const Camera& camer
         const LevelGrid& grid = pages.grid(drawn.level);
         const PyramidPage& whole = pages.page_of_node(drawn.level, drawn.row, drawn.column);
         const PageSummary& page = whole.summary;
-        const gpu::MeshletBounds& node = PyramidPages::node_of(whole, drawn.row, drawn.column);
+        const gpu::MeshletBounds& node = whole.node(drawn.row, drawn.column);
         const glm::dvec3 centre = view_from_ecef * (page.origin_ecef.m - camera.eye_ecef().m +
                                                     page.ecef_from_page * glm::dvec3(node.centre));
         if (node.radius < 0.0F || beyond_frustum(planes, centre, static_cast<double>(node.radius))) continue;

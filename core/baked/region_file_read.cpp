@@ -155,9 +155,7 @@ bool PageOrder::holds(PageIndex index) const {
 std::uint64_t PageOrder::number(PageIndex index) const {
     assert(holds(index));
     const Level& level = levels_[static_cast<std::size_t>(index.level)];
-    return level.first +
-           static_cast<std::uint64_t>(index.row) * static_cast<std::uint64_t>(level.layout.columns) +
-           static_cast<std::uint64_t>(index.column);
+    return level.first + level.layout.number(index.row, index.column);
 }
 
 PageIndex PageOrder::index(std::uint64_t number) const {

@@ -145,19 +145,20 @@ std::optional<UnsoundGroup> GraphCheck::take(const GroupPart& part) {
 
 std::optional<UnsoundGroup> GraphCheck::wrong_members(const GroupPart& part) {
     std::int64_t before = -1;
+    const auto uses = [&](std::uint32_t member, const std::string& what) {
+        return UnsoundGroup{part.number, "uses cluster " + in_words(member) + what};
+    };
     for (const std::uint32_t member : part.members) {
-        const std::string uses = "uses cluster " + in_words(member);
         if (member <= before || member >= part.group.first_made)
-            return UnsoundGroup{part.number, uses + " after " + std::to_string(before) +
-                                                 ", expected rising numbers of " + in_words(graph_.clusters)};
+            return uses(member, " after " + std::to_string(before) + ", expected rising numbers of " +
+                                    in_words(graph_.clusters));
         before = member;
         if (level_of(member) + 1 != part.group.level)
-            return UnsoundGroup{part.number, uses + " of level " + in_words(level_of(member)) +
-                                                 ", expected level " + in_words(part.group.level - 1)};
+            return uses(member, " of level " + in_words(level_of(member)) + ", expected level " +
+                                    in_words(part.group.level - 1));
         if (member < graph_.leaves && users_[member] == no_group) users_[member] = part.number;
         if (users_[member] != part.number)
-            return UnsoundGroup{part.number,
-                                uses + ", which says that it is used by " + group_name(users_[member])};
+            return uses(member, ", which says that it is used by " + group_name(users_[member]));
     }
     return std::nullopt;
 }

@@ -24,9 +24,7 @@ Result<void> AskedPages::load(const PageIndex& index, PyramidPage& page) const {
 
 const PyramidPage& AskedPages::page(const PageIndex& index) const {
     const std::uint64_t number = first_of_level_[static_cast<std::size_t>(index.level)] +
-                                 static_cast<std::uint64_t>(index.row) *
-                                     static_cast<std::uint64_t>(grid(index.level).pages().columns) +
-                                 static_cast<std::uint64_t>(index.column);
+                                 grid(index.level).pages().number(index.row, index.column);
     std::unique_ptr<PyramidPage>& kept = kept_[number];
     if (kept) return *kept;
     kept = std::make_unique<PyramidPage>();

@@ -59,7 +59,7 @@ bool Choice::acceptable(int level_number, int row, int column) const {
     if (level_number >= pages_.levels()) return false;
     const PyramidPage& whole = pages_.page_of_node(level_number, row, column);
     const PageSummary& page = whole.summary;
-    const gpu::MeshletBounds& node = PyramidPages::node_of(whole, row, column);
+    const gpu::MeshletBounds& node = whole.node(row, column);
     const gpu::mat3 view_from_page(view_from_ecef_ * page.ecef_from_page);
     const gpu::vec3 origin_view(view_from_ecef_ * (page.origin_ecef.m - eye_.m));
     return gpu::node_acceptable(static_cast<gpu::uint>(level_number), node,

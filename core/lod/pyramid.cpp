@@ -31,9 +31,7 @@ float rounded_up(double value) {
 // A node's stitched edges among those of its level: by its page, and its number there.
 std::array<float, 4>& of_node(std::vector<StitchedDeviations>& deviations, const LevelGrid& grid, int row,
                               int column) {
-    const PageLayout layout = grid.pages();
-    const std::size_t page = static_cast<std::size_t>(row / side) * static_cast<std::size_t>(layout.columns) +
-                             static_cast<std::size_t>(column / side);
+    const std::uint64_t page = grid.pages().number(row / side, column / side);
     return deviations[page][static_cast<std::size_t>(row % side * side + column % side)];
 }
 

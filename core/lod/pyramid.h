@@ -38,6 +38,12 @@ struct PageRecord {
 struct PyramidPage : PageRecord {
     std::array<gpu::MeshletBounds, gpu::meshlets_per_page> nodes;
     std::array<gpu::uint, gpu::meshlets_per_page> boxes;
+
+    // The one of its nodes that has this place among the nodes of its level.
+    [[nodiscard]] const gpu::MeshletBounds& node(int row, int column) const {
+        constexpr auto side = gpu::meshlets_per_side;
+        return nodes[static_cast<std::size_t>(row) % side * side + static_cast<std::size_t>(column) % side];
+    }
 };
 
 struct PyramidLevel {
@@ -46,8 +52,7 @@ struct PyramidLevel {
     std::vector<PyramidPage> pages;  // row by row
 
     [[nodiscard]] const PyramidPage& page(int row, int column) const {
-        return pages[static_cast<std::size_t>(row) * static_cast<std::size_t>(layout.columns) +
-                     static_cast<std::size_t>(column)];
+        return pages[layout.number(row, column)];
     }
     // The page of a node that is numbered over the level, and the node.
     [[nodiscard]] const PyramidPage& page_of_node(int row, int column) const {
@@ -55,9 +60,7 @@ struct PyramidLevel {
                     column / static_cast<int>(gpu::meshlets_per_side));
     }
     [[nodiscard]] const gpu::MeshletBounds& node(int row, int column) const {
-        constexpr auto side = gpu::meshlets_per_side;
-        return page_of_node(row, column)
-            .nodes[static_cast<std::size_t>(row) % side * side + static_cast<std::size_t>(column) % side];
+        return page_of_node(row, column).node(row, column);
     }
 };
 

@@ -22,15 +22,10 @@ class PyramidPages {
     // One of the level's layout; good as long as these pages are.
     [[nodiscard]] virtual const PyramidPage& page(const PageIndex& index) const = 0;
 
-    // The page of a node that is numbered over its level, and the node.
+    // The page of a node that is numbered over its level.
     [[nodiscard]] const PyramidPage& page_of_node(int level, int row, int column) const {
         constexpr int side = static_cast<int>(gpu::meshlets_per_side);
         return page({row / side, column / side, level});
-    }
-    [[nodiscard]] static const gpu::MeshletBounds& node_of(const PyramidPage& page, int row, int column) {
-        constexpr auto side = gpu::meshlets_per_side;
-        return page
-            .nodes[static_cast<std::size_t>(row) % side * side + static_cast<std::size_t>(column) % side];
     }
 };
 

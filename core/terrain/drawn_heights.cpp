@@ -14,8 +14,17 @@ bool at_pole(const PostGrid& grid, int row) {
     return !grid.net && std::abs(row_lat_deg(grid, row)) == 90.0;
 }
 
-std::int32_t height_steps(double h_m) {
+namespace {
+
+// height_steps() without a call.
+inline std::int32_t rounded_steps(double h_m) {
     return floor_within(h_m * (1.0 / height_step_m) + 0.5, highest_height_steps);
+}
+
+}  // namespace
+
+std::int32_t height_steps(double h_m) {
+    return rounded_steps(h_m);
 }
 
 int canonical_column(const HeightField& field, int row, int column) {
@@ -51,12 +60,12 @@ double drawn_h_m(const HeightField& field, int row, int column, double exaggerat
     return height_steps(static_cast<double>(H_m) * exaggeration + N_m) * height_step_m;
 }
 
-// Posts of a row that are points of their own. See height_steps().
+// Posts of a row that are points of their own.
 ORO_WIDE void lift_row(std::size_t count, const float* H_m, const double* N_m, double exaggeration,
                        std::int32_t* steps) {
     for (std::size_t i = 0; i < count; ++i) {
         const double h_m = static_cast<double>(H_m[i]) * exaggeration + N_m[i];
-        const std::int32_t lifted = floor_within(h_m * (1.0 / height_step_m) + 0.5, highest_height_steps);
+        const std::int32_t lifted = rounded_steps(h_m);
         steps[i] = is_void(H_m[i]) ? void_height_steps : lifted;
     }
 }

@@ -18,6 +18,11 @@ struct PageLayout {
     [[nodiscard]] std::uint64_t count() const {
         return static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns);
     }
+    // Of one of them, row by row.
+    [[nodiscard]] std::uint64_t number(int row, int column) const {
+        return static_cast<std::uint64_t>(row) * static_cast<std::uint64_t>(columns) +
+               static_cast<std::uint64_t>(column);
+    }
 };
 
 // One axis of a level. Its post j is the region's post min(j 2^level, last): a coarse level reaches exactly
