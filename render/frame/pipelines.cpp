@@ -13,9 +13,7 @@
 #include "shaders/shared.h"
 #include "spirv/accept_comp.h"
 #include "spirv/choose_clusters_comp.h"
-#include "spirv/cluster_clip_comp.h"
 #include "spirv/cluster_mesh.h"
-#include "spirv/cluster_raster_comp.h"
 #include "spirv/cull_comp.h"
 #include "spirv/live_pages_comp.h"
 #include "spirv/pyramid_comp.h"
@@ -345,12 +343,8 @@ Result<void> add_cluster_pipelines(const Gpu& gpu, RasterPath path, bool triangl
         ORO_TRY(pipelines.cluster_ties, create_cluster_terrain(gpu, pipelines, true));
         ORO_TRY(pipelines.cluster_terrain, create_cluster_terrain(gpu, pipelines, false));
     }
-    if (path == RasterPath::compute && !pipelines.cluster_raster) {
-        ORO_TRY(pipelines.cluster_raster,
-                create_compute_pipeline(gpu, pipelines, cluster_raster_comp_spirv, "cluster raster"));
-        ORO_TRY(pipelines.cluster_clip,
-                create_compute_pipeline(gpu, pipelines, cluster_clip_comp_spirv, "cluster clip"));
-    }
+    if (path == RasterPath::compute && !pipelines.cluster_raster)
+        ORO_CHECK(add_cluster_raster(gpu, pipelines));
     if (triangles && !pipelines.cluster_triangles) {
         ORO_TRY(pipelines.cluster_triangles,
                 create_triangles(gpu, path, triangles_clusters_comp_spirv, pipelines));
