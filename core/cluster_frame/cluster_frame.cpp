@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "core/frame/frame_tables.h"
 
@@ -47,6 +48,7 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
                    FramePlan& plan) {
     plan.clusters.on = true;
     const PagesOfPlan pages(plan);
+    std::vector<FrameTables::Span> rows, columns;
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
     const Ecef eye = camera.eye_ecef();
     for (const ResidentCluster& cluster : clusters) {
@@ -58,6 +60,8 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
              cluster.counts,
              cluster.number,
              cluster.group});
+        rows.push_back({cluster.first_row, cluster.last_row});
+        columns.push_back({cluster.first_column, cluster.last_column});
         plan.clusters.boxes.push_back(
             {gpu::vec3(view_from_ecef * (cluster.centre.m - eye.m)), cluster.half_axes_m});
     }
@@ -66,7 +70,7 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
     plan.constants.clusters.rows = static_cast<gpu::uint>(plan.row_terms.size());
     plan.constants.clusters.columns = static_cast<gpu::uint>(plan.column_terms.size());
     FrameTables tables(grid, camera.eye);
-    tables.place_all();
+    tables.place_spans(rows, columns);
     const auto append = [](auto& to, const auto& more) { to.insert(to.end(), more.begin(), more.end()); };
     append(plan.row_terms, tables.take_rows());
     append(plan.column_terms, tables.take_columns());

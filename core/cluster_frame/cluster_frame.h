@@ -23,7 +23,7 @@ struct ResidentCluster {
 
 // plan: of plan_frame() for the same eye and model, on the ellipsoid. Each cluster begins to be shaded from
 // the finest page of the plan that covers all of it; one that none covers cannot be seen, and is left out.
-// Adds the terms of all rows and columns of the region.
+// Adds the terms of all rows and columns of the region that a cluster reaches over.
 void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> clusters, const Camera& camera,
                    FramePlan& plan);
 

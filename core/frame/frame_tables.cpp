@@ -101,6 +101,23 @@ double east_of_eye_deg(const PostGrid& grid, const Geodetic& eye, std::int64_t c
     return std::remainder(grid.lon.at_deg(twin ? 0 : column) - eye.lon_deg, 360.0);
 }
 
+// Of so many numbers, those in a span.
+std::vector<bool> in_any(std::span<const FrameTables::Span> spans, int count) {
+    std::vector<int> steps(static_cast<std::size_t>(count) + 1, 0);
+    for (const FrameTables::Span& span : spans) {
+        assert(0 <= span.first && span.first <= span.last && span.last < count);
+        ++steps[static_cast<std::size_t>(span.first)];
+        --steps[static_cast<std::size_t>(span.last) + 1];
+    }
+    std::vector<bool> in(static_cast<std::size_t>(count));
+    int open = 0;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        open += steps[i];
+        in[i] = open > 0;
+    }
+    return in;
+}
+
 }  // namespace
 
 double reference_height_m(const Geodetic& eye) {
@@ -195,9 +212,21 @@ void FrameTables::place(const PageIndex& index, gpu::FramePage& page) {
     page.column_terms = column->second;
 }
 
-void FrameTables::place_all() {
-    for (int row = 0; row < grid_.rows(); ++row) add_row(row);
-    for (int column = 0; column < grid_.columns(); ++column) add_column(column);
+void FrameTables::place_spans(std::span<const Span> rows, std::span<const Span> columns) {
+    const std::vector<bool> row_wanted = in_any(rows, grid_.rows());
+    const std::vector<bool> column_wanted = in_any(columns, grid_.columns());
+    for (int row = 0; row < grid_.rows(); ++row) {
+        if (row_wanted[static_cast<std::size_t>(row)])
+            add_row(row);
+        else
+            rows_.push_back({});
+    }
+    for (int column = 0; column < grid_.columns(); ++column) {
+        if (column_wanted[static_cast<std::size_t>(column)])
+            add_column(column);
+        else
+            columns_.push_back({});
+    }
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,8 +26,13 @@ class FrameTables {
     // Makes sure that a page's rows and columns are there, and tells the page where, and where it lies.
     void place(const PageIndex& index, gpu::FramePage& page);
 
-    // All rows and columns of the region's posts, in their order: after those that are there already.
-    void place_all();
+    // Rows or columns of posts from the first to the last, both included.
+    struct Span {
+        std::int32_t first, last;
+    };
+    // Room for all rows and columns of the region's posts, in their order: after those that are there
+    // already. Those in any of the spans are there, the others are nowhere: reckoning takes longest.
+    void place_spans(std::span<const Span> rows, std::span<const Span> columns);
 
     std::vector<gpu::RowTerms> take_rows() { return std::move(rows_); }
     std::vector<gpu::ColumnTerms> take_columns() { return std::move(columns_); }
