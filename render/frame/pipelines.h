@@ -62,8 +62,9 @@ struct Pipelines {
     OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
     OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8
     // Of frames that draw clusters: see add_cluster_pipelines().
-    OwnedPipeline cluster_terrain;               // mesh path: mesh, fragment
-    OwnedPipeline cluster_raster, cluster_clip;  // compute path; then raster_large
+    OwnedPipeline choose_clusters, uncover_clusters;  // in the first round, in the others
+    OwnedPipeline cluster_terrain, cluster_ties;      // mesh path: mesh, fragment; as terrain_ties
+    OwnedPipeline cluster_raster, cluster_clip;       // compute path; then raster_large
     OwnedPipeline cluster_triangles;
 };
 

@@ -1,5 +1,5 @@
 #version 460
-// Draws a cluster by compute, as raster.comp draws a meshlet: places its vertices, then one triangle an invocation. Those of middling
+// Draws a listed cluster by compute, as raster.comp draws a meshlet: places its vertices, then one triangle an invocation. Those of middling
 // size, of which clusters have many, are then drawn by teams of invocations.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
@@ -55,8 +55,9 @@ void draw_waiting(uint lane) {
 }
 
 void main() {
-    uint number = folded(gl_WorkGroupID);
-    if (number >= FRAME.clusters.count) return;
+    uint listed = folded(gl_WorkGroupID);
+    if (listed >= lists().at.meshlets) return;
+    uint number = Words(FRAME.meshlet_list).at[listed];
     DrawnCluster drawn = drawn_cluster(number);
     ClusterBlocks block = ClusterBlocks(drawn.block);
     uint lane = gl_LocalInvocationIndex, triangles = triangles_of_cluster(drawn);
