@@ -288,7 +288,7 @@ void expect_order(FaultRuns& runs, const Fault& kind, long dense, long sparse) {
 
 long runs_asked_for() {
     const char* const asked = std::getenv("OROGRAPH_FAULTS");
-    return asked ? std::max(1L, std::strtol(asked, nullptr, 10)) : 20;
+    return asked ? std::max(1L, std::strtol(asked, nullptr, 10)) : 12;
 }
 
 }  // namespace oro::test

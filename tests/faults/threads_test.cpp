@@ -13,7 +13,7 @@ class FailedThreads : public testing::TestWithParam<Command (*)()> {};
 
 TEST_P(FailedThreads, EachAndAllFromOneOn) {
     const Command command = GetParam()();
-    FaultRuns runs(command, 4);
+    FaultRuns runs(command, 3);
     for (const long period : {0, 1, 2}) {
         Fault fault{"thread"};
         fault.period = period;

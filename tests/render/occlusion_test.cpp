@@ -150,7 +150,7 @@ TEST_P(Occluded, FramesHoldWhileDataStreamIn) {
 // With room for the pages that show, and not for those that other ground hides, a settled picture is that
 // with room for all.
 TEST_P(Occluded, HiddenPagesNeedNoRoom) {
-    const HeightField field = test::rough_field(47.0, 8.0, 1200, 1200);
+    const HeightField field = test::rough_field(47.0, 8.0, 900, 900);
     struct Settled {
         std::vector<std::uint8_t> rgb;
         bool settled{};

@@ -18,6 +18,7 @@
 #include "render/frame/depth_picture.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
+#include "tests/support/brute_depths.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/height_storage.h"
 #include "tests/support/three_grids.h"
@@ -234,27 +235,11 @@ TEST_P(GridsTogether, JoinOverGaps) {
     EXPECT_EQ(background, 0U);
 }
 
-struct Triangle {
-    glm::dvec3 a, b, c;
-};
-// Distance along a ray from the origin, or infinity. Source: T. Möller, B. Trumbore, Fast, minimum storage
-// ray/triangle intersection, J. Graphics Tools 2(1), 1997.
-double hit(const Triangle& triangle, const glm::dvec3& ray) {
-    const glm::dvec3 ab = triangle.b - triangle.a, ac = triangle.c - triangle.a, p = glm::cross(ray, ac);
-    const double determinant = glm::dot(ab, p);
-    const double u = glm::dot(-triangle.a, p) / determinant;
-    if (!(u >= 0.0 && u <= 1.0)) return std::numeric_limits<double>::infinity();
-    const glm::dvec3 q = glm::cross(-triangle.a, ab);
-    const double v = glm::dot(ray, q) / determinant;
-    const double t = glm::dot(ac, q) / determinant;
-    return v >= 0.0 && u + v <= 1.0 && t > 0.0 ? t : std::numeric_limits<double>::infinity();
-}
-
 // All that is drawn at full resolution, from an eye: the three grids' own triangles, whole or left out, and
 // the seam.
-std::vector<Triangle> all_triangles(const Region& region, const RegionCuts& cuts, const Seam& seam,
-                                    const glm::dvec3& eye) {
-    std::vector<Triangle> all;
+std::vector<test::NearTriangle> all_triangles(const Region& region, const RegionCuts& cuts, const Seam& seam,
+                                              const glm::dvec3& eye) {
+    std::vector<test::NearTriangle> all;
     const std::vector<const Region*> grids = all_grids(region);
     for (std::size_t grid = 0; grid < grids.size(); ++grid) {
         const HeightField rest = rest_of(grids[grid]->field, cuts.grids[grid]);
@@ -297,21 +282,8 @@ TEST_P(GridsTogether, AreWhatBruteForceFinds) {
         Camera camera = camera_over_rim(random, side_px, 1500.0);
         camera.attitude.pitch_deg = std::uniform_real_distribution<double>(-60.0, 5.0)(random);
         const std::vector<float> drawn = depths(camera, 0.0);
-        const glm::dmat3 ecef_from_view = glm::transpose(camera.view_from_ecef());
-        const Projection projection = projection_of_tile(camera, {0, 0, side_px, side_px, {0.5, 0.5}});
-        const std::vector<Triangle> all = all_triangles(region_, cuts_, seam_, camera.eye_ecef().m);
-        std::vector<double> truth;
-        for (int y = 0; y < side_px; ++y) {
-            for (int x = 0; x < side_px; ++x) {
-                const glm::dvec2 clip = (glm::dvec2(x, y) + 0.5) * 2.0 / double{side_px} - 1.0;
-                const glm::dvec3 ray =
-                    ecef_from_view *
-                    glm::dvec3((clip - glm::dvec2(projection.shift)) / glm::dvec2(projection.scale), -1.0);
-                double nearest = std::numeric_limits<double>::infinity();
-                for (const Triangle& triangle : all) nearest = std::min(nearest, hit(triangle, ray));
-                truth.push_back(nearest);
-            }
-        }
+        const std::vector<test::NearTriangle> all = all_triangles(region_, cuts_, seam_, camera.eye_ecef().m);
+        const std::vector<double> truth = test::nearest_triangles_m(all, camera);
         const auto agrees = [&](double depth_m, double true_m) {
             if (std::isinf(true_m) || std::isinf(depth_m)) return std::isinf(true_m) && std::isinf(depth_m);
             return std::abs(depth_m - true_m) <= 0.02 + 1.0e-3 * true_m;

@@ -28,6 +28,7 @@ using Words = std::vector<std::string>;
 // Over Interlaken towards the lake of Brienz, in the light of an afternoon.
 const Words lake{"--at",    "46.655,7.80", "--altitude", "3200", "--heading", "60",
                  "--pitch", "-16",         "--fov",      "50",   "--sun",     "250,28"};
+constexpr const char* around_the_lake = "7.7,46.55,8.3,46.9";
 // Up the valley of the Rhone, with a satellite's image of it.
 const Words valley{"--at",    "46.12,7.05", "--altitude", "5200", "--heading", "55",
                    "--pitch", "-12",        "--fov",      "50",   "--sun",     "150,50"};
@@ -56,6 +57,11 @@ class SameEverywhere : public testing::Test {
             if (!tile) GTEST_SKIP() << "needs " << name;
             tiles.push_back(tile->string());
         }
+    }
+
+    // Of the two tiles only what the view needs: what is compared does not depend on how large the region is.
+    void keep_to(const std::string& west_south_east_north) {
+        tiles.push_back("--bbox=" + west_south_east_north);
     }
 
     static Words joined(Words all, const Words& more) {
@@ -130,12 +136,14 @@ class SameEverywhere : public testing::Test {
 };
 
 TEST_F(SameEverywhere, AViewWithEveryEffect) {
+    keep_to(around_the_lake);
     hold_by_all_doors(lake);
 }
 
 TEST_F(SameEverywhere, AViewUnderAnImage) {
     const auto image = oro::test::real_data("drape/S2B_T32TLS_20220618_R60m_B01.jp2");
     if (!image) GTEST_SKIP() << "needs drape/S2B_T32TLS_20220618_R60m_B01.jp2";
+    keep_to("6.99,46.05,8.1,46.5");
     const Words under = joined(valley, {"--drape", image->string()});
     hold_by_all_doors(under);
     EXPECT_NE(differing(draw(tiles, under), draw(tiles, valley)), Places{}) << "no image is seen";
@@ -144,6 +152,7 @@ TEST_F(SameEverywhere, AViewUnderAnImage) {
 // The control of the first: each effect is in that view. What an option switches off is off as in a style
 // without it.
 TEST_F(SameEverywhere, EachEffectIsInTheView) {
+    keep_to(around_the_lake);
     const Pixels all = draw(tiles, lake);
     const auto without = [&](const char* effect, const json& off) {
         Pixels drawn = draw(tiles, lake, changed(effect, {{effect, off}}));
@@ -162,6 +171,7 @@ TEST_F(SameEverywhere, EachEffectIsInTheView) {
 // Edges are the style's or as somebody asks for, in any style; samples stay samples; the view tells what was
 // asked for.
 TEST_F(SameEverywhere, EdgesByChoice) {
+    keep_to(around_the_lake);
     const Words smooth{"--edges", "smooth"}, steps{"--edges", "steps"}, sampled{"--samples", "2"};
     const Pixels plain = draw(tiles, lake, "default");
     EXPECT_EQ(differing(plain, draw(tiles, joined(lake, steps), "default")), Places{});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -138,6 +139,16 @@ bool made_do_with_fewer_pages(const std::string& call, const std::string& result
            run.calls.at(call) == good.calls.at(call) + 1 && run.files == good.files && run.messages.empty();
 }
 
+// The two ways of drawing make mostly the same calls. So the tests take turns: what fails in one does not in
+// the other, but for allocations, which decide how many pages there is room for, and for what one way alone
+// calls. scripts/faults --long: all in both.
+bool is_asked(const std::string& way, const std::string& call, int turn) {
+    const char* const runs = std::getenv("OROGRAPH_FAULTS");
+    const bool all = runs && std::strtol(runs, nullptr, 10) >= 1000;
+    return all || call == "vkAllocateMemory" || call == "vkCreateGraphicsPipelines" ||
+           (turn % 2 == 0) == (way == "mesh");
+}
+
 class EachCallOfVulkan : public testing::TestWithParam<const char*> {};
 
 TEST_P(EachCallOfVulkan, FailsWithALineAndNothingLeft) {
@@ -149,8 +160,10 @@ TEST_P(EachCallOfVulkan, FailsWithALineAndNothingLeft) {
     EXPECT_GE(good.calls.size(), 25U);
     int fewer_pages = 0;
     for (const auto& [call, count] : good.calls) {
+        int turn = 0;  // begins anew with each call, so that it is the same in both ways
         for (int number = 1; number <= count; ++number) {
             for (const std::string& result : results_of(call, number == 1)) {
+                if (!is_asked(GetParam(), call, turn++)) continue;
                 const std::string fault = call + " " + std::to_string(number) + " " + result;
                 SCOPED_TRACE(fault);
                 const FaultyRun run = run_with_faults(words, fault);

@@ -58,7 +58,7 @@ TEST(GraphInBands, EachLevelByItself) {
 
 // What is whole is still known after a break.
 TEST(GraphInBands, WindowOfARegion) {
-    const ClusterTerrain terrain(rough_field(47.0, 8.0, 330, 320), {.threads = 2, .last_level = 1});
+    const ClusterTerrain terrain(rough_field(47.0, 8.0, 240, 230), {.threads = 2, .last_level = 1});
     const GridSurface window(terrain.heights, {0, 0, true, false, true, true, false});
     const ClusterGraph graph = build_cluster_graph(window, terrain.bounds);
     ASSERT_GE(graph.levels.size(), 4U);

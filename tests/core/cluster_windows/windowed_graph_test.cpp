@@ -41,20 +41,25 @@ class WindowedGraph : public ::testing::Test {
     }
 };
 
+// The more levels, the farther a window reaches, and the larger a region has to be for several of them.
 TEST_F(WindowedGraph, HasTheBytesOfOneGo) {
-    for (const bool holes : {false, true}) {
-        const ClusterTerrain terrain(holes ? holed_field(420, 500, 5) : rough_field(47.0, 8.0, 400, 520));
+    const auto hold = [&](HeightField field, const std::vector<WindowSizes>& sizes) {
+        const ClusterTerrain terrain(std::move(field));
         const std::string whole = in_one_go(terrain);
-        for (const auto& [levels, posts] : {std::pair{2, 40'000}, {3, 70'000}, {4, 100'000}}) {
-            const WindowedBake bake = how(path_, levels, static_cast<std::size_t>(posts));
+        for (const WindowSizes& one : sizes) {
+            const WindowedBake bake = how(path_, one.levels, one.posts);
             const std::size_t windows =
                 windows_of(terrain.heights.rows, terrain.heights.columns, bake.stages.front()).size();
             EXPECT_GT(windows, 2U);
             EXPECT_TRUE(in_windows(terrain.field, bake) == whole)
-                << levels << " levels, " << windows << " windows, holes " << holes;
+                << one.levels << " levels, " << windows << " windows, " << terrain.heights.rows << " rows";
             EXPECT_EQ(files(), 2U) << "windows are gone";
         }
-    }
+    };
+    hold(holed_field(340, 410, 5), {{2, 60'000}, {3, 70'000}});
+    hold(holed_field(420, 500, 5), {{4, 100'000}});
+    hold(rough_field(47.0, 8.0, 340, 400), {{2, 60'000}, {3, 70'000}});
+    hold(rough_field(47.0, 8.0, 400, 520), {{4, 100'000}});
 }
 
 // Windows over what other windows have left.

@@ -40,7 +40,7 @@ TEST(ViewshedOfGrids, IsWhatMarchedLinesSee) {
     int compared = 0, close = 0, wrong = 0, seen = 0;
     for (const auto& [lat_deg, lon_deg] : {std::pair{46.93, 8.07}, std::pair{46.92, 8.095}}) {
         const Geodetic eye{lat_deg, lon_deg, ground.h_m(lat_deg, lon_deg).value() + 12.0};
-        const ViewshedRequest request{eye, {}, 2.0, 2500.0, thread_count()};
+        const ViewshedRequest request{eye, {}, 2.0, 1500.0, thread_count()};
         for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
             const Viewshed shed = viewshed_of_grids(ground, grid, request);
             ASSERT_GT(shed.window.rows, 0);
