@@ -384,6 +384,10 @@ struct FrameConstants {
     // and whether anything finer may that it stands for, because that is missing. 0: nobody wants to know.
     uvec2 sights;
     uvec2 overdraw;  // uint for each pixel, row by row: triangles that cover it; 0: nobody wants to know
+    uvec2 cluster_boxes;   // ClusterBox[clusters.count], of frames in rounds
+    uvec2 cluster_states;  // uint[clusters.count]: cluster_..., of the round
+    uint clusters_turn;    // number of this frame among those in rounds, for ClusterBlock.seen
+    uint clusters_before;  // ... of the last one; 0: nothing is known of it
 };
 
 #ifdef __cplusplus

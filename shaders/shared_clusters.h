@@ -11,6 +11,8 @@ struct ClusterVertex {
 struct ClusterBlock {
     uint corners[128];  // of each triangle: its vertices, 8 bits each; counter-clockwise seen from above
     ClusterVertex vertices[128];
+    uint seen;  // the last frame (FrameConstants.clusters_turn) that saw it; 0: none, since it is here
+    uint unused[3];
 };
 // One that a frame draws. Its number among them stands in triangle ids, in the place of page and meshlet.
 struct DrawnCluster {
@@ -20,6 +22,17 @@ struct DrawnCluster {
     uint number;  // in the graph
     uint group;   // in the graph: that which made it; of one of the original's, that which uses it
 };
+// What a drawn cluster lies in: a box around a point of view coordinates, where light would be straight. Its
+// half axes are along ECEF.
+struct ClusterBox {
+    vec3 centre;
+    mat3 half_axes;
+};
+// FrameConstants.cluster_states, bits of each.
+ORO_CONST uint cluster_kept = 1u;       // of the cut, and neither frustum nor horizon hides it
+ORO_CONST uint cluster_drawn = 2u;      // by the rounds so far; from the last one on: by those before it
+ORO_CONST uint cluster_drawn_now = 4u;  // by this round
+ORO_CONST uint clusters_per_choice = 64u;  // of a workgroup that chooses
 // The clusters of a frame.
 struct ClusterTable {
     uvec2 drawn;  // device address of DrawnCluster[count]

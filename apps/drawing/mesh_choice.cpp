@@ -12,7 +12,7 @@ std::string without_clusters(const Region& region, const View& view) {
         return "the region has no clusters: bake it with --mesh clusters, and draw the whole .oro file";
     if (view.exaggeration != 1.0) return "clusters are of heights without exaggeration";
     if (view.model.earth != Earth::ellipsoid) return "clusters are drawn on the ellipsoid";
-    if (view.show == Show::visible || view.show == Show::overdraw)
+    if (view.show == Show::overdraw)
         return "--show " + std::string(name_of(*view.show)) + " tells of blocks, not of clusters";
     if (region.field.undulation.N_m.size() != region.file->outline().undulation.N_m.size())
         return "clusters are of heights with the geoid";

@@ -47,6 +47,8 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
                    FramePlan& plan) {
     plan.clusters.on = true;
     const PagesOfPlan pages(plan);
+    const glm::dmat3 view_from_ecef = camera.view_from_ecef();
+    const Ecef eye = camera.eye_ecef();
     for (const ResidentCluster& cluster : clusters) {
         const std::uint32_t page = pages.over(cluster);
         if (page == gpu::no_page) continue;
@@ -56,6 +58,8 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
              cluster.counts,
              cluster.number,
              cluster.group});
+        plan.clusters.boxes.push_back(
+            {gpu::vec3(view_from_ecef * (cluster.centre.m - eye.m)), cluster.half_axes_m});
     }
     plan.constants.clusters.on = 1;
     plan.constants.clusters.count = static_cast<gpu::uint>(plan.clusters.drawn.size());

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <span>
 
 #include "core/earth/camera.h"
+#include "core/earth/ellipsoid.h"
 #include "core/frame/frame_plan.h"
 
 namespace oro {
@@ -15,6 +17,8 @@ struct ResidentCluster {
     std::uint32_t counts;                                         // DrawnCluster::counts
     std::uint32_t number, group;                                  // likewise
     std::int32_t first_row, last_row, first_column, last_column;  // posts that it reaches over
+    Ecef centre;                                                  // ClusterReach
+    glm::mat3 half_axes_m;
 };
 
 // plan: of plan_frame() for the same eye and model, on the ellipsoid. Each cluster begins to be shaded from

@@ -11,6 +11,7 @@ namespace oro {
 struct ClusterPlan {
     bool on{};  // clusters are drawn, and no nodes of pages: these are for shading alone
     std::vector<gpu::DrawnCluster> drawn;
+    std::vector<gpu::ClusterBox> boxes;  // of each
     // Groups and clusters that the cut lacks; where there are any, coarser clusters stand in for them, and
     // the picture still has no cracks.
     std::size_t missing{};

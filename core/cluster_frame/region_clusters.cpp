@@ -28,6 +28,18 @@ Error no_graph(const std::string& what) {
     return {ErrorKind::failed, "clusters", what};
 }
 
+// ClusterReach::half_axes_m.
+glm::mat3 box_around(const Ecef& centre, std::span<const glm::dvec3> places_m) {
+    const Geodetic at = geodetic_from_ecef(centre);
+    const glm::dmat3 axes = ecef_from_enu(at.lat_deg, at.lon_deg);
+    glm::dvec3 half_m(0.0);
+    for (const glm::dvec3& place : places_m)
+        half_m = glm::max(half_m, glm::abs(glm::transpose(axes) * (place - centre.m)));
+    // As of the radius; and the axes are rounded to floats.
+    half_m += 0.01 + 2.0e-6 * glm::length(half_m);
+    return {axes[0] * half_m.x, axes[1] * half_m.y, axes[2] * half_m.z};
+}
+
 }  // namespace
 
 RegionClusters::RegionClusters(const HeightField& field, const HorizonOccluder& occluder)
@@ -109,7 +121,7 @@ Result<std::uint32_t> RegionClusters::triangle_count(std::uint32_t cluster) {
 
 ClusterReach RegionClusters::reach_of(std::span<const VertexTriangle> all) const {
     std::vector<glm::dvec3> places_m;
-    ClusterReach reach{{}, 0.0, {}, grid_.rows(), 0, grid_.columns(), 0};
+    ClusterReach reach{{}, 0.0, {}, {}, grid_.rows(), 0, grid_.columns(), 0};
     for (const VertexNumber number : vertices_of(all)) {
         const SurfaceVertex vertex = surface_.vertex(number);
         places_m.push_back(bounds_.ecef(vertex).m);
@@ -129,6 +141,7 @@ ClusterReach RegionClusters::reach_of(std::span<const VertexTriangle> all) const
     // Drawn places are rounded (core/surface/ground_bounds.cpp).
     reach.radius_m += 0.01 + 1.0e-6 * reach.radius_m;
     reach.horizon = horizon_cone(occluder_, places_m);
+    reach.half_axes_m = box_around(reach.centre, places_m);
     return reach;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/mat3x3.hpp>
 #include <memory>
 #include <span>
 #include <utility>
@@ -28,6 +29,8 @@ struct ClusterReach {
     Ecef centre;
     double radius_m;
     HorizonCone horizon;
+    // A box around `centre` that holds the same: its half axes along ECEF, east, north and up there.
+    glm::mat3 half_axes_m;
     std::int32_t first_row, last_row, first_column, last_column;  // posts of the region
 };
 

@@ -135,7 +135,8 @@ Result<void> ClusterScene::draw(const ClusterChoice& choice, const Camera& camer
         const ClusterStore::Held held = store_.use(choice.clusters[i]);
         ORO_TRY(const ClusterReach* const reach, clusters_->reach(choice.clusters[i]));
         resident.push_back({held.address, held.counts, choice.clusters[i], choice.groups[i], reach->first_row,
-                            reach->last_row, reach->first_column, reach->last_column});
+                            reach->last_row, reach->first_column, reach->last_column, reach->centre,
+                            reach->half_axes_m});
     }
     draw_clusters(clusters_->grid(), resident, camera, plan);
     plan.clusters.groups_opened = choice.groups_opened;

@@ -139,7 +139,9 @@ Result<void> FrameRenderer::choose_pipelines(const FramePlan& plan) {
 
 // Room for all that a frame's grids share.
 Result<void> FrameRenderer::reserve(const FramePlan& plan) {
-    std::size_t most_pages = std::max<std::size_t>(plan.pages.size(), 64);
+    // Meshlets of so many pages are listed, or clusters.
+    std::size_t most_pages = std::max(
+        {plan.pages.size(), std::size_t{64}, plan.clusters.drawn.size() / gpu::meshlets_per_page + 1});
     for (const FramePlan& other : plan.beside) most_pages = std::max(most_pages, other.pages.size());
     if (compute_) ORO_CHECK(compute_->reserve(most_pages, Occlusion::most_rounds * (1 + plan.beside.size())));
     while (grids_.size() < 1 + plan.beside.size()) {

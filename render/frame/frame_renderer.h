@@ -127,7 +127,9 @@ class FrameRenderer {
     void record_pyramid(VkCommandBuffer commands, const FramePlan& plan) const;
     void push(VkCommandBuffer commands, const gpu::FrameRound& round) const;
     void record_raster(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;
-    void record_meshes(VkCommandBuffer commands, std::size_t grid) const;
+    void record_round_choice(VkCommandBuffer commands, const GridFrame& grid, const ClusterPlan& clusters,
+                             bool first) const;
+    void record_meshes(VkCommandBuffer commands, std::size_t grid, bool ties) const;
     [[nodiscard]] bool remembers(const FramePlan& plan) const;
     void remember(const FramePlan& plan);
     Result<void> choose_shading(GridFrame& grid, gpu::FrameConstants& constants);

@@ -26,7 +26,7 @@ void FrameRenderer::record_clear(VkCommandBuffer commands, const FramePlan& plan
 // Levels: which nodes of which pages, for whichever way of drawing follows.
 void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& grid,
                                   const FramePlan& plan) const {
-    if (plan.clusters.on) return;  // chosen by the processor
+    if (plan.clusters.on) return;  // their cut is the processor's
     grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     const auto count = static_cast<std::uint32_t>(plan.pages.size());
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->accept.get());
@@ -45,12 +45,17 @@ void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& gri
                        VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
-// The meshlets of a grid that the round draws, or its clusters, which have one round. The terrain's pipeline
-// is bound; clusters have their own, and the frame has no other grid then.
-void FrameRenderer::record_meshes(VkCommandBuffer commands, std::size_t grid) const {
+// The meshlets of a grid that the round draws, or its clusters, which have pipelines of their own; the frame
+// has no other grid then. ties: what is as near as what is there.
+void FrameRenderer::record_meshes(VkCommandBuffer commands, std::size_t grid, bool ties) const {
     grids_[grid].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_GRAPHICS);
-    if (const VkDeviceSize clusters = grids_[grid].cluster_groups(); clusters > 0) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cluster_terrain.get());
+    const VkDeviceSize clusters = grids_[grid].cluster_groups();
+    const OwnedPipeline& draws = clusters > 0
+                                     ? (ties ? pipelines_->cluster_ties : pipelines_->cluster_terrain)
+                                 : ties ? pipelines_->terrain_ties
+                                        : pipelines_->terrain;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, draws.get());
+    if (clusters > 0) {
         gpu_->draw_mesh_tasks_indirect()(commands, grids_[grid].data().handle.get(), clusters, 1, 0);
         return;
     }
@@ -87,17 +92,15 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
         0.0F, 1.0F};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->terrain.get());
     gpu::FrameRound round = occlusion_->rounds()[number];
     push(commands, round);
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) record_meshes(commands, i);
+    for (std::size_t i = 0; i <= plan.beside.size(); ++i) record_meshes(commands, i, false);
     if (!first && occlusion_->may_tie()) {
         // The same once more, from the highest id down: where it is as near as what is there, the lower id
         // wins.
         round.backwards = 1;
         push(commands, round);
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->terrain_ties.get());
-        for (std::size_t i = plan.beside.size() + 1; i-- > 0;) record_meshes(commands, i);
+        for (std::size_t i = plan.beside.size() + 1; i-- > 0;) record_meshes(commands, i, true);
     }
     vkCmdEndRendering(commands);
     // Counts and recorded positions.
@@ -118,23 +121,34 @@ void FrameRenderer::record_pyramid(VkCommandBuffer commands, const FramePlan& pl
     occlusion_->record_pyramid(commands, *pipelines_, plan);
 }
 
+// What of a grid the round draws.
+void FrameRenderer::record_round_choice(VkCommandBuffer commands, const GridFrame& grid,
+                                        const ClusterPlan& clusters, bool first) const {
+    if (clusters.on) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                          (first ? pipelines_->choose_clusters : pipelines_->uncover_clusters).get());
+        const auto count = static_cast<std::uint32_t>(clusters.drawn.size());
+        const std::uint32_t groups = (count + gpu::clusters_per_choice - 1) / gpu::clusters_per_choice;
+        if (groups > 0) vkCmdDispatch(commands, groups, 1, 1);
+        return;
+    }
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                      (first ? pipelines_->cull : pipelines_->uncover).get());
+    vkCmdDispatchIndirect(commands, grid.choice().handle.get(), offsetof(gpu::LivePages, cull_groups));
+}
+
 // A round of one grid after the other: what is drawn of it is chosen, and by the compute path drawn at once.
 void FrameRenderer::record_round(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const {
-    const OwnedPipeline& chooses = number == 0 ? pipelines_->cull : pipelines_->uncover;
     gpu::FrameRound round = occlusion_->rounds()[number];
     const std::size_t grids = 1 + plan.beside.size();
     for (std::size_t i = 0; i < grids; ++i) {
         const ClusterPlan& clusters = (i == 0 ? plan : plan.beside[i - 1]).clusters;
-        const VkBuffer choice = grids_[i].choice().handle.get();
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         round.lists_round = 0;
         round.lists = static_cast<gpu::uint>(number * grids + i);
         push(commands, round);
-        if (!clusters.on) {
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, chooses.get());
-            vkCmdDispatchIndirect(commands, choice, offsetof(gpu::LivePages, cull_groups));
-        }
-        if (compute_) compute_->record(commands, *pipelines_, clusters, round.lists);
+        record_round_choice(commands, grids_[i], clusters, number == 0);
+        if (compute_) compute_->record(commands, *pipelines_, clusters.on, round.lists);
         if (compute_ || clusters.on) continue;
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
@@ -163,7 +177,7 @@ void FrameRenderer::record_rounds(VkCommandBuffer commands, const FramePlan& pla
 // Whether it is known what the last frame saw of any grid.
 bool FrameRenderer::remembers(const FramePlan& plan) const {
     for (std::size_t i = 0; i <= plan.beside.size(); ++i)
-        if (grids_[i].remembers()) return true;
+        if (grids_[i].remembers(i == 0 ? plan : plan.beside[i - 1])) return true;
     return false;
 }
 

@@ -24,6 +24,7 @@ struct DataLayout {
     VkDeviceSize columns;
     VkDeviceSize before;
     VkDeviceSize clusters;  // workgroups of their draw, then they
+    VkDeviceSize boxes;     // theirs
     VkDeviceSize size;
 };
 DataLayout layout_of(const FramePlan& plan) {
@@ -33,9 +34,12 @@ DataLayout layout_of(const FramePlan& plan) {
     layout.columns = aligned(layout.rows + plan.row_terms.size() * sizeof(gpu::RowTerms));
     layout.before = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
     layout.clusters = aligned(layout.before + plan.pages.size() * sizeof(gpu::uint));
-    layout.size = layout.clusters;
+    layout.boxes = layout.clusters;
     if (plan.clusters.on)
-        layout.size += cluster_groups_bytes + plan.clusters.drawn.size() * sizeof(gpu::DrawnCluster);
+        layout.boxes = aligned(layout.clusters + cluster_groups_bytes +
+                               plan.clusters.drawn.size() * sizeof(gpu::DrawnCluster));
+    layout.size = layout.boxes;
+    if (plan.constants.occlusion != 0) layout.size += plan.clusters.boxes.size() * sizeof(gpu::ClusterBox);
     return layout;
 }
 
@@ -120,11 +124,23 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const FramePlan& plan) {
         page_capacity_ = capacity;
     }
     ORO_CHECK(reserve_sights(gpu, plan));
+    if (plan.clusters.on) return reserve_clusters(gpu, plan);
     return plan.constants.occlusion != 0 ? reserve_seen(gpu, plan.pages.size()) : Result<void>();
 }
 
+Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const FramePlan& plan) {
+    const VkDeviceSize bytes =
+        sizeof(gpu::uint) * std::max<VkDeviceSize>(plan.clusters.drawn.size(), gpu::clusters_per_choice);
+    if (cluster_states_.size >= bytes) return {};
+    ORO_TRY(cluster_states_,
+            create_buffer(gpu, std::max(bytes, 2 * cluster_states_.size),
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::device, "cluster states"));
+    return {};
+}
+
 Result<void> GridFrame::reserve_sights(const Gpu& gpu, const FramePlan& plan) {
-    const bool wanted = plan.wants_sights && plan.constants.occlusion != 0;
+    const bool wanted = plan.wants_sights && plan.constants.occlusion != 0 && !plan.clusters.on;
     sights_size_ = wanted ? VkDeviceSize{4} * gpu::sight_words * plan.pages.size() : 0;
     if (sights_.size >= sights_size_) return {};
     const VkDeviceSize size = std::max(sights_size_, 2 * sights_.size);
@@ -169,7 +185,11 @@ Result<void> GridFrame::reserve_seen(const Gpu& gpu, std::size_t pages) {
 }
 
 void GridFrame::remember(const FramePlan& plan) {
-    before_ = plan.page_indices;
+    forget();
+    if (plan.clusters.on)
+        clusters_before_ = ++clusters_turn_;
+    else
+        before_ = plan.page_indices;
 }
 
 // FrameConstants::page_before.
@@ -191,8 +211,13 @@ void GridFrame::address(FramePlan& plan) const {
     constants.pages = address_words(data_.address + pages_offset);
     constants.row_terms = address_words(data_.address + layout.rows);
     constants.column_terms = address_words(data_.address + layout.columns);
-    if (plan.clusters.on)
+    if (plan.clusters.on) {
         constants.clusters.drawn = address_words(data_.address + layout.clusters + cluster_groups_bytes);
+        constants.cluster_boxes = address_words(data_.address + layout.boxes);
+        constants.cluster_states = address_words(cluster_states_.address);
+        constants.clusters_turn = clusters_turn_ + 1;
+        constants.clusters_before = clusters_before_;
+    }
     VkDeviceAddress at = choice_.address;
     constants.live_pages = address_words(at);
     at += 4 * live_pages_words;
@@ -210,7 +235,7 @@ void GridFrame::address(FramePlan& plan) const {
         at += VkDeviceSize{4} * gpu::accepted_words * page_capacity_;
     }
     constants.seen = address_words(seen_[turn_].address);
-    if (constants.occlusion != 0 && remembers())
+    if (constants.occlusion != 0 && !before_.empty())
         constants.seen_before = address_words(seen_[1 - turn_].address);
     constants.page_before = address_words(data_.address + layout.before);
     constants.sights = sights_size_ > 0 ? address_words(sights_.address) : gpu::uvec2(0U);
@@ -223,7 +248,7 @@ void GridFrame::fill(const FramePlan& plan) {
         if (!values.empty())
             std::memcpy(staging_.mapped + at, values.data(), values.size() * sizeof(values[0]));
     };
-    clears_seen_ = plan.constants.occlusion != 0;
+    clears_seen_ = plan.constants.occlusion != 0 && !plan.clusters.on;
     std::memcpy(staging_.mapped, &plan.constants, sizeof(plan.constants));
     copy(pages_offset, plan.pages);
     copy(layout.rows, plan.row_terms);
@@ -236,6 +261,7 @@ void GridFrame::fill(const FramePlan& plan) {
                                               (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1};
     std::memcpy(staging_.mapped + layout.clusters, groups.data(), sizeof(groups));
     copy(layout.clusters + cluster_groups_bytes, plan.clusters.drawn);
+    if (plan.constants.occlusion != 0) copy(layout.boxes, plan.clusters.boxes);
 }
 
 void GridFrame::record_upload(VkCommandBuffer commands) const {

@@ -33,10 +33,16 @@ class GridFrame {
     [[nodiscard]] FrameSights sights_of(const FramePlan& plan) const;
     void bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const;
 
-    // The frame was drawn in rounds: the next such one knows which of its nodes were seen. Or nobody knows.
+    // The frame was drawn in rounds: the next such one knows which of its nodes or clusters were seen. Or
+    // nobody knows.
     void remember(const FramePlan& plan);
-    void forget() { before_.clear(); }
-    [[nodiscard]] bool remembers() const { return !before_.empty(); }
+    void forget() {
+        before_.clear();
+        clusters_before_ = 0;
+    }
+    [[nodiscard]] bool remembers(const FramePlan& plan) const {
+        return plan.clusters.on ? clusters_before_ > 0 : !before_.empty();
+    }
 
     [[nodiscard]] const Buffer& data() const { return data_; }      // begins with the constants
     [[nodiscard]] const Buffer& choice() const { return choice_; }  // see frame_layout.h
@@ -51,20 +57,25 @@ class GridFrame {
   private:
     void bind_constants(const Gpu& gpu) const;
     Result<void> reserve_seen(const Gpu& gpu, std::size_t pages);
+    Result<void> reserve_clusters(const Gpu& gpu, const FramePlan& plan);
     Result<void> reserve_sights(const Gpu& gpu, const FramePlan& plan);
     [[nodiscard]] std::vector<gpu::uint> numbers_before(const FramePlan& plan) const;
 
     OwnedDescriptorPool pool_;
     VkDescriptorSet set_{VK_NULL_HANDLE};
-    // Constants, then pages, then rows and columns, then FrameConstants::page_before, then clusters.
+    // Constants, then pages, then rows and columns, then FrameConstants::page_before, then clusters and their
+    // boxes.
     Buffer staging_;
     Buffer data_;  // the same on the device
     Buffer choice_;
     std::array<Buffer, 2> seen_;  // of this frame in rounds and of the last such one, by turns
     std::size_t turn_{};
-    std::vector<PageIndex> before_;  // the last such frame's pages; none: nothing is known of it
-    Buffer sights_, sights_read_;    // FrameConstants::sights, on the device and for the host
-    VkDeviceSize sights_size_{};     // of the frame's; 0: nobody wants to know
+    std::vector<PageIndex> before_;    // the last such frame's pages; none: nothing is known of it
+    std::uint32_t clusters_turn_{};    // frames of clusters in rounds so far
+    std::uint32_t clusters_before_{};  // the last frame's number among them; 0: nothing is known of it
+    Buffer cluster_states_;            // FrameConstants::cluster_states
+    Buffer sights_, sights_read_;      // FrameConstants::sights, on the device and for the host
+    VkDeviceSize sights_size_{};       // of the frame's; 0: nobody wants to know
     std::size_t page_capacity_{};
     bool clears_seen_{};
     VkDeviceSize size_{};  // that a frame sends

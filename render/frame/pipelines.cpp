@@ -12,9 +12,8 @@
 #include "render/raster/raster_pipelines.h"
 #include "shaders/shared.h"
 #include "spirv/accept_comp.h"
-#include "spirv/cluster_clip_comp.h"
+#include "spirv/choose_clusters_comp.h"
 #include "spirv/cluster_mesh.h"
-#include "spirv/cluster_raster_comp.h"
 #include "spirv/cull_comp.h"
 #include "spirv/live_pages_comp.h"
 #include "spirv/pyramid_comp.h"
@@ -276,15 +275,31 @@ Result<void> create_rounds(const Gpu& gpu, RasterPath path, Pipelines& pipelines
     return {};
 }
 
-Result<OwnedPipeline> create_cluster_terrain(const Gpu& gpu, const Pipelines& pipelines) {
+Result<OwnedPipeline> create_cluster_terrain(const Gpu& gpu, const Pipelines& pipelines, bool ties) {
     ORO_TRY(const OwnedShader mesh, create_shader(gpu, cluster_mesh_spirv, "cluster.mesh"));
-    ORO_TRY(const OwnedShader fragment, create_shader(gpu, terrain_frag_spirv, "terrain.frag"));
+    const std::span<const std::uint32_t> fragment_words =
+        ties ? std::span<const std::uint32_t>(terrain_ties_frag_spirv)
+             : std::span<const std::uint32_t>(terrain_frag_spirv);
+    ORO_TRY(const OwnedShader fragment,
+            create_shader(gpu, fragment_words, ties ? "terrain_ties.frag" : "terrain.frag"));
     const std::uint32_t size = mesh_group_size(gpu);
     const VkSpecializationMapEntry entry{0, 0, sizeof(size)};
     const VkSpecializationInfo constants{1, &entry, sizeof(size), &size};
     const std::array stages{stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, &constants),
                             stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
-    return create_raster_pipeline(gpu, pipelines, stages, false, "clusters");
+    return create_raster_pipeline(gpu, pipelines, stages, ties, ties ? "cluster ties" : "clusters");
+}
+
+// By constant_id: 0 for_compute; 2 is_first (shaders/clusters/choose_clusters.comp).
+Result<OwnedPipeline> create_choose_clusters(const Gpu& gpu, RasterPath path, bool first,
+                                             const Pipelines& pipelines) {
+    const std::array<VkBool32, 2> values{path == RasterPath::compute ? VK_TRUE : VK_FALSE,
+                                         first ? VK_TRUE : VK_FALSE};
+    const std::array entries{VkSpecializationMapEntry{0, 0, sizeof(VkBool32)},
+                             VkSpecializationMapEntry{2, sizeof(VkBool32), sizeof(VkBool32)}};
+    const VkSpecializationInfo constants{2, entries.data(), sizeof(values), values.data()};
+    return create_compute_pipeline(gpu, pipelines, choose_clusters_comp_spirv,
+                                   first ? "choose clusters" : "uncover clusters", &constants);
 }
 
 Result<void> create_choice(const Gpu& gpu, Pipelines& pipelines) {
@@ -320,15 +335,16 @@ Result<OwnedPipeline> create_triangles(const Gpu& gpu, RasterPath path, std::spa
 }  // namespace
 
 Result<void> add_cluster_pipelines(const Gpu& gpu, RasterPath path, bool triangles, Pipelines& pipelines) {
+    if (!pipelines.choose_clusters) {
+        ORO_TRY(pipelines.uncover_clusters, create_choose_clusters(gpu, path, false, pipelines));
+        ORO_TRY(pipelines.choose_clusters, create_choose_clusters(gpu, path, true, pipelines));
+    }
     if (path == RasterPath::mesh && !pipelines.cluster_terrain) {
-        ORO_TRY(pipelines.cluster_terrain, create_cluster_terrain(gpu, pipelines));
+        ORO_TRY(pipelines.cluster_ties, create_cluster_terrain(gpu, pipelines, true));
+        ORO_TRY(pipelines.cluster_terrain, create_cluster_terrain(gpu, pipelines, false));
     }
-    if (path == RasterPath::compute && !pipelines.cluster_raster) {
-        ORO_TRY(pipelines.cluster_raster,
-                create_compute_pipeline(gpu, pipelines, cluster_raster_comp_spirv, "cluster raster"));
-        ORO_TRY(pipelines.cluster_clip,
-                create_compute_pipeline(gpu, pipelines, cluster_clip_comp_spirv, "cluster clip"));
-    }
+    if (path == RasterPath::compute && !pipelines.cluster_raster)
+        ORO_CHECK(add_cluster_raster(gpu, pipelines));
     if (triangles && !pipelines.cluster_triangles) {
         ORO_TRY(pipelines.cluster_triangles,
                 create_triangles(gpu, path, triangles_clusters_comp_spirv, pipelines));

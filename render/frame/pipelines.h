@@ -51,6 +51,7 @@ struct Pipelines {
     std::uint32_t meshlets_per_task{1};
     std::uint32_t meshlets_per_group{1};  // of a mesh workgroup
     // Compute path, in this order.
+    std::int32_t alone_max_px{};  // of the largest box of pixels that an invocation draws by itself
     OwnedPipeline raster_clear, raster, raster_clip, raster_boxes, raster_large;
     std::map<ShadingKind, OwnedPipeline> shades;  // compute, 8 x 8; see shading_for
     std::array<OwnedPipeline, 4> edges;  // without and with air, then both of clusters, 8 x 8; see edges_for
@@ -62,8 +63,9 @@ struct Pipelines {
     OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
     OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8
     // Of frames that draw clusters: see add_cluster_pipelines().
-    OwnedPipeline cluster_terrain;               // mesh path: mesh, fragment
-    OwnedPipeline cluster_raster, cluster_clip;  // compute path; then raster_large
+    OwnedPipeline choose_clusters, uncover_clusters;  // in the first round, in the others
+    OwnedPipeline cluster_terrain, cluster_ties;      // mesh path: mesh, fragment; as terrain_ties
+    OwnedPipeline cluster_raster, cluster_clip;       // compute path; then raster_large
     OwnedPipeline cluster_triangles;
 };
 

@@ -72,7 +72,7 @@ void ComputeRaster::record_clear(VkCommandBuffer commands, const Pipelines& pipe
                   (groups + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
 }
 
-void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines, const ClusterPlan& clusters,
+void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines, bool of_clusters,
                            gpu::uint lists) const {
     const VkDeviceSize at = VkDeviceSize{lists} * gpu::raster_lists_bytes;
     const auto step = [&](const OwnedPipeline& pipeline, VkDeviceSize groups) {
@@ -80,18 +80,11 @@ void ComputeRaster::record(VkCommandBuffer commands, const Pipelines& pipelines,
         vkCmdDispatchIndirect(commands, lists_.handle.get(), at + groups);
     };
     wait_for_lists(commands);
-    if (clusters.on) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.cluster_raster.get());
-        const auto count = static_cast<std::uint32_t>(clusters.drawn.size());
-        if (count > 0)
-            vkCmdDispatch(commands, std::min(count, gpu::groups_per_row),
-                          (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
-    } else {
-        step(pipelines.raster, offsetof(gpu::RasterLists, meshlet_groups));
-    }
+    step(of_clusters ? pipelines.cluster_raster : pipelines.raster,
+         offsetof(gpu::RasterLists, meshlet_groups));
     wait_for_lists(commands);
     // At the same time: few triangles are cut, and that takes long.
-    step(clusters.on ? pipelines.cluster_clip : pipelines.raster_clip,
+    step(of_clusters ? pipelines.cluster_clip : pipelines.raster_clip,
          offsetof(gpu::RasterLists, clip_groups));
     step(pipelines.raster_boxes, offsetof(gpu::RasterLists, box_groups));
     wait_for_lists(commands);

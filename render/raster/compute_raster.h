@@ -28,7 +28,7 @@ class ComputeRaster {
     void record_clear(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan) const;
     // Draws what was listed in one of them, or the clusters of a plan that has some; FrameRound::lists is its
     // number, and pushed. Leaves the buffer ready for compute reads.
-    void record(VkCommandBuffer commands, const Pipelines& pipelines, const ClusterPlan& clusters,
+    void record(VkCommandBuffer commands, const Pipelines& pipelines, bool of_clusters,
                 gpu::uint lists) const;
 
     // Depth << 32 | ~id for each pixel of the last frame, row by row, `width` to a row.

@@ -8,7 +8,8 @@
 namespace oro {
 namespace {
 
-// Without a last frame: the nearest 16th of the pages that have something to draw, then a quarter, then all.
+// Without a last frame: the nearest 16th of the clusters, or of the pages that have something to draw, then a
+// quarter, then all.
 constexpr gpu::uint first_share = gpu::round_shares / 16, second_share = gpu::round_shares / 4;
 
 gpu::FrameRound round_of(gpu::uint first, gpu::uint last, bool is_last) {
@@ -65,11 +66,9 @@ void Occlusion::begin(const FramePlan& plan, bool remembers) {
     rounds_.assign(1, round_of(0, gpu::round_shares, true));
     may_tie_ = uses_last_frame_ = false;
     if (use_ == OcclusionUse::off) return;
-    if (plan.clusters.on) {
-        // They are drawn at once, and what they take says nothing of nodes.
-        last_ = {};
-        return;
-    }
+    // What clusters take says nothing of nodes, and the other way round.
+    if (plan.clusters.on != was_of_clusters_) last_ = {};
+    was_of_clusters_ = plan.clusters.on;
     const bool much = shows_much_of(plan);
     last_ = plan.constants;
     for (const FramePlan& other : plan.beside) last_.page_count += other.constants.page_count;
@@ -86,7 +85,7 @@ void Occlusion::begin(const FramePlan& plan, bool remembers) {
         rounds_ = {round_of(0, first_share, false), round_of(first_share, second_share, false),
                    round_of(0, gpu::round_shares, true)};
     }
-    // Pages have numbers from the nearest on: rounds from near to far draw ids in their order.
+    // Pages and clusters have numbers from the nearest on: rounds from near to far draw ids in their order.
     may_tie_ = uses_last_frame_ || !plan.beside.empty();
     for (gpu::FrameRound& round : rounds_) round.nearest = nearest_ ? 1U : 0U;
 }

@@ -26,7 +26,7 @@ class Occlusion {
     // For pictures up to that size.
     Result<void> resize(const Gpu& gpu, RasterPath path, VkExtent2D extent);
 
-    // The rounds of a frame, in their order; one where it is drawn without occlusion, as clusters are.
+    // The rounds of a frame, in their order; one where it is drawn without occlusion.
     // remembers: it is known what the last frame saw.
     void begin(const FramePlan& plan, bool remembers);
     [[nodiscard]] const std::vector<gpu::FrameRound>& rounds() const { return rounds_; }
@@ -49,6 +49,7 @@ class Occlusion {
     OcclusionUse use_;
     bool nearest_;
     bool may_tie_{}, uses_last_frame_{};
+    bool was_of_clusters_{};  // the last frame was
     std::vector<gpu::FrameRound> rounds_;
     gpu::FrameConstants
         last_{};        // of the last frame that was drawn in rounds; its page_count 0: there is none

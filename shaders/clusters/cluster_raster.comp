@@ -1,6 +1,5 @@
 #version 460
-// Draws a cluster by compute, as raster.comp draws a meshlet: places its vertices, then one triangle an invocation. Those of middling
-// size, of which clusters have many, are then drawn by teams of invocations.
+// Draws a listed cluster by compute, as raster.comp draws a meshlet: places its vertices, then one triangle an invocation.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
@@ -13,54 +12,25 @@
 layout(local_size_x = 128) in;  // cluster_triangles, cluster_vertices
 #include "shaders/raster/list_large.glsl"
 
-const uint team_size = 32u, teams = 4u;
-const uint waiting_max = 48u;  // triangles for teams: with more, the cluster's workgroup would keep all others waiting
-
 shared vec4 vertices[cluster_vertices];  // clip coordinates
-// Triangles for teams, member by member: glslang 12.0 crashes on storing a whole struct that holds `precise` values.
-shared uint waiting;
-shared ivec4 waiting_ab[waiting_max];
-shared ivec2 waiting_c[waiting_max];
-shared vec3 waiting_depth[waiting_max];
-shared uint waiting_id[waiting_max];
 
-// What becomes of an invocation's triangle. One of middling size goes to this workgroup's teams, while they have room.
+// What becomes of an invocation's triangle.
 uint kind_of_triangle(vec4 a, vec4 b, vec4 c, uint id, out ScreenTriangle t) {
     if (max(a.w, max(b.w, c.w)) < FRAME.near_m) return shows_nowhere;
     if (!fits_grid(a, b, c)) {
         list_clip(id);
         return shows_nowhere;
     }
-    uint kind = screen_triangle(a, b, c, id, t) ? kind_of(t) : shows_nowhere;
-    uint at = kind == is_box ? atomicAdd(waiting, 1u) : waiting_max;
-    if (at >= waiting_max) return kind;
-    waiting_ab[at] = ivec4(t.a, t.b);
-    waiting_c[at] = t.c;
-    waiting_depth[at] = t.depth;
-    waiting_id[at] = t.id;
-    return shows_nowhere;
-}
-
-// Each team takes every fourth of them.
-void draw_waiting(uint lane) {
-    for (uint i = lane / team_size; i < min(waiting, waiting_max); i += teams) {
-        ScreenTriangle t;
-        t.a = waiting_ab[i].xy;
-        t.b = waiting_ab[i].zw;
-        t.c = waiting_c[i];
-        t.depth = waiting_depth[i];
-        t.id = waiting_id[i];
-        draw_near(t, pixel_box(t), lane % team_size, team_size);
-    }
+    return screen_triangle(a, b, c, id, t) ? kind_of(t) : shows_nowhere;
 }
 
 void main() {
-    uint number = folded(gl_WorkGroupID);
-    if (number >= FRAME.clusters.count) return;
+    uint listed = folded(gl_WorkGroupID);
+    if (listed >= lists().at.meshlets) return;
+    uint number = Words(FRAME.meshlet_list).at[listed];
     DrawnCluster drawn = drawn_cluster(number);
     ClusterBlocks block = ClusterBlocks(drawn.block);
     uint lane = gl_LocalInvocationIndex, triangles = triangles_of_cluster(drawn);
-    if (lane == 0u) waiting = 0u;
     begin_listing();
     if (lane < vertices_of_cluster(drawn)) {
         vertices[lane] = project(vertex_in_view(block.at.vertices[lane]));
@@ -77,7 +47,6 @@ void main() {
     ToList noted = note_triangle(kind, t);
     barrier();
     draw_rest(noted, list_noted(noted, t), t);
-    draw_waiting(lane);
     if (lane != 0u) return;
     atomicAdd(Counts(FRAME.counts).at.triangles_drawn, triangles);
     atomicAdd(Counts(FRAME.counts).at.meshlets_drawn, 1u);

@@ -6,3 +6,4 @@ DrawnCluster drawn_cluster(uint number) { return DrawnClusters(FRAME.clusters.dr
 uint triangles_of_cluster(DrawnCluster drawn) { return drawn.counts & 255u; }
 uint vertices_of_cluster(DrawnCluster drawn) { return drawn.counts >> 8 & 255u; }
 uint level_of_cluster(DrawnCluster drawn) { return drawn.counts >> 16; }
+uint state_of_cluster(uint number) { return Words(FRAME.cluster_states).at[number]; }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "shaders/shared.h"
+#include "spirv/choose_clusters_comp.h"
 #include "spirv/cluster_raster_comp.h"
 #include "spirv/drape_wants_comp.h"
 #include "spirv/live_pages_comp.h"
@@ -71,7 +72,8 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
           std::span<const std::uint32_t>(drape_wants_comp_spirv),
           std::span<const std::uint32_t>(triangles_comp_spirv),
           std::span<const std::uint32_t>(tops_comp_spirv),
-          std::span<const std::uint32_t>(cluster_raster_comp_spirv)}) {
+          std::span<const std::uint32_t>(cluster_raster_comp_spirv),
+          std::span<const std::uint32_t>(choose_clusters_comp_spirv)}) {
         all.merge(member_offsets(words));
     }
     return all;

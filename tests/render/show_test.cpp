@@ -129,6 +129,40 @@ TEST_P(ShownParts, OfClustersHaveTheColoursOfTheGraph) {
     EXPECT_GT(levels.size(), 2U);
 }
 
+// Rounds of clusters: each pixel has one of two colours, and of a first frame there are both.
+TEST_P(ShownParts, OfClustersTellOfRounds) {
+    const test::ClusterTerrain terrain(test::rough_field(47.0, 8.0, 260, 310));
+    auto scene = Scene::create(*gpu_, pages_in_memory(terrain.field, 1.0, 2), {std::uint64_t{64} << 20U, 0});
+    ASSERT_TRUE(scene.ok()) << scene.error().line();
+    test::draw_by_clusters(*gpu_, terrain, *scene);
+    Camera camera;
+    camera.eye = {46.85, 8.12, *ground_h_m(terrain.field, 46.85, 8.12) + 900.0};
+    camera.attitude = {40.0, -12.0, 0.0};
+    camera.width_px = camera.height_px = side_px;
+    auto renderer = renderer_showing(gpu::show_visible);
+    ASSERT_TRUE(renderer.ok()) << renderer.error().line();
+    auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
+    ASSERT_TRUE(plan.ok()) << plan.error().line();
+    ASSERT_TRUE(renderer->draw(*plan, {}).ok());
+    const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
+    const std::vector<std::uint8_t> rgba = *renderer->read_picture(side_px, side_px);
+    std::size_t before = 0, last = 0, wrong = 0;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (ids[i] == 0) continue;
+        const gpu::uint number = plan->clusters.drawn[(ids[i] - 1) / gpu::cluster_triangles].number;
+        const float light = 0.85F + 0.15F * colour_of_number(number).x;
+        if (is_colour(light * colour_of_round(true), &rgba[4 * i]))
+            ++before;
+        else if (is_colour(light * colour_of_round(false), &rgba[4 * i]))
+            ++last;
+        else
+            ++wrong;
+    }
+    EXPECT_EQ(wrong, 0U);
+    EXPECT_GT(before, 0U);
+    EXPECT_GT(last, 0U);
+}
+
 // Of one level, whatever the eye: what the plan says is what is drawn, without a hole.
 TEST_P(ShownParts, ALevelOfClustersIsDrawnAlone) {
     const test::ClusterTerrain terrain(test::rough_field(47.0, 8.0, 260, 310));
