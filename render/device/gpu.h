@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/device/vulkan.h"
+#include "shaders/shared.h"
 
 namespace oro {
 
@@ -79,6 +80,16 @@ std::string name_of(RasterPath path);
 
 struct Pipelines;  // render/frame/pipelines.h
 
+// How many entries the compute path's lists take in a frame, of those that their buffers hold
+// (shaders/shared.h: boxes_max and so on). Fewer in tests of full lists only.
+struct ListRoom {
+    std::uint32_t boxes{gpu::boxes_max};
+    std::uint32_t large{gpu::large_max};
+    std::uint32_t tasks{gpu::tasks_max};
+    std::uint32_t clips{gpu::clips_max};
+    auto operator<=>(const ListRoom&) const = default;
+};
+
 // Which of a device's pipelines: those of one way of drawing, as render/frame/pipelines.h, PipelineWants,
 // says.
 struct PipelinesKey {
@@ -88,6 +99,7 @@ struct PipelinesKey {
     bool overdraw{};
     bool packed_heights{};
     bool shares_triangles{};
+    ListRoom list_room{};
     auto operator<=>(const PipelinesKey&) const = default;
 };
 

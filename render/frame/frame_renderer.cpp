@@ -50,7 +50,8 @@ PipelineWants wants_of(const FrameRendererOptions& options, bool packed_heights)
             options.leave_out_small && !options.record_positions,
             options.show == gpu::show_overdraw,
             options.shares_triangles,
-            packed_heights};
+            packed_heights,
+            options.list_room};
 }
 
 bool has_packed_heights(const FramePlan& plan) {

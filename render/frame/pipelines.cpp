@@ -43,20 +43,25 @@ Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t>
     return OwnedShader(gpu.device(), handle);
 }
 
-// A program's own constants, and that which all programs that read heights have (shaders/place/heights.glsl).
+// A program's own constants, and those that many programs have: all that read heights
+// (shaders/place/heights.glsl), and all that list triangles (shaders/choose/lists.glsl).
 class AllConstants {
   public:
-    AllConstants(const VkSpecializationInfo* own, bool packed_heights) {
+    AllConstants(const VkSpecializationInfo* own, const Pipelines& pipelines) {
         if (own != nullptr) {
             entries_.assign(own->pMapEntries, own->pMapEntries + own->mapEntryCount);
             const auto* const values = static_cast<const std::byte*>(own->pData);
             values_.assign(values, values + own->dataSize);
         }
         constexpr std::uint32_t heights_packed = 100;
-        const VkBool32 value = packed_heights ? VK_TRUE : VK_FALSE;
-        entries_.push_back({heights_packed, static_cast<std::uint32_t>(values_.size()), sizeof(value)});
-        const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
-        values_.insert(values_.end(), bytes, bytes + sizeof(value));
+        const ListRoom& room = pipelines.list_room;
+        const std::array<std::uint32_t, 5> common{pipelines.packed_heights ? VK_TRUE : VK_FALSE, room.boxes,
+                                                  room.large, room.tasks, room.clips};
+        for (std::uint32_t id = heights_packed; const std::uint32_t& value : common) {
+            entries_.push_back({id++, static_cast<std::uint32_t>(values_.size()), sizeof(value)});
+            const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
+            values_.insert(values_.end(), bytes, bytes + sizeof(value));
+        }
         info_ = {static_cast<std::uint32_t>(entries_.size()), entries_.data(), values_.size(),
                  values_.data()};
     }
@@ -223,7 +228,7 @@ Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& p
                                          &task_constants};
     const VkSpecializationInfo mesh_info{4, stage_constants_map.data(), sizeof(mesh_constants),
                                          &mesh_constants};
-    const AllConstants mesh_all(&mesh_info, pipelines.packed_heights);
+    const AllConstants mesh_all(&mesh_info, pipelines);
     const std::array stages{stage(VK_SHADER_STAGE_TASK_BIT_EXT, task, &task_info),
                             stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, mesh_all.info()),
                             stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
@@ -315,6 +320,7 @@ Result<void> create_choice(const Gpu& gpu, Pipelines& pipelines) {
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants) {
     Pipelines pipelines;
     pipelines.packed_heights = wants.packed_heights;
+    pipelines.list_room = wants.list_room;
     ORO_CHECK(create_layouts(gpu, path, pipelines));
     ORO_CHECK(path == RasterPath::mesh ? create_mesh_path(gpu, wants, pipelines)
                                        : add_raster_pipelines(gpu, wants, pipelines));
@@ -360,7 +366,7 @@ Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& p
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.flags = flags;
-    const AllConstants all(constants, pipelines.packed_heights);
+    const AllConstants all(constants, pipelines);
     info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, all.info());
     info.layout = pipelines.layout.get();
     VkPipeline handle{};
@@ -374,7 +380,7 @@ Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath p
     const bool small = wants.leave_out_small && path == RasterPath::mesh;
     const bool shares = wants.shares_triangles && path == RasterPath::compute;
     std::shared_ptr<Pipelines>& kept = gpu.kept_pipelines(
-        {path, wants.record_positions, small, wants.overdraw, wants.packed_heights, shares});
+        {path, wants.record_positions, small, wants.overdraw, wants.packed_heights, shares, wants.list_room});
     if (!kept) {
         ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants));
         kept = std::make_shared<Pipelines>(std::move(pipelines));

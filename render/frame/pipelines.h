@@ -38,6 +38,7 @@ struct ShadingKind {
 
 struct Pipelines {
     bool packed_heights{};  // as PipelineWants
+    ListRoom list_room;
     // 0 ids, 1 sum, 2 picture: storage images of the shading pass; 3 FrameConstants; depth_binding: the mesh
     // path's depth, sampled
     OwnedSetLayout set;
@@ -79,6 +80,7 @@ struct PipelineWants {
     // Compute path: invocations share triangles as on a GPU, also where a processor draws (tests only).
     bool shares_triangles{false};
     bool packed_heights{false};  // pages may have packed heights: their code would cost others registers
+    ListRoom list_room{};        // compute path: fewer in tests only
 };
 
 // Made once and kept until the device ends, with all that has been added since: drivers take longer to make

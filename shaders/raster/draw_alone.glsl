@@ -9,7 +9,7 @@ const int box_max_px = 1024;      // ... of the largest that a team draws
 
 void list_clip(uint id) {
     uint at = atomicAdd(lists().at.clips, 1u);
-    if (at >= clips_max) {
+    if (at >= clips_room) {
         atomicAdd(Counts(FRAME.counts).at.triangles_not_clipped, 1u);
         return;
     }

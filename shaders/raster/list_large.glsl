@@ -46,7 +46,7 @@ void begin_listing() {
     boxes_here = large_here = tasks_here = many_here = 0u;
     // The longer the list, the more teams there are already, and the less is gained by more of them.
     uint boxes = atomicLoad(lists().at.boxes, gl_ScopeDevice, gl_StorageSemanticsBuffer, gl_SemanticsRelaxed);
-    alone_px = boxes < boxes_max / 8u * 3u ? alone_max_px : max(alone_max_px, alone_of_many_px);
+    alone_px = boxes < boxes_room / 8u * 3u ? alone_max_px : max(alone_max_px, alone_of_many_px);
 }
 
 ToList note_triangle(uint kind, ScreenTriangle t) {
@@ -76,7 +76,7 @@ void list_triangle(uint at, ScreenTriangle t) {
 
 // Square i of a triangle, whose first task it is, as `many` has them.
 void list_square(uvec4 one, uint i) {
-    if (one.x + i >= tasks_max) return;
+    if (one.x + i >= tasks_room) return;
     uint across = one.w & 0xffffu;
     LargeTasks list = LargeTasks(FRAME.task_list);
     list.at[one.x + i].triangle = one.y;
@@ -88,14 +88,14 @@ uint squares_of(uvec4 one) { return (one.w & 0xffffu) * (one.w >> 16); }
 void take_room() {
     if (boxes_here > 0u) {
         first_box = atomicAdd(lists().at.boxes, boxes_here);
-        uint groups = (min(first_box + boxes_here, boxes_max) + boxes_per_group - 1u) / boxes_per_group;
+        uint groups = (min(first_box + boxes_here, boxes_room) + boxes_per_group - 1u) / boxes_per_group;
         atomicMax(lists().at.box_groups[0], min(groups, groups_per_row));
         atomicMax(lists().at.box_groups[1], (groups + groups_per_row - 1u) / groups_per_row);
     }
     if (large_here > 0u) {
         first_large = atomicAdd(lists().at.large, large_here);
         first_task = atomicAdd(lists().at.tasks, tasks_here);
-        uint last = min(first_task + tasks_here, tasks_max);
+        uint last = min(first_task + tasks_here, tasks_room);
         atomicMax(lists().at.task_groups[0], min(last, groups_per_row));
         atomicMax(lists().at.task_groups[1], (last + groups_per_row - 1u) / groups_per_row);
     }
@@ -122,10 +122,10 @@ bool list_noted(ToList noted, ScreenTriangle t) {
     if (boxes_here + large_here == 0u) return true;
     if (gl_LocalInvocationIndex == 0u) take_room();
     barrier();
-    bool box_fits = noted.kind == is_box && first_box + noted.triangle < boxes_max;
+    bool box_fits = noted.kind == is_box && first_box + noted.triangle < boxes_room;
     if (box_fits) list_triangle(large_max + first_box + noted.triangle, t);
     if (large_here == 0u) return noted.kind != is_box || box_fits;
-    bool large_fits = first_large + large_here <= large_max && first_task + tasks_here <= tasks_max;
+    bool large_fits = first_large + large_here <= large_room && first_task + tasks_here <= tasks_room;
     if (noted.kind == is_large) list_large(noted, t, large_fits);
     barrier();
     for (uint each = 0u; each < many_here; ++each) {

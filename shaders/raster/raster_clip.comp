@@ -53,7 +53,7 @@ void main() {
     uint number = folded(gl_WorkGroupID) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     // All of a workgroup go on to the end, where they list together what is large. Those beyond the last triangle go with the first, for
     // nothing.
-    bool there = number < min(lists().at.clips, clips_max);
+    bool there = number < min(lists().at.clips, clips_room);
     uint id = Words(FRAME.clip_list).at[there ? number : 0u], own = triangle_of_id(id);
     vec4 corners[corners_max];
     // Not by functions: each would copy all corners.

@@ -9,7 +9,7 @@ layout(local_size_x = 128) in;
 
 void main() {
     uint number = folded(gl_WorkGroupID);
-    if (number >= min(lists().at.tasks, tasks_max)) return;
+    if (number >= min(lists().at.tasks, tasks_room)) return;
     LargeTask task = LargeTasks(FRAME.task_list).at[number];
     if (task.triangle == no_triangle) return;
     ScreenTriangle t = large_triangle(task.triangle);
