@@ -72,7 +72,7 @@ class FaultRuns {
   public:
     FaultRuns(Command command, int processors);
 
-    // How many calls there are to fail.
+    // How many calls there are to fail; a run tells it, the first time that it is asked.
     long count(const Fault& fault);
     // Tells what is wrong with how the run ended; "" when nothing is.
     std::string fault_of_run(const Fault& fault);
@@ -97,6 +97,7 @@ class FaultRuns {
     std::map<std::string, std::string> after_;  // the folder after an undisturbed run
     std::string out_;
     std::map<std::string, long> ends_;
+    std::map<std::string, long> counts_;
 };
 
 // Runs a fault at places among all that there are: at each of the first `dense`, then at `sparse` of the

@@ -7,6 +7,7 @@
 #include <gdal_utils.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -118,6 +119,11 @@ inline std::filesystem::path local_raster(const HeightField& field, double colum
 
 class StyleTest : public GpuTest {
   protected:
+    void TearDown() override {
+        for (std::optional<DepthPainter>& painter : painters_) painter.reset();
+        GpuTest::TearDown();
+    }
+
     // A style from the text of a file.
     static Result<Style> style_of(const std::string& text, const char* ending, const Camera& camera,
                                   const HeightField& field, const std::optional<SunDirection>& sun = {}) {
@@ -159,7 +165,9 @@ class StyleTest : public GpuTest {
             DepthPictureOptions options;
             options.tau_px = 0.0;
             options.skyline = false;
-            auto picture = DepthPainter(*gpu_, path).draw(*scene, camera, style.frame, options);
+            std::optional<DepthPainter>& painter = painters_[path == RasterPath::mesh ? 0 : 1];
+            if (!painter) painter.emplace(*gpu_, path);
+            auto picture = painter->draw(*scene, camera, style.frame, options);
             EXPECT_TRUE(picture.ok()) << picture.error().line();
             if (!picture.ok()) return std::nullopt;
             if (first) {
@@ -170,6 +178,9 @@ class StyleTest : public GpuTest {
         }
         return first;
     }
+
+    // One for each way of drawing and all pictures: what they need is made once.
+    std::array<std::optional<DepthPainter>, 2> painters_;
 };
 
 }  // namespace oro::test

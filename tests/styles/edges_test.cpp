@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <random>
 #include <span>
 
@@ -50,6 +52,7 @@ class SmoothEdges : public test::GpuTest {
         style_ = style->frame;
     }
     void TearDown() override {
+        renderers_.clear();
         scene_.reset();
         GpuTest::TearDown();
     }
@@ -61,8 +64,13 @@ class SmoothEdges : public test::GpuTest {
         options.smooth_edges = smooth;
         options.keep_depths = true;
         options.path = path;
-        auto renderer = FrameRenderer::create(*gpu_, options);
-        EXPECT_TRUE(renderer.ok()) << renderer.error().line();
+        std::optional<FrameRenderer>& renderer =
+            renderers_[{options.several_samples, smooth, path == RasterPath::mesh}];
+        if (!renderer) {
+            auto made = FrameRenderer::create(*gpu_, options);
+            EXPECT_TRUE(made.ok()) << made.error().line();
+            renderer.emplace(std::move(*made));
+        }
         for (int i = 0; i < count; ++i) {
             auto plan =
                 scene_->settled_plan(camera, {0, 0, width_px, height_px, sample_place(i, count)}, 1.0);
@@ -188,6 +196,8 @@ class SmoothEdges : public test::GpuTest {
     Region region_;
     std::optional<Scene> scene_;
     gpu::FrameStyle style_{};
+    // By what they are made for: several samples, smooth edges, mesh shaders.
+    std::map<std::array<bool, 3>, std::optional<FrameRenderer>> renderers_;
 };
 
 TEST_F(SmoothEdges, AreThoseOfSixtyFourSamples) {

@@ -42,7 +42,7 @@ double way_m(double radius_m, double h_m, double rise, double shell_m, bool down
     return -r * rise + (down ? -1.0 : 1.0) * std::sqrt(square);
 }
 
-double horizon_rad(double radius_m, double h_m) {
+double horizon_at_rad(double radius_m, double h_m) {
     return -std::acos(radius_m / (radius_m + h_m));
 }
 
@@ -59,7 +59,7 @@ glm::dvec3 between(const std::vector<glm::dvec3>& table, int columns, double row
 
 }  // namespace
 
-AirReference::AirReference(const gpu::AirModel& model, double radius_m)
+AirReference::AirReference(const gpu::AirModel& model, double radius_m, bool scattered)
     : molecules_(model.molecules_per_m),
       ozone_(model.ozone_per_m),
       molecules_scale_m_(model.molecules_scale_m),
@@ -70,7 +70,7 @@ AirReference::AirReference(const gpu::AirModel& model, double radius_m)
       albedo_(model.ground_albedo),
       radius_m_(radius_m) {
     make_columns();
-    make_often();
+    if (scattered) make_often();
 }
 
 glm::dvec3 AirReference::dense(double h_m) const {
@@ -85,7 +85,7 @@ glm::dvec3 AirReference::extinction(const glm::dvec3& d) const {
 void AirReference::make_columns() {
     for (int i = 0; i < column_heights; ++i) {
         const double root = static_cast<double>(i) / (column_heights - 1), h_m = top_m * root * root;
-        const double low = horizon_rad(radius_m_, h_m);
+        const double low = horizon_at_rad(radius_m_, h_m);
         for (int j = 0; j < column_angles; ++j) {
             const double part = static_cast<double>(j) / (column_angles - 1);
             const double rise = std::sin(low + part * part * (0.5 * pi - low));
@@ -102,78 +102,98 @@ void AirReference::make_columns() {
     }
 }
 
-glm::dvec3 AirReference::columns(double h_m, double rise) const {
-    const double low = horizon_rad(radius_m_, std::max(h_m, 0.0));
-    const double part =
-        std::clamp((std::asin(std::clamp(rise, -1.0, 1.0)) - low) / (0.5 * pi - low), 0.0, 1.0);
+glm::dvec3 AirReference::columns(double h_m, double angle_rad, double horizon_rad) const {
+    const double part = std::clamp((angle_rad - horizon_rad) / (0.5 * pi - horizon_rad), 0.0, 1.0);
     return between(columns_, column_angles,
                    std::sqrt(std::clamp(h_m / top_m, 0.0, 1.0)) * (column_heights - 1),
                    std::sqrt(part) * (column_angles - 1));
 }
 
 glm::dvec3 AirReference::sunlight(double h_m, double sun_rise) const {
+    return sunlight(h_m, sun_rise, horizon_at_rad(radius_m_, std::max(h_m, 0.0)));
+}
+glm::dvec3 AirReference::sunlight(double h_m, double sun_rise, double horizon_rad) const {
     if (h_m >= top_m) return glm::dvec3(1.0);
     constexpr double disc_rad = 0.00465;
-    const double above =
-        std::asin(std::clamp(sun_rise, -1.0, 1.0)) - horizon_rad(radius_m_, std::max(h_m, 0.0));
+    const double angle_rad = std::asin(std::clamp(sun_rise, -1.0, 1.0)), above = angle_rad - horizon_rad;
     const double part = std::clamp((above + disc_rad) / (2.0 * disc_rad), 0.0, 1.0);
-    return part * part * (3.0 - 2.0 * part) * glm::exp(-extinction(columns(h_m, sun_rise)));
+    if (part <= 0.0) return glm::dvec3(0.0);
+    return part * part * (3.0 - 2.0 * part) * glm::exp(-extinction(columns(h_m, angle_rad, horizon_rad)));
 }
 
 void AirReference::make_often() {
     for (int i = 0; i < often_heights; ++i) {
         const double root = static_cast<double>(i) / (often_heights - 1);
         const double h_m = std::max(1.0, std::min(top_m - 1.0, top_m * root * root));
-        for (int j = 0; j < often_suns; ++j) often_.push_back(glm::log(often_at(h_m, often_sun_deg(j))));
+        const std::vector<Ring> rings = rings_at(h_m);
+        for (int j = 0; j < often_suns; ++j) often_.push_back(glm::log(often_at(rings, often_sun_deg(j))));
     }
 }
 
-// What a line of sight adds to light scattered twice, and what share of it is scattered again.
-AirReference::Twice AirReference::twice_along(double h_m, double rise, double turn, double sun) const {
-    const double to_sun = rise * sun + std::sqrt((1.0 - rise * rise) * (1.0 - sun * sun)) * std::cos(turn);
-    const double ground = rise < 0.0 ? way_m(radius_m_, h_m, rise, 0.0, true) : -1.0;
-    const double way = ground >= 0.0 ? ground : way_m(radius_m_, h_m, rise, top_m, false);
+AirReference::Line AirReference::line_of(double h_m, double rise) const {
+    Line line{};
+    line.h_m = h_m;
+    line.rise = rise;
+    line.ground_m = rise < 0.0 ? way_m(radius_m_, h_m, rise, 0.0, true) : -1.0;
+    const double way = line.ground_m >= 0.0 ? line.ground_m : way_m(radius_m_, h_m, rise, top_m, false);
+    line.through = glm::dvec3(1.0);
+    for (std::size_t s = 0; s < line.steps.size(); ++s) {
+        const double all = static_cast<double>(line.steps.size());
+        const double from = way * std::pow(static_cast<double>(s) / all, 2.0),
+                     to = way * std::pow(static_cast<double>(s + 1) / all, 2.0), t = 0.5 * (from + to);
+        const double at_h_m = along(radius_m_, h_m, rise, t).h_m;
+        const glm::dvec3 d = dense(at_h_m), half = glm::exp(-extinction(d) * (0.5 * (to - from)));
+        line.through *= half;
+        const glm::dvec3 to_eye = line.through * (molecules_ * d.x + dust_scattering_ * d.y) * (to - from);
+        line.steps[s] = {t, at_h_m, horizon_at_rad(radius_m_, std::max(at_h_m, 0.0)), to_eye};
+        line.share += to_eye;
+        line.through *= half;
+    }
+    return line;
+}
+
+// What a line of sight adds to light scattered twice.
+glm::dvec3 AirReference::twice_along(const Line& line, double turn, double sun) const {
+    const double to_sun =
+        line.rise * sun + std::sqrt((1.0 - line.rise * line.rise) * (1.0 - sun * sun)) * std::cos(turn);
     const auto sun_at = [&](double t, double at_h) {
-        return ((radius_m_ + h_m) * sun + t * to_sun) / (radius_m_ + at_h);
+        return ((radius_m_ + line.h_m) * sun + t * to_sun) / (radius_m_ + at_h);
     };
-    Twice twice{glm::dvec3(0.0), glm::dvec3(0.0)};
-    glm::dvec3 through(1.0);
-    constexpr int steps = 48;
-    for (int s = 0; s < steps; ++s) {
-        const double from = way * std::pow(s / 48.0, 2.0), to = way * std::pow((s + 1) / 48.0, 2.0),
-                     t = 0.5 * (from + to);
-        const Along at = along(radius_m_, h_m, rise, t);
-        const glm::dvec3 d = dense(at.h_m), half = glm::exp(-extinction(d) * (0.5 * (to - from)));
-        const glm::dvec3 scattering = molecules_ * d.x + dust_scattering_ * d.y;
-        through *= half;
-        twice.light += through * scattering * (to - from) * sunlight(at.h_m, sun_at(t, at.h_m)) / (4.0 * pi);
-        twice.share += through * scattering * (to - from);
-        through *= half;
+    glm::dvec3 light(0.0);
+    for (const Step& at : line.steps)
+        light += at.to_eye * sunlight(at.h_m, sun_at(at.t_m, at.h_m), at.horizon_rad) / (4.0 * pi);
+    if (line.ground_m >= 0.0) {
+        const double at = sun_at(line.ground_m, 0.0);
+        light += line.through * albedo_ / pi * std::max(at, 0.0) * sunlight(0.0, at);
     }
-    if (ground >= 0.0) {
-        const double at = sun_at(ground, 0.0);
-        twice.light += through * albedo_ / pi * std::max(at, 0.0) * sunlight(0.0, at);
-    }
-    return twice;
+    return light;
 }
 
-// Of all directions: thin rings around the vertical, thinnest at the horizon.
-glm::dvec3 AirReference::often_at(double h_m, double sun_deg) const {
-    constexpr int rings = 16, turns = 10;
-    const double sun = std::sin(sun_deg * pi / 180.0), horizon = horizon_rad(radius_m_, h_m);
-    glm::dvec3 light(0.0), share(0.0);
+// All directions: thin rings around the vertical, thinnest at the horizon.
+std::vector<AirReference::Ring> AirReference::rings_at(double h_m) const {
+    constexpr int count = 16;
+    const double horizon = horizon_at_rad(radius_m_, h_m);
+    std::vector<Ring> rings;
     for (const double side : {-1.0, 1.0}) {
         const double span = 0.5 * pi - side * horizon;
-        for (int k = 0; k < rings; ++k) {
+        for (int k = 0; k < count; ++k) {
             const double low = std::sin(horizon + side * span * std::pow(k / 16.0, 2.0));
             const double high = std::sin(horizon + side * span * std::pow((k + 1) / 16.0, 2.0));
             const double rise = std::sin(horizon + side * span * std::pow((k + 0.5) / 16.0, 2.0));
-            for (int j = 0; j < turns; ++j) {
-                const Twice twice = twice_along(h_m, rise, pi * (j + 0.5) / turns, sun);
-                light += twice.light * (0.5 * std::abs(high - low) / turns);
-                share += twice.share * (0.5 * std::abs(high - low) / turns);
-            }
+            rings.push_back({line_of(h_m, rise), 0.5 * std::abs(high - low)});
         }
+    }
+    return rings;
+}
+
+glm::dvec3 AirReference::often_at(const std::vector<Ring>& rings, double sun_deg) const {
+    constexpr int turns = 10;
+    const double sun = std::sin(sun_deg * pi / 180.0);
+    glm::dvec3 light(0.0), share(0.0);
+    for (const Ring& ring : rings) {
+        for (int j = 0; j < turns; ++j)
+            light += twice_along(ring.line, pi * (j + 0.5) / turns, sun) * (ring.part / turns);
+        share += ring.line.share * ring.part;
     }
     return glm::max(light / (1.0 - share), glm::dvec3(1e-20));
 }

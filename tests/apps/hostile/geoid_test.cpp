@@ -47,8 +47,8 @@ TEST(DamagedGeoidGrid, EveryCommandRefusesAndDoctorNamesTheFile) {
         const nlohmann::json geoid = nlohmann::json::parse(told.out)["geoids"][0];
         EXPECT_EQ(geoid["found"], true);
         EXPECT_NE(geoid["damage"].get<std::string>().find(grid.string()), std::string::npos) << geoid.dump();
-        EXPECT_NE(run_orograph({"doctor"}, damaged).out.find("DAMAGED"), std::string::npos);
     }
+    EXPECT_NE(run_orograph({"doctor"}, damaged).out.find("DAMAGED"), std::string::npos);
     // What is not there at all is another thing: N = 0 stands in, with a note.
     fs::remove(grid);
     const Outcome without = run_orograph({"info", bundled()}, damaged);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -37,11 +38,14 @@ Channel without_dither(const Channel& values) {
     constexpr int reach = 32;
     Channel smooth(values.size());
     for (int y = 0; y < height_px; ++y) {
+        const auto* const row = &values[static_cast<std::size_t>(y * width_px)];
+        int first = 0, sum = std::accumulate(row, row + 2 * reach + 1, 0);
         for (int x = 0; x < width_px; ++x) {
             const int from = std::clamp(x - reach, 0, width_px - 1 - 2 * reach);
-            int sum = 0;
-            for (int i = 0; i <= 2 * reach; ++i)
-                sum += values[static_cast<std::size_t>(y * width_px + from + i)];
+            if (from > first) {
+                sum += row[from + 2 * reach] - row[first];
+                first = from;
+            }
             smooth[static_cast<std::size_t>(y * width_px + x)] =
                 static_cast<std::uint8_t>(std::lround(double(sum) / (2 * reach + 1)));
         }
