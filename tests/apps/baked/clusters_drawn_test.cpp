@@ -101,13 +101,13 @@ TEST_F(ClustersDrawn, WhatDoesNotGoTogetherIsRefused) {
 
 // In a legend each kind says what it is.
 TEST_F(ClustersDrawn, PicturesExplainTheGraph) {
-    for (const char* show : {"clusters", "groups", "levels", "triangles", "meshlets"}) {
+    for (const char* show : {"clusters", "groups", "levels", "triangles", "meshlets", "visible"}) {
         const json said = shot({"--show", show, "--legend"});
         EXPECT_EQ(json::parse(view_in(picture_))["mesh"], "clusters") << show;
         EXPECT_GT(said["triangles"]["drawn"], 0);
     }
-    shot({"--show", "visible"});
-    EXPECT_FALSE(json::parse(view_in(picture_)).contains("mesh")) << "rounds are of blocks";
+    shot({"--show", "overdraw"});
+    EXPECT_FALSE(json::parse(view_in(picture_)).contains("mesh")) << "overdraw is of blocks";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using oro::test::run_orograph;
 
 class ClustersTold : public oro::test::ClustersDrawn {};
 
-// Triangles by level, and what a view takes by either mesh: what is then drawn.
+// Triangles by level, and what a view takes by either mesh: what is then drawn, but for what ground hides.
 TEST_F(ClustersTold, FiguresOfTheGraph) {
     const json info = object_said_by({"info", out_, "--json"})["file"]["clusters"];
     const json& levels = info["by_level"];
@@ -29,7 +29,11 @@ TEST_F(ClustersTold, FiguresOfTheGraph) {
     EXPECT_EQ(above, info["triangles"]);
     EXPECT_NE(run_orograph({"info", out_}).out.find("error up to"), std::string::npos);
     const json meshes = object_said_by(joined({"plan", out_, "-q", "--json", "--tau", "2"}, eye()))["meshes"];
-    EXPECT_EQ(meshes["clusters"]["triangles"], shot({"--tau", "2"})["triangles"]["drawn"]);
+    const auto drawn = [&](const char* occlusion) {
+        return shot({"--tau", "2", "--occlusion", occlusion})["triangles"]["drawn"].get<std::uint64_t>();
+    };
+    EXPECT_EQ(meshes["clusters"]["triangles"], drawn("off"));
+    EXPECT_LT(drawn("on"), drawn("off"));
     EXPECT_LT(meshes["clusters"]["triangles"], meshes["blocks"]["triangles"]);
     for (const char* mesh : {"clusters", "blocks"}) {
         EXPECT_LE(meshes[mesh]["worst_px"], 2.0) << mesh;
