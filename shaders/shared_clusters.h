@@ -21,7 +21,31 @@ struct DrawnCluster {
     uint counts;  // triangles, vertices << 8, level of the graph << 16
     uint number;  // in the graph
     uint group;   // in the graph: that which made it; of one of the original's, that which uses it
+    // It is of the cut where the group that made it stands, and that which uses it does not. Numbers among the
+    // frame's AskedGroup; no_asked_group: there is none, or only that answer goes with what is there.
+    uint made_by;
+    uint used_by;
 };
+ORO_CONST uint no_asked_group = 0xffffffffu;
+// A group that a frame asks whether it stands (shaders/clusters/group_rule.glsl), as its eye sees it. Lengths
+// are over a power of two of metres, so that no square of one is too large or too small.
+struct AskedGroup {
+    float distance;  // of its sphere's centre from the eye,
+    float along;     // ... along the view,
+    float across;    // ... and across it
+    float radius;
+    float error;
+    uint level;  // in the graph
+};
+// What a cut asks of groups.
+struct CutRule {
+    float pixels_per_tangent;  // core/lod/levels.h
+    float corner_tangent;
+    float stretch;  // sqrt(1 + corner_tangent^2)
+    float tau_px;
+    uint level;  // groups up to it stand, and none above; no_cut_level: those do whose error is at most tau_px
+};
+ORO_CONST uint no_cut_level = 0xffffffffu;
 // What a drawn cluster lies in: a box around a point of view coordinates, where light would be straight. Its
 // half axes are along ECEF.
 struct ClusterBox {

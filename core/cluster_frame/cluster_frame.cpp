@@ -44,27 +44,34 @@ class PagesOfPlan {
 
 }  // namespace
 
-void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> clusters, const Camera& camera,
-                   FramePlan& plan) {
+void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> clusters, const ClusterOffer& offer,
+                   const Camera& camera, FramePlan& plan) {
     plan.clusters.on = true;
     const PagesOfPlan pages(plan);
     std::vector<FrameTables::Span> rows, columns;
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
     const Ecef eye = camera.eye_ecef();
-    for (const ResidentCluster& cluster : clusters) {
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+        const ResidentCluster& cluster = clusters[i];
         const std::uint32_t page = pages.over(cluster);
         if (page == gpu::no_page) continue;
         plan.clusters.drawn.push_back(
             {{static_cast<gpu::uint>(cluster.address), static_cast<gpu::uint>(cluster.address >> 32U)},
              page,
              cluster.counts,
-             cluster.number,
-             cluster.group});
+             cluster.offered.cluster,
+             cluster.offered.group,
+             cluster.offered.made_by,
+             cluster.offered.used_by});
+        if (i < offer.in_cut) plan.clusters.in_cut = plan.clusters.drawn.size();
         rows.push_back({cluster.first_row, cluster.last_row});
         columns.push_back({cluster.first_column, cluster.last_column});
         plan.clusters.boxes.push_back(
             {gpu::vec3(view_from_ecef * (cluster.centre.m - eye.m)), cluster.half_axes_m});
     }
+    plan.clusters.asked = offer.asked;
+    plan.constants.cut_rule = offer.rule;
+    plan.constants.clusters_in_cut = static_cast<gpu::uint>(plan.clusters.in_cut);
     plan.constants.clusters.on = 1;
     plan.constants.clusters.count = static_cast<gpu::uint>(plan.clusters.drawn.size());
     plan.constants.clusters.rows = static_cast<gpu::uint>(plan.row_terms.size());

@@ -7,6 +7,17 @@
 
 #include "core/lod/levels.h"
 
+namespace oro::gpu {
+namespace {
+using std::min;
+#define ORO_FUNCTION
+#define ORO_PRECISE
+#include "shaders/clusters/group_rule.glsl"
+#undef ORO_FUNCTION
+#undef ORO_PRECISE
+}  // namespace
+}  // namespace oro::gpu
+
 namespace oro {
 
 GroupRule::GroupRule(const Camera& camera, double tau_px, const Air& air, std::optional<std::uint32_t> level)
@@ -65,9 +76,38 @@ GroupRule GroupRule::coarser(unsigned steps) const {
     return other;
 }
 
+// Spheres grow by more than the rule rounds from a level to the next.
+gpu::AskedGroup GroupRule::measured(const ClusterGroup& group) const {
+    const SeenSphere sphere = seen(group.centre, group.radius_m);
+    const double radius_m = sphere.radius_m * (1.0 + 1.0e-6 * (group.level + 1.0));
+    const double across_m =
+        std::sqrt(sphere.centre_m.x * sphere.centre_m.x + sphere.centre_m.y * sphere.centre_m.y);
+    const double distance_m = glm::length(sphere.centre_m);
+    const double largest_m = std::max({distance_m, radius_m, 1.0});
+    const auto scaled = [down = -std::ilogb(largest_m)](double length_m) {
+        return static_cast<float>(std::ldexp(length_m, down));
+    };
+    return {scaled(distance_m),
+            scaled(-sphere.centre_m.z),
+            scaled(across_m),
+            scaled(radius_m),
+            scaled(group.error_m * sphere.stretch),
+            group.level};
+}
+
+gpu::CutRule GroupRule::cut_rule() const {
+    const double stretch = std::sqrt(1.0 + corner_tangent_ * corner_tangent_);
+    return {static_cast<float>(pixels_per_tangent_), static_cast<float>(corner_tangent_),
+            static_cast<float>(stretch), static_cast<float>(tau_px_),
+            level_ ? std::min(*level_, gpu::no_cut_level - 1) : gpu::no_cut_level};
+}
+
+bool stands(const gpu::AskedGroup& group, const gpu::CutRule& rule) {
+    return gpu::group_stands(group, rule);
+}
+
 bool GroupRule::stands(const ClusterGroup& group) const {
-    if (level_) return group.level <= *level_;
-    return error_px(group) <= tau_px_ * (1.0 - 1.0e-7 * group.level);
+    return oro::stands(measured(group), cut_rule());
 }
 
 }  // namespace oro

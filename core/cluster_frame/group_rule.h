@@ -8,14 +8,17 @@
 #include "core/clusters/cluster_graph.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
+#include "shaders/shared.h"
 
 namespace oro {
 
 // A group stands where its error, projected from the nearest place that it may have, is at most tau: the
-// bound of projected_error_px (shaders/choose/levels.glsl), in double. Light may bend
-// (core/earth/model_view.h, whose spheres grow alike). As errors and spheres grow from a group to those
-// above, so does the bound; rounding is kept out by letting tau shrink by a ten-millionth from a level to the
-// next. So where a group stands all below it stand, whatever order they are asked in.
+// bound of projected_error_px (shaders/choose/levels.glsl). The processor measures a group for an eye, in
+// double; the answer is that of shaders/clusters/group_rule.glsl, in float, here as on the GPU, to the bit.
+// Light may bend (core/earth/model_view.h, whose spheres grow alike). As errors and spheres grow from a group
+// to those above, so does the bound; rounding is kept out by letting tau shrink and spheres grow, by two and
+// by one millionth from a level to the next. So where a group stands all below it stand, whatever order they
+// are asked in.
 //
 // With a level the cut is the same from everywhere (discrete): all groups up to that level stand, none above.
 // Then nothing is promised in pixels.
@@ -26,11 +29,15 @@ class GroupRule {
               std::optional<std::uint32_t> level = {});
 
     [[nodiscard]] bool stands(const ClusterGroup& group) const;
+    // What the GPU needs for the same answer.
+    [[nodiscard]] gpu::AskedGroup measured(const ClusterGroup& group) const;
+    [[nodiscard]] gpu::CutRule cut_rule() const;
     // The same eye where less is asked for: each step is sqrt(2) times the tau, of at least 1/16 px, or one
     // level more. After the last all groups stand.
     [[nodiscard]] GroupRule coarser(unsigned steps) const;
     static constexpr unsigned most_coarser_steps = 64;
-    // The bound itself, pixels; infinite where nothing can be promised.
+    // The bound itself, in double, pixels; infinite where nothing can be promised. At most tau where a group
+    // stands, but for that of a level.
     [[nodiscard]] double error_px(const ClusterGroup& group) const;
 
     // Where a sphere is seen, in view coordinates: light that bends lifts it, and makes it larger.
@@ -51,5 +58,8 @@ class GroupRule {
     Ecef eye_;
     glm::dvec3 up_view_;
 };
+
+// The GPU's own answer (shaders/clusters/group_rule.glsl) compiled for the processor.
+bool stands(const gpu::AskedGroup& group, const gpu::CutRule& rule);
 
 }  // namespace oro

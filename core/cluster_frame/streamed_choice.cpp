@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <optional>
-#include <tuple>
+#include <ranges>
 #include <utility>
 
 namespace oro {
@@ -82,12 +82,16 @@ class StreamedCut {
 
     Result<StreamedChoice> take(RegionClusters& clusters, std::size_t room) {
         want(room);
-        std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> found;
+        OfferedCut offered(clusters_, view_);
         for (const Met& met : met_) {
             if (met.user != no_group && asked_[met.user] != Answer::open) continue;
             const std::uint32_t maker = clusters_.maker(met.cluster);
-            if (maker != no_group && (asked_[maker] == Answer::open || asked_[maker] == Answer::hidden))
+            if (maker != no_group && asked_[maker] == Answer::hidden) continue;
+            if (maker != no_group && asked_[maker] == Answer::open) {
+                if (is_seen(met))
+                    offered.add_coarser(met.look.distance_m, met.cluster, met.user, is_here_(met.cluster));
                 continue;
+            }
             ClusterView::Look look = met.look;
             if (!met.is_known && is_here_(met.cluster)) {
                 ORO_TRY(const ClusterReach* const reach, clusters.reach(met.cluster));
@@ -97,12 +101,16 @@ class StreamedCut {
             drawn.beyond_frustum += look.seen == ClusterView::Seen::beyond_frustum ? 1U : 0U;
             drawn.beyond_horizon += look.seen == ClusterView::Seen::beyond_horizon ? 1U : 0U;
             if (look.seen != ClusterView::Seen::yes || !is_here_(met.cluster)) continue;
-            found.emplace_back(look.distance_m, met.cluster, maker == no_group ? met.user : maker);
+            offered.add_of_cut(look.distance_m, met.cluster, met.user);
         }
-        std::ranges::sort(found);
-        for (const auto& [distance_m, cluster, group] : found) {
-            choice_.drawn.clusters.push_back(cluster);
-            choice_.drawn.groups.push_back(group);
+        std::vector<std::uint32_t> opened;
+        for (const Opened& group : opened_)
+            if (asked_[group.group] == Answer::open) opened.push_back(group.group);
+        choice_.offer = offered.take(opened);
+        for (const OfferedCluster& cluster :
+             choice_.offer.clusters | std::views::take(choice_.offer.in_cut)) {
+            choice_.drawn.clusters.push_back(cluster.cluster);
+            choice_.drawn.groups.push_back(cluster.group);
         }
         return std::move(choice_);
     }

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "core/cluster_frame/cluster_choice.h"
+#include "core/cluster_frame/cluster_offer.h"
 
 namespace oro {
 
 struct StreamedChoice {
     ClusterChoice drawn;  // all of them are here
+    ClusterOffer offer;   // that the GPU makes the same of
     // What should come, coarsest first, as groups need not be asked for before those above them are known.
     std::vector<std::uint32_t> groups_wanted;    // to be read
     std::vector<std::uint32_t> clusters_wanted;  // to be here, and to stay; as many as there is room for

@@ -54,7 +54,7 @@ Result<void> ClusterScene::add_to(FramePlan& plan, const Camera& camera, const T
     view_.reset();
     plan.clusters.missing = plan.clusters.without_room = without_room;
     most_without_room_ = std::max(most_without_room_, without_room);
-    return draw(choice, camera, plan);
+    return draw(choice, offer_of(choice), camera, plan);
 }
 
 Result<void> ClusterScene::add_what_is_here(FramePlan& plan, const Camera& camera, const Tile& tile,
@@ -71,7 +71,7 @@ Result<void> ClusterScene::add_what_is_here(FramePlan& plan, const Camera& camer
     view_.emplace(camera, tile, tau_px, model, occluder, coding, level_);
     ORO_TRY(StreamedChoice choice, choose_here());
     want(choice);
-    ORO_CHECK(draw(choice.drawn, camera, plan));
+    ORO_CHECK(draw(choice.drawn, choice.offer, camera, plan));
     drawn_ = std::move(choice.drawn.clusters);
     plan.clusters.missing = choice.missing;
     plan.clusters.without_room = choice.without_room;
@@ -128,17 +128,17 @@ Result<bool> ClusterScene::advance() {
            (choice.without_room == 0) != has_room_;
 }
 
-Result<void> ClusterScene::draw(const ClusterChoice& choice, const Camera& camera, FramePlan& plan) {
+Result<void> ClusterScene::draw(const ClusterChoice& choice, const ClusterOffer& offer, const Camera& camera,
+                                FramePlan& plan) {
     std::vector<ResidentCluster> resident;
-    resident.reserve(choice.clusters.size());
-    for (std::size_t i = 0; i < choice.clusters.size(); ++i) {
-        const ClusterStore::Held held = store_.use(choice.clusters[i]);
-        ORO_TRY(const ClusterReach* const reach, clusters_->reach(choice.clusters[i]));
-        resident.push_back({held.address, held.counts, choice.clusters[i], choice.groups[i], reach->first_row,
-                            reach->last_row, reach->first_column, reach->last_column, reach->centre,
-                            reach->half_axes_m});
+    resident.reserve(offer.clusters.size());
+    for (const OfferedCluster& offered : offer.clusters) {
+        const ClusterStore::Held held = store_.use(offered.cluster);
+        ORO_TRY(const ClusterReach* const reach, clusters_->reach(offered.cluster));
+        resident.push_back({held.address, held.counts, offered, reach->first_row, reach->last_row,
+                            reach->first_column, reach->last_column, reach->centre, reach->half_axes_m});
     }
-    draw_clusters(clusters_->grid(), resident, camera, plan);
+    draw_clusters(clusters_->grid(), resident, offer, camera, plan);
     plan.clusters.groups_opened = choice.groups_opened;
     plan.clusters.beyond_frustum = choice.beyond_frustum;
     plan.clusters.beyond_horizon = choice.beyond_horizon;

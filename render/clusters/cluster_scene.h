@@ -48,7 +48,8 @@ class ClusterScene {
 
   private:
     ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store);
-    Result<void> draw(const ClusterChoice& choice, const Camera& camera, FramePlan& plan);
+    Result<void> draw(const ClusterChoice& choice, const ClusterOffer& offer, const Camera& camera,
+                      FramePlan& plan);
     Result<StreamedChoice> choose_here();
     void want(const StreamedChoice& choice);
     Result<void> send(ClusterStream::Ready ready);

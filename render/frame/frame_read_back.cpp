@@ -156,6 +156,10 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_edges(std::size_t pages) 
                       pages * gpu::edges_words);
 }
 
+Result<std::vector<std::uint32_t>> FrameRenderer::read_cluster_states(std::size_t clusters) {
+    return read_words(grids_[0].cluster_states(), 0, clusters);
+}
+
 Result<std::vector<float>> FrameRenderer::read_air() {
     assert(air_.entries().handle);
     ORO_TRY(const std::vector<std::uint32_t> bits,

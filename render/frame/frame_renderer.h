@@ -91,6 +91,8 @@ class FrameRenderer {
     Result<std::vector<std::uint32_t>> read_edges(std::size_t pages);
     // ... and 256 bits: the nodes that may stand for what they cover.
     Result<std::vector<std::uint32_t>> read_accepted(std::size_t pages);
+    // Of each cluster that the last frame was offered: cluster_... bits (shaders/shared_clusters.h).
+    Result<std::vector<std::uint32_t>> read_cluster_states(std::size_t clusters);
     // The tables of the air (shaders/shared.h, AirModel) of the last frame, as floats; its style had air.
     Result<std::vector<float>> read_air();
     // With record_positions: of every page of the last frame, 129 x 129 positions relative to the eye, in its

@@ -17,6 +17,7 @@ constexpr VkDeviceSize cluster_groups_bytes = 16;
 // Addresses that straddle 8 bytes cost 2 to 4 % of a frame.
 static_assert((offsetof(gpu::FrameConstants, clusters) + offsetof(gpu::ClusterTable, drawn)) % 8 == 0);
 static_assert(offsetof(gpu::FrameConstants, sights) % 8 == 0);
+static_assert(offsetof(gpu::FrameConstants, asked_groups) % 8 == 0);
 
 // Where the parts of a grid's data lie, in bytes.
 struct DataLayout {
@@ -24,7 +25,8 @@ struct DataLayout {
     VkDeviceSize columns;
     VkDeviceSize before;
     VkDeviceSize clusters;  // workgroups of their draw, then they
-    VkDeviceSize boxes;     // theirs
+    VkDeviceSize asked;     // FrameConstants::asked_groups
+    VkDeviceSize boxes;     // of clusters
     VkDeviceSize size;
 };
 DataLayout layout_of(const FramePlan& plan) {
@@ -34,10 +36,12 @@ DataLayout layout_of(const FramePlan& plan) {
     layout.columns = aligned(layout.rows + plan.row_terms.size() * sizeof(gpu::RowTerms));
     layout.before = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
     layout.clusters = aligned(layout.before + plan.pages.size() * sizeof(gpu::uint));
-    layout.boxes = layout.clusters;
-    if (plan.clusters.on)
-        layout.boxes = aligned(layout.clusters + cluster_groups_bytes +
+    layout.asked = layout.boxes = layout.clusters;
+    if (plan.clusters.on) {
+        layout.asked = aligned(layout.clusters + cluster_groups_bytes +
                                plan.clusters.drawn.size() * sizeof(gpu::DrawnCluster));
+        layout.boxes = aligned(layout.asked + plan.clusters.asked.size() * sizeof(gpu::AskedGroup));
+    }
     layout.size = layout.boxes;
     if (plan.constants.occlusion != 0) layout.size += plan.clusters.boxes.size() * sizeof(gpu::ClusterBox);
     return layout;
@@ -134,7 +138,8 @@ Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const FramePlan& plan) 
     if (cluster_states_.size >= bytes) return {};
     ORO_TRY(cluster_states_,
             create_buffer(gpu, std::max(bytes, 2 * cluster_states_.size),
-                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                              VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                           MemoryKind::device, "cluster states"));
     return {};
 }
@@ -213,6 +218,7 @@ void GridFrame::address(FramePlan& plan) const {
     constants.column_terms = address_words(data_.address + layout.columns);
     if (plan.clusters.on) {
         constants.clusters.drawn = address_words(data_.address + layout.clusters + cluster_groups_bytes);
+        constants.asked_groups = address_words(data_.address + layout.asked);
         constants.cluster_boxes = address_words(data_.address + layout.boxes);
         constants.cluster_states = address_words(cluster_states_.address);
         constants.clusters_turn = clusters_turn_ + 1;
@@ -261,6 +267,7 @@ void GridFrame::fill(const FramePlan& plan) {
                                               (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1};
     std::memcpy(staging_.mapped + layout.clusters, groups.data(), sizeof(groups));
     copy(layout.clusters + cluster_groups_bytes, plan.clusters.drawn);
+    copy(layout.asked, plan.clusters.asked);
     if (plan.constants.occlusion != 0) copy(layout.boxes, plan.clusters.boxes);
 }
 

@@ -49,6 +49,7 @@ class GridFrame {
     [[nodiscard]] std::size_t page_capacity() const { return page_capacity_; }
     // Where data() holds the workgroups of an indirect draw of the frame's clusters; 0: it has none.
     [[nodiscard]] VkDeviceSize cluster_groups() const { return cluster_groups_; }
+    [[nodiscard]] const Buffer& cluster_states() const { return cluster_states_; }
 
     CasterBuffers casters;
     DrapeWants drape;

@@ -1,6 +1,6 @@
 #version 460
-// A round of clusters, one invocation for each that the frame's cut may draw: those that the round draws. The first round draws the
-// nearest, and those that the last frame saw; a later one those that the ground drawn so far does not hide. The last asks of all, so that
+// A round of clusters, one invocation for each that the frame's cut may draw: those that the round draws. The first round makes the cut,
+// and draws the nearest, and those that the last frame saw; a later one those that the ground drawn so far does not hide. The last asks of all, so that
 // the next frame knows which are seen. The same steps as of a page's nodes (cull.comp, uncover.comp).
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
@@ -9,10 +9,12 @@
 #include "shaders/place/bend.glsl"
 #include "shaders/choose/occlusion.glsl"
 #include "shaders/clusters/drawn.glsl"
+#include "shaders/clusters/group_rule.glsl"
 
 layout(local_size_x = 64) in;  // clusters_per_choice
 layout(constant_id = 2) const bool is_first = true;
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ClusterBoxes { ClusterBox at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer AskedGroups { AskedGroup at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer SeenBlocks { ClusterBlock at; };
 
 shared uint tested_here;
@@ -34,10 +36,25 @@ bool was_seen(uint number) {
     return FRAME.clusters_before != 0u && SeenBlocks(drawn_cluster(number).block).at.seen == FRAME.clusters_before;
 }
 
+bool asked_stands(uint number) { return group_stands(AskedGroups(FRAME.asked_groups).at[number], FRAME.cut_rule); }
+
+bool is_of_cut(uint number) {
+    DrawnCluster cluster = drawn_cluster(number);
+    return (cluster.made_by == no_asked_group || asked_stands(cluster.made_by)) &&
+           (cluster.used_by == no_asked_group || !asked_stands(cluster.used_by));
+}
+
+// The cut's clusters come first: coarser ones are as far as the last of them.
+bool is_in_turn(uint number) {
+    uint count = max(FRAME.clusters_in_cut, 1u);
+    return is_looked_at(min(number, count - 1u), count);
+}
+
 // What the first round makes of a cluster.
 uint first_state(uint number) {
+    if (!is_of_cut(number)) return 0u;
     if (FRAME.occlusion == 0u) return cluster_kept | cluster_drawn_now;
-    bool now = is_looked_at(number, FRAME.clusters.count) || was_seen(number);
+    bool now = is_in_turn(number) || was_seen(number);
     return now ? cluster_kept | cluster_drawn | cluster_drawn_now : cluster_kept;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include "core/cluster_frame/region_clusters.h"
@@ -32,7 +33,8 @@ inline void draw_by_clusters(const Gpu& gpu, const ClusterTerrain& terrain, Scen
 inline bool ground_may_be_over_the_eye(const ClusterTerrain& terrain, const Camera& camera,
                                        const FramePlan& plan) {
     const double ground_m = ground_h_m(terrain.field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
-    return std::ranges::any_of(plan.clusters.drawn, [&](const gpu::DrawnCluster& drawn) {
+    const auto cut = plan.clusters.drawn | std::views::take(plan.clusters.in_cut);
+    return std::ranges::any_of(cut, [&](const gpu::DrawnCluster& drawn) {
         if (terrain.graph.clusters[drawn.number].made_by == no_group) return false;
         const ClusterGroup& group = terrain.graph.groups[drawn.group];
         return group.error_m >= camera.eye.h_m - ground_m &&

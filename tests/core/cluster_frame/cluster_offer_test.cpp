@@ -1,0 +1,112 @@
+// What a frame offers the GPU: whatever rule it goes by, each place is covered once.
+#include <cstdio>
+#include <random>
+#include <ranges>
+
+#include "tests/core/cluster_frame/streamed_choices.h"
+
+namespace oro {
+namespace {
+
+using test::Numbers;
+using Seen = ClusterView::Seen;
+
+class ClusterOffers : public test::StreamedChoices {
+  protected:
+    // As choose_clusters.comp does.
+    static ClusterChoice cut_of_offer(const ClusterOffer& offer, const gpu::CutRule& rule) {
+        const auto stands_in = [&](std::uint32_t asked) { return stands(offer.asked[asked], rule); };
+        ClusterChoice cut;
+        for (const OfferedCluster& cluster : offer.clusters) {
+            if (cluster.made_by != gpu::no_asked_group && !stands_in(cluster.made_by)) continue;
+            if (cluster.used_by != gpu::no_asked_group && stands_in(cluster.used_by)) continue;
+            cut.clusters.push_back(cluster.cluster);
+        }
+        return cut;
+    }
+    // By loops over all of the graph: groups that give way, but may stand: all that they made, and that all
+    // above them made, is here, as far as it can be seen.
+    Numbers may_stand(RegionClusters& region, const ClusterView& view, const Numbers& gave_way,
+                      const Numbers& here) {
+        Numbers may = gave_way;
+        for (bool changed = true; changed;) {
+            changed = std::erase_if(may, [&](std::uint32_t number) {
+                          return lacks(region, view, number, gave_way, here) ||
+                                 lower_must_give_way(number, gave_way, may);
+                      }) > 0;
+        }
+        return may;
+    }
+    bool lacks(RegionClusters& region, const ClusterView& view, std::uint32_t number, const Numbers& gave_way,
+               const Numbers& here) {
+        const ClusterGroup& group = graph_.groups[number];
+        for (std::uint32_t made = group.first_made; made < group.first_made + group.made; ++made) {
+            const std::uint32_t user = graph_.clusters[made].used_by;
+            if (user != no_group && !gave_way.contains(user)) continue;
+            if (!here.contains(made) && view.look_at(**region.reach(made)).seen == Seen::yes) return true;
+        }
+        return false;
+    }
+    bool lower_must_give_way(std::uint32_t number, const Numbers& gave_way, const Numbers& may) {
+        return std::ranges::any_of(graph_.members_of(graph_.groups[number]), [&](std::uint32_t member) {
+            const std::uint32_t maker = graph_.clusters[member].made_by;
+            return maker != no_group && gave_way.contains(maker) && !may.contains(maker);
+        });
+    }
+};
+
+// The frame's own rule makes its cut; a coarser one a coarser cut, as far as there is one.
+TEST_F(ClusterOffers, AreACutByAnyRuleThatAsksForLess) {
+    constexpr unsigned seed = 335;
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const test::Whole whole = test::whole_of(terrain_.surface);
+    std::size_t coarser = 0, bound = 0, asked = 0;
+    for (int i = 0; i < 40; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+        const auto region = clusters();
+        for (std::uint32_t group = 0; group < graph_.groups.size(); ++group) read(*region, group);
+        const double here_share = i % 4 == 0 ? 1.0 : 1.0 - 0.3 * std::pow(unit(random), 4.0);
+        Numbers here(region->roots().begin(), region->roots().end());
+        for (std::uint32_t cluster = 0; cluster < graph_.clusters.size(); ++cluster)
+            if (unit(random) <= here_share) here.insert(cluster);
+        const Camera camera = test::random_camera(random, terrain_.field);
+        const ClusterView eye = view(camera, 1.0);
+        const Numbers gave_way = brute_force(*region, eye, here);
+        const StreamedChoice choice = choose(*region, eye, 1'000'000, here);
+        EXPECT_EQ(cut_of_offer(choice.offer, choice.offer.rule).clusters, choice.drawn.clusters);
+        asked += choice.offer.asked.size();
+        const Numbers may = may_stand(*region, eye, gave_way, here);
+        for (const ClusterView& other :
+             {view(camera, 1.5), view(camera, 8.0), view(camera, 1.0, 1 + i % 6)}) {
+            Numbers gives_way = gave_way;
+            std::erase_if(gives_way, [&](std::uint32_t group) {
+                return may.contains(group) && other.stands(graph_.groups[group]);
+            });
+            const ClusterChoice cut = cut_of_offer(choice.offer, other.cut_rule());
+            expect_cut(*region, eye, whole, gives_way, cut);
+            coarser += gives_way.size() < gave_way.size() ? 1 : 0;
+            bound += may.size() < gave_way.size() ? 1 : 0;
+        }
+    }
+    std::printf("seed %u: 40 eyes, %zu groups asked, %zu of 120 cuts coarser than the frame's, %zu bound\n",
+                seed, asked, coarser, bound);
+    EXPECT_GT(asked, 400U);
+    EXPECT_GT(coarser, 40U);
+    EXPECT_GT(bound, 10U);
+}
+
+// A picture that waits asks nothing: its cut is all that is there.
+TEST_F(ClusterOffers, OfAChoiceAskNothing) {
+    const auto region = clusters();
+    std::mt19937_64 random(336);
+    const ClusterChoice choice =
+        *choose_clusters(*region, view(test::random_camera(random, terrain_.field), 1.0));
+    const ClusterOffer offer = offer_of(choice);
+    EXPECT_TRUE(offer.asked.empty());
+    EXPECT_EQ(cut_of_offer(offer, offer.rule).clusters, choice.clusters);
+    EXPECT_EQ(offer.in_cut, choice.clusters.size());
+}
+
+}  // namespace
+}  // namespace oro
