@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using Words = std::vector<std::string>;
 using oro::test::object_said_by;
 using oro::test::Outcome;
 using oro::test::run_orograph;
+using oro::test::Words;
 
 // Two tiles of 1,201 x 1,201 posts, 180 degrees from each other, all 500 and all 700 m high but for some
 // hills.

@@ -18,7 +18,7 @@ using oro::test::Pixels;
 using oro::test::pixels_of;
 using oro::test::run_orograph;
 using oro::test::run_program;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 class GridsUnderImages : public ::testing::Test {
   protected:

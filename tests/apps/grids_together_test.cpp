@@ -23,7 +23,7 @@ using oro::test::object_said_by;
 using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::run_program;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 class GridsOverEachOther : public ::testing::Test {
   protected:

@@ -16,7 +16,7 @@ namespace {
 using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::run_program;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 const Words commands{"shot",  "panorama", "view",     "compare", "plan", "trade", "sun",
                      "sight", "profile",  "viewshed", "bake",    "info", "doctor"};

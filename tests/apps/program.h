@@ -5,7 +5,26 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/test_data.h"
+
 namespace oro::test {
+
+using Words = std::vector<std::string>;
+inline Words joined(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+inline bool says(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+}
+
+// Exit codes that are not 0.
+inline constexpr int failed = 1, usage = 2, no_data = 3, no_device = 4;
+
+// The region that comes with the program.
+inline std::string bundled() {
+    return (bundled_data() / "jacksboro.tif").string();
+}
 
 // What is unlike a plain run.
 struct Circumstances {

@@ -8,14 +8,11 @@
 #include "tests/support/test_data.h"
 
 namespace {
+using oro::test::bundled;
 using oro::test::names_in;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
+using oro::test::Words;
 
 struct Refused {
     Words words;

@@ -17,7 +17,7 @@ using oro::test::expect_refusal;
 using oro::test::object_said_by;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 // Hills of 100 x 80 posts, 50 m apart, around one spike; an Esri ASCII grid has no CRS.
 std::string hills() {

@@ -10,10 +10,11 @@
 #include "tests/support/test_data.h"
 
 namespace {
+using oro::test::bundled;
 using oro::test::expect_refusal;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 nlohmann::json told(Words words) {
     words.insert(words.begin(), "sun");
@@ -21,10 +22,6 @@ nlohmann::json told(Words words) {
     const Outcome outcome = run_orograph(words);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return outcome.exit_code == 0 ? nlohmann::json::parse(outcome.out) : nlohmann::json();
-}
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
 }
 
 // US Naval Observatory, Rise and Set for the Sun, 36.95 N 112.52 W: 5:11 and 19:53 in -07:00.

@@ -11,18 +11,15 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
+using oro::test::failed;
 using oro::test::names_in;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
-
-constexpr int failed = 1, usage = 2;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
+using oro::test::usage;
+using oro::test::Words;
 
 class Accuracy : public testing::Test {
   protected:

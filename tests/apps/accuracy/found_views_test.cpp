@@ -12,7 +12,7 @@
 namespace {
 using nlohmann::json;
 using oro::test::object_said_by;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 json verified(Words words, const std::string& size = "160x100") {
     words.insert(words.begin(), "shot");

@@ -19,8 +19,8 @@ using oro::test::Pixels;
 using oro::test::pixels_of;
 using oro::test::run_orograph;
 using oro::test::with_pixels;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
 
 class ComparedPixels : public testing::Test {
   protected:

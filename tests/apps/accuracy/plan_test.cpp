@@ -15,30 +15,33 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
+using oro::test::failed;
 using oro::test::names_in;
+using oro::test::no_data;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
+using oro::test::says;
+using oro::test::usage;
+using oro::test::Words;
 
-constexpr int failed = 1, usage = 2, no_data = 3;
-
-const std::set<std::string> effects{"no geoid",
-                                    "no ellipsoid",
-                                    "no curve of the Earth",
-                                    "no refraction",
-                                    "no double-precision posts",
-                                    "no double-precision view",
-                                    "no 32-bit heights",
-                                    "heights in steps of 0.5 mm",
-                                    "no full detail",
-                                    "positions rounded to float32",
-                                    "distances rounded to float32",
-                                    "corners in steps of 1/256 px",
-                                    "flat triangles between posts",
-                                    "ground between the posts",
-                                    "errors of the source"};
+const std::set<std::string> all_effects{"no geoid",
+                                        "no ellipsoid",
+                                        "no curve of the Earth",
+                                        "no refraction",
+                                        "no double-precision posts",
+                                        "no double-precision view",
+                                        "no 32-bit heights",
+                                        "heights in steps of 0.5 mm",
+                                        "no full detail",
+                                        "positions rounded to float32",
+                                        "distances rounded to float32",
+                                        "corners in steps of 1/256 px",
+                                        "flat triangles between posts",
+                                        "ground between the posts",
+                                        "errors of the source"};
 // As the table has them: parts of the model by what they are, errors by their names.
 const Words parts{"geoid",
                   "ellipsoid",
@@ -48,13 +51,9 @@ const Words parts{"geoid",
                   "double-precision view",
                   "32-bit heights",
                   "full detail"};
-const Words errors{"heights in steps of 0.5 mm",   "positions rounded to float32",
-                   "distances rounded to float32", "corners in steps of 1/256 px",
-                   "flat triangles between posts", "ground between the posts"};
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
+const Words table_errors{"heights in steps of 0.5 mm",   "positions rounded to float32",
+                         "distances rounded to float32", "corners in steps of 1/256 px",
+                         "flat triangles between posts", "ground between the posts"};
 
 Outcome plan(const Words& more) {
     Words words{"plan",      bundled(), "--at",    "36.6,-84.2", "--above", "300",
@@ -101,10 +100,6 @@ std::string line_of(const std::string& text, const std::string& begin) {
     return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
 }
 
-bool says(const std::string& text, const std::string& words) {
-    return text.find(words) != std::string::npos;
-}
-
 // The words that follow a row's name: its columns.
 Words columns_of(const std::string& text, const std::string& name) {
     std::istringstream rest(line_of(text, name).substr(name.size()));
@@ -115,7 +110,7 @@ Words columns_of(const std::string& text, const std::string& name) {
 TEST(Plan, TableNamesEveryEffectWithFiguresAndWhatIsLargest) {
     const Outcome outcome = plan({"--accuracy", "draft"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    for (const Words* names : {&parts, &errors}) {
+    for (const Words* names : {&parts, &table_errors}) {
         for (const std::string& name : *names) {
             SCOPED_TRACE(name);
             const Words columns = columns_of(outcome.out, name);
@@ -152,7 +147,7 @@ TEST(Plan, TableNamesEveryEffectWithFiguresAndWhatIsLargest) {
 TEST(Plan, FiguresAreAligned) {
     const std::string table = plan({}).out;
     std::set<std::size_t> points;
-    for (const Words* names : {&parts, &errors}) {
+    for (const Words* names : {&parts, &table_errors}) {
         for (const std::string& name : *names) {
             const std::string line = line_of(table, name);
             const std::size_t point = line.find('.', 52);
@@ -203,14 +198,14 @@ TEST(Plan, JsonHasEveryEffectWithNumbers) {
             EXPECT_GE(worst, typical) << effect;
         }
     }
-    EXPECT_EQ(named, effects);
+    EXPECT_EQ(named, all_effects);
     EXPECT_EQ(said.at("in_view"), true);
     EXPECT_EQ(said.at("tolerance_px"), 1.0);
     // The eye is 300 m over the ground, and the picture's lower rim looks 5 + 22.5 degrees down.
     EXPECT_GT(said.at("nearest_m").get<double>(), 300.0);
     EXPECT_LT(said.at("nearest_m").get<double>(), 3000.0);
     EXPECT_GE(said.at("median_distance_m").get<double>(), said.at("nearest_m").get<double>());
-    EXPECT_TRUE(effects.contains(said.at("dominates").get<std::string>()));
+    EXPECT_TRUE(all_effects.contains(said.at("dominates").get<std::string>()));
     EXPECT_EQ(said.at("cheapest").at("holds"), true);
     EXPECT_LE(said.at("cheapest").at("predicted_px").get<double>(), 1.0);
     EXPECT_EQ(said.at("view").at("size_px"), json({96, 54}));
@@ -281,7 +276,7 @@ TEST(Plan, ToleranceJudges) {
     const json narrow = planned(plan({"--json", "--tolerance", "0.01px"}));
     EXPECT_EQ(narrow.at("tolerance_px"), 0.01);
     int changed = 0;
-    for (const std::string& effect : effects) {
+    for (const std::string& effect : all_effects) {
         const json a = effect_in(wide, effect), b = effect_in(narrow, effect);
         EXPECT_EQ(a.at("size"), b.at("size")) << effect << ": a tolerance changes no prediction";
         EXPECT_EQ(a.at("below_tolerance"), true) << effect;
@@ -347,7 +342,7 @@ TEST(Plan, OddViewsHaveFiguresOrNothingInView) {
         SCOPED_TRACE(view[0] + " " + view[1]);
         Words words{"plan", bundled(), "--at", "36.6,-84.2", "--above", "300", "--pitch", "-20", "--json"};
         words.insert(words.end(), view.begin(), view.end());
-        EXPECT_EQ(planned(run_orograph(words)).at("effects").size(), effects.size());
+        EXPECT_EQ(planned(run_orograph(words)).at("effects").size(), all_effects.size());
     }
     for (const char* above : {"0", "-50", "1e9"}) {
         SCOPED_TRACE(above);

@@ -20,8 +20,8 @@ using oro::test::names_in;
 using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::view_in;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
 
 // A tile of 1201 x 1201 posts: hills of up to 900 m, or flat.
 std::string tile(bool flat, int more_m = 0) {

@@ -11,19 +11,15 @@
 
 namespace {
 using nlohmann::json;
+using oro::test::joined;
 using oro::test::object_said_by;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
-json effect_in(const json& plan, const std::string& kind) {
+json effect_of_kind(const json& plan, const std::string& kind) {
     for (const json& effect : plan.at("effects"))
         if (effect.at("kind") == kind) return effect;
     ADD_FAILURE() << "no effect " << kind;
     return json::object();
-}
-
-Words joined(Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
 }
 
 // From 60 km at 36.6 N: the meridian's radius of curvature M is 6,358,122 m (a (1 - e^2) / (1 - e^2
@@ -47,10 +43,10 @@ TEST(Sideways, ASphereStraightDownIsSeenByAllThatMeasure) {
     EXPECT_LT(displacement_px, 2.0);
     EXPECT_EQ(error.at("largest_px").get<double>(), displacement_px);
     const json plan = object_said_by(joined({"plan", data, "--json"}, view));
-    const double bound_px = effect_in(plan, "sphere").at("size").at("worst_px").get<double>();
+    const double bound_px = effect_of_kind(plan, "sphere").at("size").at("worst_px").get<double>();
     EXPECT_GE(bound_px, displacement_px);
     EXPECT_LE(bound_px, 3.0 * displacement_px) << "and says little";
-    EXPECT_EQ(effect_in(plan, "sphere").at("bound"), "estimated");
+    EXPECT_EQ(effect_of_kind(plan, "sphere").at("bound"), "estimated");
     EXPECT_GE(plan.at("total").at("worst_px").get<double>(), displacement_px);
     // A tolerance of half of that: no bundle holds it on a sphere, and all say so.
     const json chosen = object_said_by(joined({"shot", data, "--out", picture, "--overwrite", "--json", "-q",

@@ -10,19 +10,13 @@
 
 namespace {
 using nlohmann::json;
+using oro::test::bundled;
 using oro::test::expect_refusal;
+using oro::test::joined;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
-
-Words joined(Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-bool says(const std::string& text, const std::string& words) {
-    return text.find(words) != std::string::npos;
-}
+using oro::test::says;
+using oro::test::Words;
 
 std::string line_with(const std::string& text, const std::string& words) {
     const std::size_t at = text.find(words);
@@ -94,10 +88,6 @@ TEST(Unseen, TheTileThatIsMissingIsNamedWithItsBound) {
         << told.planned;
     const std::string row = line_with(told.planned, "ground beyond the data   ");
     EXPECT_TRUE(says(row, " " + px + " ") && says(row, "in 640 of 640 columns")) << row;
-}
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
 }
 
 TEST(Unseen, TheBundledRegionEndsToo) {

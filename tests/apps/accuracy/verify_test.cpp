@@ -14,6 +14,7 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
 using oro::test::names_in;
@@ -22,11 +23,7 @@ using oro::test::Outcome;
 using oro::test::Pixels;
 using oro::test::pixels_of;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
+using oro::test::Words;
 
 class Verify : public testing::Test {
   protected:

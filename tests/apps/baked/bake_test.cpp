@@ -21,15 +21,16 @@ using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::Circumstances;
 using oro::test::expect_refusal;
+using oro::test::failed;
 using oro::test::hills;
 using oro::test::joined;
 using oro::test::names_in;
+using oro::test::no_data;
 using oro::test::Outcome;
 using oro::test::run_orograph;
+using oro::test::usage;
 using oro::test::Words;
 using oro::test::write_bytes;
-
-constexpr int failed = 1, usage = 2, no_data = 3;
 
 TEST_F(Bake, TellsWhatItWrote) {
     const fs::path file = folder / "region.oro";

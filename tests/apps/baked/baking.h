@@ -12,16 +12,6 @@
 
 namespace oro::test {
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
-
-inline std::string bundled() {
-    return (bundled_data() / "jacksboro.tif").string();
-}
-
-inline Words joined(Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
 
 // Bytes of an SRTM3 tile of hills.
 inline std::string hills() {

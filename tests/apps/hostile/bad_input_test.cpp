@@ -10,21 +10,21 @@
 
 namespace {
 namespace fs = std::filesystem;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::Circumstances;
 using oro::test::expect_refusal;
+using oro::test::failed;
 using oro::test::names_in;
+using oro::test::no_data;
+using oro::test::no_device;
 using oro::test::Outcome;
 using oro::test::run_orograph;
+using oro::test::usage;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
 
-constexpr int failed = 1, usage = 2, no_data = 3, no_device = 4;
 constexpr std::size_t srtm3_bytes = 2U * 1201 * 1201;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
 
 class BadInput : public testing::Test {
   protected:

@@ -10,16 +10,13 @@
 
 namespace {
 namespace fs = std::filesystem;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::Circumstances;
 using oro::test::expect_refusal;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
+using oro::test::Words;
 
 TEST(DamagedGeoidGrid, EveryCommandRefusesAndDoctorNamesTheFile) {
     const fs::path proj = "/usr/share/proj";

@@ -13,20 +13,17 @@
 
 namespace {
 namespace fs = std::filesystem;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
+using oro::test::failed;
 using oro::test::names_in;
 using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::run_program;
+using oro::test::usage;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
-
-constexpr int failed = 1, usage = 2;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
 
 class HostileInput : public testing::Test {
   protected:

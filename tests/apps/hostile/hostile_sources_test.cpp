@@ -22,8 +22,8 @@ using oro::test::bytes_of;
 using oro::test::Circumstances;
 using oro::test::Outcome;
 using oro::test::run_orograph;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
 
 // A server on this machine that counts who knocks, and hangs up.
 class Listener {

@@ -13,15 +13,12 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
+using oro::test::Words;
 
 TEST(RegionWords, ACopyrightThatIsNoUtf8IsDrawnWithItsBadByteReplaced) {
     const fs::path folder = oro::test::scratch_folder();

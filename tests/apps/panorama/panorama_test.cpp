@@ -18,17 +18,18 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
+using oro::test::failed;
+using oro::test::no_data;
 using oro::test::object_said_by;
 using oro::test::Outcome;
 using oro::test::Pixels;
 using oro::test::pixels_of;
 using oro::test::run_orograph;
 using oro::test::run_program;
+using oro::test::usage;
 using oro::test::view_in;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
-
-constexpr int failed = 1, usage = 2, no_data = 3;
 
 std::string feature(const std::string& name, double lon_deg, double lat_deg) {
     return json{{"type", "Feature"},

@@ -14,8 +14,8 @@
 namespace {
 using nlohmann::json;
 using oro::test::object_said_by;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
 
 struct Peak {
     const char* name;

@@ -15,7 +15,7 @@ using nlohmann::json;
 using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::view_in;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 class DefaultStyle : public testing::Test {
   protected:

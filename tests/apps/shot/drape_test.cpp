@@ -14,13 +14,13 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
+using oro::test::failed;
 using oro::test::Outcome;
 using oro::test::run_orograph;
+using oro::test::usage;
 using oro::test::view_in;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
-
-constexpr int failed = 1, usage = 2;
 
 // Terrain, and the same file as an image over it: grey by its heights.
 class Drape : public testing::Test {

@@ -19,11 +19,10 @@ using oro::test::expect_refusal;
 using oro::test::object_said_by;
 using oro::test::pixels_of;
 using oro::test::run_orograph;
+using oro::test::usage;
 using oro::test::view_in;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
-
-constexpr int usage = 2;
 
 class LabelsOfShots : public testing::Test {
   protected:

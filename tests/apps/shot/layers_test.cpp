@@ -18,8 +18,8 @@ using oro::test::names_in;
 using oro::test::object_said_by;
 using oro::test::run_orograph;
 using oro::test::run_program;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
 
 const Words all_names{"p.distance.tif",  "p.ellipsoidal-height.tif",
                       "p.height.tif",    "p.latitude.tif",
@@ -27,7 +27,7 @@ const Words all_names{"p.distance.tif",  "p.ellipsoidal-height.tif",
                       "p.shadow.tif",    "p.slope.tif",
                       "p.source.tif"};
 
-Words shot(const fs::path& picture, const Words& more = {}) {
+Words shot_with_layers(const fs::path& picture, const Words& more = {}) {
     Words words{"shot",      (oro::test::bundled_data() / "jacksboro.tif").string(),
                 "--at",      "36.5,-84.25",
                 "--above",   "200",
@@ -50,7 +50,7 @@ double value_at(const fs::path& file, int x, int y) {
 
 TEST(ShotLayers, AreFilesThatGdalReads) {
     const fs::path folder = oro::test::scratch_folder(), picture = folder / "p.png";
-    const auto told = object_said_by(shot(picture, {"--json", "--tau", "0"}));
+    const auto told = object_said_by(shot_with_layers(picture, {"--json", "--tau", "0"}));
     EXPECT_EQ(names_in(folder), all_names);
     EXPECT_EQ(told["layers"].size(), 8U);
     EXPECT_EQ(told["layers"]["ellipsoidal-height"], (folder / "p.ellipsoidal-height.tif").string());
@@ -93,7 +93,8 @@ TEST(ShotLayers, AreFilesThatGdalReads) {
 
 TEST(ShotLayers, AreNoPartOfTheView) {
     const fs::path folder = oro::test::scratch_folder(), other = oro::test::scratch_folder();
-    ASSERT_EQ(run_orograph(shot(folder / "p.png", {"--time", "2026-01-02T03:04:05Z"})).exit_code, 0);
+    ASSERT_EQ(run_orograph(shot_with_layers(folder / "p.png", {"--time", "2026-01-02T03:04:05Z"})).exit_code,
+              0);
     const auto again = run_orograph(
         {"shot", "--view", (folder / "p.png").string(), "--out", (other / "p.png").string(), "-q"});
     EXPECT_EQ(again.exit_code, 0) << again.err;
@@ -111,10 +112,11 @@ TEST(ShotLayers, AreNoPartOfTheView) {
 TEST(ShotLayers, AreAllWrittenOrNone) {
     const fs::path folder = oro::test::scratch_folder();
     write_bytes(folder / "p.slope.tif", "mine");
-    expect_refusal(run_orograph(shot(folder / "p.png")), 1, {"p.slope.tif", "is there already (--overwrite"});
+    expect_refusal(run_orograph(shot_with_layers(folder / "p.png")), 1,
+                   {"p.slope.tif", "is there already (--overwrite"});
     EXPECT_EQ(names_in(folder), Words{"p.slope.tif"});
     EXPECT_EQ(bytes_of(folder / "p.slope.tif"), "mine");
-    EXPECT_EQ(run_orograph(shot(folder / "p.png", {"--overwrite"})).exit_code, 0);
+    EXPECT_EQ(run_orograph(shot_with_layers(folder / "p.png", {"--overwrite"})).exit_code, 0);
     EXPECT_EQ(names_in(folder), all_names);
     EXPECT_NE(bytes_of(folder / "p.slope.tif"), "mine");
 }
@@ -123,14 +125,14 @@ TEST(ShotLayers, AreAllWrittenOrNone) {
 TEST(ShotLayers, SpareWhatThePictureIsMadeFrom) {
     const fs::path folder = oro::test::scratch_folder();
     fs::copy_file(oro::test::bundled_data() / "jacksboro.tif", folder / "p.height.tif");
-    Words words = shot(folder / "p.png", {"--overwrite"});
+    Words words = shot_with_layers(folder / "p.png", {"--overwrite"});
     words[1] = (folder / "p.height.tif").string();
     expect_refusal(run_orograph(words), 2, {"p.height.tif", "which the picture is made from"});
     EXPECT_EQ(names_in(folder), Words{"p.height.tif"});
 }
 
 TEST(ShotLayers, OfPicturesTooLargeForMemoryAreRefused) {
-    Words words = shot(oro::test::scratch_folder() / "p.png");
+    Words words = shot_with_layers(oro::test::scratch_folder() / "p.png");
     words[11] = "20000x10000";
     expect_refusal(run_orograph(words), 2, {"--layers", "at most 100,000,000 pixels"});
 }

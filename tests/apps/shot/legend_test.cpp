@@ -13,19 +13,16 @@
 
 namespace {
 namespace fs = std::filesystem;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
 using oro::test::names_in;
 using oro::test::object_said_by;
 using oro::test::pixels_of;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
-
-Words shot(const fs::path& out, const Words& more = {}) {
+Words shot_with_legend(const fs::path& out, const Words& more = {}) {
     Words words{"shot",   bundled(),   "--at", "36.5,-84.25", "--above",
                 "200",    "--heading", "320",  "--pitch",     "-8",
                 "--size", "320x120",   "-q",   "--time",      "2026-01-02T03:04:05Z",
@@ -36,8 +33,8 @@ Words shot(const fs::path& out, const Words& more = {}) {
 
 TEST(ShotLegend, StandsBelowThePictureAsItIs) {
     const fs::path folder = oro::test::scratch_folder();
-    ASSERT_EQ(run_orograph(shot(folder / "bare.png")).exit_code, 0);
-    const auto told = object_said_by(shot(folder / "with.png", {"--legend", "--json"}));
+    ASSERT_EQ(run_orograph(shot_with_legend(folder / "bare.png")).exit_code, 0);
+    const auto told = object_said_by(shot_with_legend(folder / "with.png", {"--legend", "--json"}));
     const auto bare = pixels_of(folder / "bare.png"), with = pixels_of(folder / "with.png");
     ASSERT_EQ(bare.height, 120U);
     ASSERT_EQ(with.width, 320U);
@@ -56,7 +53,7 @@ TEST(ShotLegend, StandsBelowThePictureAsItIs) {
 TEST(ShotLegend, ItsViewDrawsItAgain) {
     for (const char* name : {"p.png", "p.jpg", "p.tif"}) {
         const fs::path folder = oro::test::scratch_folder(), file = folder / name;
-        ASSERT_EQ(run_orograph(shot(file, {"--legend"})).exit_code, 0);
+        ASSERT_EQ(run_orograph(shot_with_legend(file, {"--legend"})).exit_code, 0);
         const auto again = run_orograph({"shot", "--view", file.string(), "-q", "--out",
                                          (folder / ("again-" + std::string(name))).string()});
         EXPECT_EQ(again.exit_code, 0) << again.err;
@@ -83,7 +80,7 @@ TEST(ShotLegend, OfAMapIsOpaqueBelowIt) {
 
 TEST(ShotLegend, NeedsAPictureThatIsWideEnough) {
     const fs::path folder = oro::test::scratch_folder();
-    Words words = shot(folder / "p.png", {"--legend"});
+    Words words = shot_with_legend(folder / "p.png", {"--legend"});
     words[11] = "199x100";
     expect_refusal(run_orograph(words), 2, {"--legend: needs a picture at least 200 px wide"});
     EXPECT_EQ(names_in(folder), Words{});

@@ -13,14 +13,11 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
+using oro::test::Words;
 
 class ModelOptions : public testing::Test {
   protected:

@@ -12,18 +12,15 @@
 
 namespace {
 namespace fs = std::filesystem;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
 using oro::test::names_in;
 using oro::test::object_said_by;
 using oro::test::run_orograph;
 using oro::test::run_program;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
 
 Words map(const fs::path& out, const Words& more = {}) {
     Words words{"shot",

@@ -21,7 +21,7 @@ using oro::test::object_said_by;
 using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::run_program;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 // The bundled region in UTM, zone 16: at its eastern edge.
 std::string utm(const fs::path& folder) {
@@ -39,12 +39,12 @@ oro::test::Circumstances as_users_do() {
     return circumstances;
 }
 
-const Words eye{"--at",    "36.55,-84.25", "--above", "1500",   "--heading", "30",
-                "--pitch", "-25",          "--size",  "160x90", "-q"};
+const Words eye_over_posts{"--at",    "36.55,-84.25", "--above", "1500",   "--heading", "30",
+                           "--pitch", "-25",          "--size",  "160x90", "-q"};
 
-Words shot(const std::string& file, const fs::path& out, const Words& more = {}) {
+Words shot_of_posts(const std::string& file, const fs::path& out, const Words& more = {}) {
     Words words{"shot", file, "--out", out};
-    words.insert(words.end(), eye.begin(), eye.end());
+    words.insert(words.end(), eye_over_posts.begin(), eye_over_posts.end());
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }
@@ -61,7 +61,7 @@ json view_of(const fs::path& picture) {
 TEST(OwnPostsOfShots, AreDrawnAgainByEitherWayFromTheirView) {
     const fs::path folder = oro::test::scratch_folder();
     const std::string file = utm(folder);
-    expect_drawn(shot(file, folder / "mesh.png", {"--pipeline", "mesh", "--tau", "0"}));
+    expect_drawn(shot_of_posts(file, folder / "mesh.png", {"--pipeline", "mesh", "--tau", "0"}));
     EXPECT_EQ(view_of(folder / "mesh.png")["own_posts"], true);
     expect_drawn({"shot", "--view", folder / "mesh.png", "--out", folder / "again.png", "-q"});
     EXPECT_TRUE(bytes_of(folder / "again.png") == bytes_of(folder / "mesh.png"));
@@ -73,8 +73,8 @@ TEST(OwnPostsOfShots, ViewsThatSayNothingOfThemAreDrawnResampled) {
     const fs::path folder = oro::test::scratch_folder();
     const std::string file = utm(folder);
     const Words detail{"--pipeline", "mesh", "--tau", "0"};
-    expect_drawn(shot(file, folder / "own.png", detail));
-    Words resampled = shot(file, folder / "resampled.png", detail);
+    expect_drawn(shot_of_posts(file, folder / "own.png", detail));
+    Words resampled = shot_of_posts(file, folder / "resampled.png", detail);
     resampled.emplace_back("--resample");
     expect_drawn(resampled);
     EXPECT_FALSE(view_of(folder / "resampled.png").contains("own_posts"));
@@ -89,7 +89,7 @@ TEST(OwnPostsOfShots, ViewsThatSayNothingOfThemAreDrawnResampled) {
 
 TEST(OwnPostsOfShots, AreWithinTauOfTheTruth) {
     const fs::path folder = oro::test::scratch_folder();
-    const Outcome shown = run_orograph(shot(utm(folder), folder / "a.png", {"--verify", "--json"}));
+    const Outcome shown = run_orograph(shot_of_posts(utm(folder), folder / "a.png", {"--verify", "--json"}));
     ASSERT_EQ(shown.exit_code, 0) << shown.err;
     const json told = json::parse(shown.out);
     EXPECT_TRUE(told.dump().find("\"within\":false") == std::string::npos) << told.dump();
@@ -134,19 +134,19 @@ TEST(OwnPostsOfShots, OfTheSwissTileHaveItsSummit) {
 TEST(OwnPostsOfShots, AreRefusedWhereTheyCannotBe) {
     const fs::path folder = oro::test::scratch_folder();
     const std::string file = utm(folder);
-    expect_refusal(run_orograph(shot(file, folder / "b.png", {"--earth", "sphere"})), 2,
+    expect_refusal(run_orograph(shot_of_posts(file, folder / "b.png", {"--earth", "sphere"})), 2,
                    {"--earth", "--resample"});
-    expect_refusal(run_orograph(shot(file, folder / "b.png", {"--precision", "naive"})), 2,
+    expect_refusal(run_orograph(shot_of_posts(file, folder / "b.png", {"--precision", "naive"})), 2,
                    {"--precision", "--resample"});
     EXPECT_FALSE(fs::exists(folder / "b.png"));
-    expect_drawn(shot(file, folder / "b.png", {"--earth", "sphere", "--resample"}));
+    expect_drawn(shot_of_posts(file, folder / "b.png", {"--earth", "sphere", "--resample"}));
 }
 
 // Beside a file on degrees there is no lattice. What is measured on one grid resamples both, and a note says
 // so.
 TEST(OwnPostsOfShots, BesideOtherFilesAreKeptByWhatPredicts) {
     const fs::path folder = oro::test::scratch_folder();
-    Words both = shot(utm(folder), folder / "b.png");
+    Words both = shot_of_posts(utm(folder), folder / "b.png");
     both.insert(both.begin() + 2, oro::test::bundled_data() / "jacksboro.tif");
     std::erase(both, "-q");
     both.insert(both.end(), {"--tolerance", "1"});
@@ -174,7 +174,7 @@ TEST(OwnPostsOfShots, ArePlannedAndTraded) {
     const fs::path folder = oro::test::scratch_folder();
     const std::string file = utm(folder);
     Words plan{"plan", file, "--json"};
-    plan.insert(plan.end(), eye.begin(), eye.end());
+    plan.insert(plan.end(), eye_over_posts.begin(), eye_over_posts.end());
     const json own = object_said_by(plan);
     plan.insert(plan.end(), "--resample");
     const json resampled = object_said_by(plan);

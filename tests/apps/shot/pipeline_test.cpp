@@ -15,7 +15,7 @@ using oro::test::bytes_of;
 using oro::test::Circumstances;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 class Pipeline : public testing::Test {
   protected:

@@ -23,7 +23,7 @@ using nlohmann::json;
 using oro::test::Outcome;
 using oro::test::Pixels;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 // Over Interlaken towards the lake of Brienz, in the light of an afternoon.
 const Words lake{"--at",    "46.655,7.80", "--altitude", "3200", "--heading", "60",

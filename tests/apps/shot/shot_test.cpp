@@ -13,16 +13,13 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::names_in;
 using oro::test::one_object;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
+using oro::test::Words;
 
 json exif_of(const fs::path& picture) {
     const Outcome told = oro::test::run_program({"exiftool", "-n", "-j", picture});
@@ -78,11 +75,11 @@ class Shot : public testing::Test {
     }
 };
 
-const Words eye{"--at",  "36.6,-84.2", "--above", "300",    "--heading",
-                "200.5", "--pitch",    "-5",      "--size", "160x120"};
+const Words plain_eye{"--at",  "36.6,-84.2", "--above", "300",    "--heading",
+                      "200.5", "--pitch",    "-5",      "--size", "160x120"};
 
 TEST_F(Shot, SaysWhereItWasTakenFrom) {
-    const json said = shoot(folder / "p.png", eye);
+    const json said = shoot(folder / "p.png", plain_eye);
     EXPECT_NEAR(said["eye"]["lat_deg"].get<double>(), 36.6, 1e-12);
     EXPECT_NEAR(said["eye"]["lon_deg"].get<double>(), -84.2, 1e-12);
     EXPECT_NEAR(said["eye"]["h_m"].get<double>(),
@@ -104,7 +101,7 @@ TEST_F(Shot, SaysWhereItWasTakenFrom) {
 TEST_F(Shot, TagsOfEveryFormatAgreeWithTheView) {
     for (const char* name : {"a.png", "b.jpg", "c.tif"}) {
         SCOPED_TRACE(name);
-        expect_tags(folder / name, shoot(folder / name, eye));
+        expect_tags(folder / name, shoot(folder / name, plain_eye));
     }
 }
 
@@ -120,7 +117,7 @@ TEST_F(Shot, ViewDrawsTheSameBytes) {
     for (const char* name : {"p.png", "p.jpg", "p.tif"}) {
         SCOPED_TRACE(name);
         const fs::path there = oro::test::scratch_folder();
-        const json said = shoot(there / name, eye);
+        const json said = shoot(there / name, plain_eye);
         oro::test::write_bytes(there / "v.json", said.at("view").dump());
         for (const fs::path& view : {there / name, there / "v.json"}) {
             const fs::path again = oro::test::scratch_folder() / name;
@@ -142,7 +139,7 @@ TEST_F(Shot, WholeRegionAndSamples) {
 
 TEST_F(Shot, OverwritesOnlyWhenTold) {
     oro::test::write_bytes(folder / "p.png", "mine");
-    Words told = eye;
+    Words told = plain_eye;
     told.push_back("--overwrite");
     shoot(folder / "p.png", told);
     EXPECT_EQ(bytes_of(folder / "p.png").substr(1, 3), "PNG");
@@ -206,7 +203,7 @@ TEST_F(Shot, SaysWhatItsMiddleSees) {
 TEST_F(Shot, NamesWithBlanksAndUmlauts) {
     const fs::path data = folder / "Höhen daten.tif";
     fs::copy_file(bundled(), data);
-    shoot(folder / "Ein Bild.png", eye, data);
+    shoot(folder / "Ein Bild.png", plain_eye, data);
     EXPECT_EQ(names_in(folder), (Words{"Ein Bild.png", "Höhen daten.tif"}));
 }
 

@@ -17,7 +17,7 @@ using oro::test::expect_refusal;
 using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::view_in;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
 class SunOfAShot : public testing::Test {
   protected:

@@ -12,21 +12,18 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::Circumstances;
 using oro::test::expect_refusal;
+using oro::test::failed;
 using oro::test::names_in;
 using oro::test::Outcome;
 using oro::test::run_orograph;
+using oro::test::usage;
 using oro::test::view_in;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
-
-constexpr int failed = 1, usage = 2;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
 
 // A folder with data and pictures in folders of their own.
 class ToldView : public testing::Test {

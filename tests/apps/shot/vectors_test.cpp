@@ -13,13 +13,13 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
+using oro::test::failed;
 using oro::test::Outcome;
 using oro::test::run_orograph;
+using oro::test::usage;
 using oro::test::view_in;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
-
-constexpr int failed = 1, usage = 2;
 
 std::string point(const std::string& name, double lon_deg, double lat_deg) {
     return R"({"type":"Feature","properties":{"name":")" + name +
@@ -67,7 +67,8 @@ TEST_F(Vectors, AreInTheViewWhichDrawsThemAgain) {
     EXPECT_GE(said["names"]["named"].size(), 2U);
     const json view = json::parse(view_in(path("a.png")));
     EXPECT_EQ(view["names"], (json{{"files", {"points.geojson"}}}));
-    EXPECT_EQ(view["overlay"], (json{{"files", {"line.geojson"}}, {"colour", "#ff0000"}, {"width_px", 2.0}, {"fill", 0.2}}));
+    EXPECT_EQ(view["overlay"],
+              (json{{"files", {"line.geojson"}}, {"colour", "#ff0000"}, {"width_px", 2.0}, {"fill", 0.2}}));
     EXPECT_EQ(view["names_field"], "name");
     EXPECT_EQ(view["fingerprints"]["vectors"].size(), 2U);
     ASSERT_EQ(shoot({"--view", path("a.png"), "-q", "--out", path("b.png")}).exit_code, 0);

@@ -12,19 +12,17 @@
 
 namespace {
 using nlohmann::json;
+using oro::test::bundled;
 using oro::test::expect_refusal;
+using oro::test::failed;
 using oro::test::FaultyRun;
+using oro::test::no_device;
 using oro::test::Outcome;
 using oro::test::run_with_faults;
-using Words = std::vector<std::string>;
+using oro::test::Words;
 
-constexpr int failed = 1, no_device = 4;
 constexpr const char* out_of_memory = "VK_ERROR_OUT_OF_DEVICE_MEMORY";
 constexpr const char* lost = "VK_ERROR_DEVICE_LOST";
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
 
 // A corner of the bundled region, baked: half of what a picture of it takes before its first call of Vulkan
 // is for coordinate systems.
@@ -40,7 +38,7 @@ std::string corner() {
 }
 
 // A picture of 36 pages of terrain at most; 124: it hung.
-Words shot(const Words& more) {
+Words shot_in_time(const Words& more) {
     Words words{"timeout", "60",     OROGRAPH_PROGRAM, "shot", corner(), "--style",
                 "default", "--size", "64x48",          "-q",   "--out",  "p.png"};
     words.insert(words.end(), more.begin(), more.end());
@@ -53,7 +51,7 @@ Words window() {
 
 // The device that draws where the machine has these.
 std::string chosen_of(const std::string& devices, const Words& environment = {}) {
-    const FaultyRun run = run_with_faults(shot({"--json"}), "", devices, environment);
+    const FaultyRun run = run_with_faults(shot_in_time({"--json"}), "", devices, environment);
     EXPECT_EQ(run.outcome.exit_code, 0) << devices << ": " << run.outcome.err;
     const json said = json::parse(run.outcome.out, nullptr, false);
     return said.is_object() ? said["device"]["name"].get<std::string>() : "";
@@ -81,30 +79,31 @@ TEST(DeviceChoice, TakesTheOneThatIsNamed) {
     const std::string devices = "software Slow One;integrated Small;discrete Big";
     EXPECT_EQ(chosen_of(devices, {"OROGRAPH_DEVICE=Slow"}), "Slow One");
     EXPECT_EQ(chosen_of(devices, {"OROGRAPH_DEVICE=1"}), "Small");
-    const FaultyRun unknown = run_with_faults(shot({}), "", devices, {"OROGRAPH_DEVICE=Radeon"});
+    const FaultyRun unknown = run_with_faults(shot_in_time({}), "", devices, {"OROGRAPH_DEVICE=Radeon"});
     expect_refusal(unknown.outcome, no_device, {"OROGRAPH_DEVICE", "no device is called 'Radeon'"});
     const FaultyRun unable = run_with_faults(
-        shot({}), "", "software S;discrete Big without mesh_shader,atomics", {"OROGRAPH_DEVICE=Big"});
+        shot_in_time({}), "", "software S;discrete Big without mesh_shader,atomics", {"OROGRAPH_DEVICE=Big"});
     expect_refusal(unable.outcome, no_device, {"Big lacks VK_EXT_mesh_shader and 64-bit atomics"});
 }
 
 TEST(DeviceChoice, SaysWhatEachOneLacks) {
-    const FaultyRun none = run_with_faults(shot({}), "", "none");
+    const FaultyRun none = run_with_faults(shot_in_time({}), "", "none");
     expect_refusal(none.outcome, no_device, {"no driver answers (no device)", "scripts/set-up"});
     const FaultyRun unable = run_with_faults(
-        shot({}), "", "discrete A without vulkan13;integrated B without addresses,timestamps");
+        shot_in_time({}), "", "discrete A without vulkan13;integrated B without addresses,timestamps");
     expect_refusal(unable.outcome, no_device,
                    {"A lacks Vulkan 1.3", "B lacks bufferDeviceAddress, a queue for graphics"});
     const FaultyRun blind = run_with_faults(window(), "", "discrete D without swapchain");
     expect_refusal(blind.outcome, no_device, {"D lacks VK_KHR_swapchain"});
     const FaultyRun refused =
-        run_with_faults(shot({}), "vkCreateDevice 1 VK_ERROR_INITIALIZATION_FAILED", "discrete D");
+        run_with_faults(shot_in_time({}), "vkCreateDevice 1 VK_ERROR_INITIALIZATION_FAILED", "discrete D");
     expect_refusal(refused.outcome, no_device, {"D: cannot be used", "VK_ERROR_INITIALIZATION_FAILED"});
 }
 
 // Of 64 bits of a timestamp a device may count in fewer, which begin anew; the rest is noise.
 TEST(DeviceChoice, TimesCountValidBitsAlone) {
-    const FaultyRun run = run_with_faults(shot({"--json"}), "", "discrete D without whole_timestamps");
+    const FaultyRun run =
+        run_with_faults(shot_in_time({"--json"}), "", "discrete D without whole_timestamps");
     ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
     const json times = json::parse(run.outcome.out)["times_s"];
     for (const char* step : {"gpu_choose", "gpu_raster", "gpu_shade"}) {
@@ -152,7 +151,7 @@ bool is_asked(const std::string& way, const std::string& call, int turn) {
 class EachCallOfVulkan : public testing::TestWithParam<const char*> {};
 
 TEST_P(EachCallOfVulkan, FailsWithALineAndNothingLeft) {
-    const Words words = shot({"--pipeline", GetParam()});
+    const Words words = shot_in_time({"--pipeline", GetParam()});
     const FaultyRun good = run_with_faults(words, "");
     ASSERT_EQ(good.outcome.exit_code, 0) << good.outcome.err;
     EXPECT_EQ(good.messages, Words{});

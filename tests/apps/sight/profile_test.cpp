@@ -13,6 +13,7 @@
 #include "tests/support/test_data.h"
 
 namespace {
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
 using oro::test::object_said_by;
@@ -21,10 +22,7 @@ using oro::test::run_orograph;
 using oro::test::write_bytes;
 namespace fs = std::filesystem;
 
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
-const std::string line = "36.5,-84.2; 36.55,-84.35; 36.6,-84.3";
+const std::string line_of_three = "36.5,-84.2; 36.55,-84.35; 36.6,-84.3";
 
 // Rows of numbers of a .csv; a height that is not there is no number.
 std::vector<std::vector<double>> rows_of(const std::string& csv) {
@@ -45,8 +43,8 @@ std::vector<std::vector<double>> rows_of(const std::string& csv) {
 
 TEST(ProfileCommand, ATableHasTheSumsThatAreTold) {
     const fs::path out = oro::test::scratch_folder() / "p.csv";
-    const auto told =
-        object_said_by({"profile", bundled(), "-q", "--json", "--along", line, "--out", out.string()});
+    const auto told = object_said_by(
+        {"profile", bundled(), "-q", "--json", "--along", line_of_three, "--out", out.string()});
     const auto rows = rows_of(bytes_of(out));
     ASSERT_EQ(rows.size(), told["points"].get<std::size_t>());
     double ascent_m = 0.0, descent_m = 0.0, highest_m = -1e9;
@@ -70,8 +68,8 @@ TEST(ProfileCommand, ATableHasTheSumsThatAreTold) {
 
 TEST(ProfileCommand, StepsAreAsAskedFor) {
     const fs::path out = oro::test::scratch_folder() / "p.csv";
-    object_said_by(
-        {"profile", bundled(), "-q", "--json", "--along", line, "--out", out.string(), "--step", "1000"});
+    object_said_by({"profile", bundled(), "-q", "--json", "--along", line_of_three, "--out", out.string(),
+                    "--step", "1000"});
     const auto rows = rows_of(bytes_of(out));
     ASSERT_GT(rows.size(), 10U);
     for (std::size_t i = 0; i + 1 < rows.size(); ++i)
@@ -80,7 +78,8 @@ TEST(ProfileCommand, StepsAreAsAskedFor) {
 
 TEST(ProfileCommand, ADrawingNamesItsAxesAndItsExaggeration) {
     const fs::path out = oro::test::scratch_folder() / "p.svg";
-    const Outcome outcome = run_orograph({"profile", bundled(), "--along", line, "--out", out.string()});
+    const Outcome outcome =
+        run_orograph({"profile", bundled(), "--along", line_of_three, "--out", out.string()});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string svg = bytes_of(out);
     for (const char* words : {"<svg xmlns=", "distance along the line, km", "H: height above sea level, m",
@@ -173,15 +172,16 @@ TEST(ProfileCommand, WhatIsWrongIsSaidInOneLine) {
     refused({"--along", "36.5,-84.2;"}, 2, "is one place");
     refused({"--along", "36.5,-84.2; Eiger"}, 2, "--along  Eiger: ");
     refused({"--along", "36.5,-84.2; 36.5,-84.2"}, 2, "has no length");
-    refused({"--along", line, "--step", "0"}, 2, "--step 0: must be more than 0");
-    refused({"--along", line, "--step", "1e-4"}, 2, "makes more than 10,000,000 places");
-    refused({"--along", line, "--line", "1"}, 2, "--line 1: is for files");
-    refused({"--along", line, "--out", "p.png"}, 2,
+    refused({"--along", line_of_three, "--step", "0"}, 2, "--step 0: must be more than 0");
+    refused({"--along", line_of_three, "--step", "1e-4"}, 2, "makes more than 10,000,000 places");
+    refused({"--along", line_of_three, "--line", "1"}, 2, "--line 1: is for files");
+    refused({"--along", line_of_three, "--out", "p.png"}, 2,
             "--out p.png: the file's name must end in .csv, .svg or .geojson");
     refused({"--along", "46,8; 46,9"}, 3, "no elevation data along the line (the data's box is ");
     const fs::path there = oro::test::scratch_folder() / "there.csv";
     write_bytes(there, "kept");
-    refused({"--along", line, "--out", there.string()}, 1, "is there already (--overwrite replaces it)");
+    refused({"--along", line_of_three, "--out", there.string()}, 1,
+            "is there already (--overwrite replaces it)");
     EXPECT_EQ(bytes_of(there), "kept");
 }
 

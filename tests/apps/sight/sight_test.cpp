@@ -9,15 +9,12 @@
 #include "tests/support/test_data.h"
 
 namespace {
+using oro::test::bundled;
 using oro::test::expect_refusal;
 using oro::test::object_said_by;
 using oro::test::Outcome;
 using oro::test::run_orograph;
-using Words = std::vector<std::string>;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
+using oro::test::Words;
 
 nlohmann::json told(Words words) {
     words.insert(words.begin(), {"sight", bundled(), "--json", "-q"});

@@ -13,17 +13,14 @@
 
 namespace {
 namespace fs = std::filesystem;
+using oro::test::bundled;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
 using oro::test::object_said_by;
 using oro::test::run_orograph;
 using oro::test::run_program;
+using oro::test::Words;
 using oro::test::write_bytes;
-using Words = std::vector<std::string>;
-
-std::string bundled() {
-    return (oro::test::bundled_data() / "jacksboro.tif").string();
-}
 
 // What gdallocationinfo says of a place: a value for each band.
 Words values_at(const fs::path& file, const std::string& lon, const std::string& lat) {
