@@ -162,8 +162,11 @@ Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath p
                                                     const PipelineWants& wants) {
     const bool small = wants.leave_out_small && path == RasterPath::mesh;
     const bool shares = wants.shares_triangles && path == RasterPath::compute;
-    std::shared_ptr<Pipelines>& kept = gpu.kept_pipelines(
-        {path, wants.record_positions, small, wants.overdraw, wants.packed_heights, shares, wants.list_room});
+    const MeshletSplit split =
+        path == RasterPath::mesh ? meshlet_split_for(wants.split, gpu.report()) : MeshletSplit::whole;
+    std::shared_ptr<Pipelines>& kept =
+        gpu.kept_pipelines({path, wants.record_positions, small, wants.overdraw, wants.packed_heights, shares,
+                            split, wants.list_room});
     if (!kept) {
         ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants));
         kept = std::make_shared<Pipelines>(std::move(pipelines));
