@@ -30,7 +30,7 @@ ORO_CONST uint meshlet_quads = 8u;
 ORO_CONST uint meshlet_posts = 9u;
 ORO_CONST uint meshlets_per_side = 16u;
 ORO_CONST uint meshlets_per_page = 256u;
-ORO_CONST uint meshlets_per_task_max = 128u;  // of a task workgroup
+ORO_CONST uint parts_per_task_max = 128u;  // meshlets, or halves of them, of a task workgroup
 ORO_CONST uint meshlet_vertices = 81u;
 ORO_CONST uint meshlet_triangles = 128u;
 ORO_CONST uint page_diagonal_words = 512u;  // a bit for each quad
@@ -42,6 +42,8 @@ ORO_CONST uint page_heights = 17161u;  // height_stride squared
 ORO_CONST float height_step_m = 1.0f / 2048.0f;
 ORO_CONST int void_height = -2147483647 - 1;
 ORO_CONST int void_code = -32768;  // of heights in 16 bits
+
+#include "shaders/shared_halves.h"
 
 // Exact placement of posts relative to the eye, in the eye's meridian frame: x outward in the equatorial
 // plane at the eye's longitude, y east, z north along the axis. Each frame has tables for its pages' rows and
@@ -109,7 +111,8 @@ struct PageBlock {
     vec3 turn;
     vec2 up;  // the ellipsoid's normal at the page's origin, in the page frame: along x, along z
     // Of each meshlet: how far its posts are from the centre of its sphere, along east, north and that
-    // normal, in 1023rds of its radius, 10 bits each.
+    // normal, in 1023rds of its radius, 10 bits each; then which of its halves have triangles (both_halves
+    // and so on): a half that is told to have none has none, whatever its edges are.
     uint boxes[256];
     // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its
     // north-west to its south-east (core/cells/cell_diagonal.h). Two words a meshlet, row by row, the first

@@ -16,6 +16,7 @@ struct FrameCounts {
     uint meshlets_hidden;        // ... those that it hides, and that no round has drawn
     uint meshlets_drawn_later;   // by another round than the first
     uint triangles_left_out;     // mesh path: that cover no pixel's centre
+    uint halves_left_out;        // mesh path by halves: of meshlets that are drawn, those without a triangle
 };
 
 // A frame is drawn in rounds; each leaves out what the ground of those before it hides. What a program is

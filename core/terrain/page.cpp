@@ -70,6 +70,8 @@ class PageBuilder {
     void bound_finely(int number);
     void bound_by_horizon(int number, std::span<const HorizonPoint> points);
     int mark_triangles(int number);
+    bool may_have_triangles(int first_row, int first_column, int rows, int columns) const;
+    gpu::uint halves_of(int number) const;
     gpu::uint box_around(std::span<const glm::dvec3> points, const gpu::MeshletBounds& bounds) const;
 
     static std::size_t at(int row, int column) { return static_cast<std::size_t>(row * posts + column); }
@@ -210,6 +212,37 @@ int PageBuilder::mark_triangles(int number) {
     return triangles;
 }
 
+// Whether so many rows and columns of posts can make a triangle: not those that lie in one row or column.
+// What stitching moves stays among the posts of a half, so this holds for all edges.
+bool PageBuilder::may_have_triangles(int first_row, int first_column, int rows, int columns) const {
+    int row_there = -1, column_there = -1;
+    bool one_row = true, one_column = true;
+    for (int row = first_row; row < first_row + rows; ++row) {
+        for (int column = first_column; column < first_column + columns; ++column) {
+            if (!drawable(row, column)) continue;
+            if (row_there < 0) {
+                row_there = row;
+                column_there = column;
+            }
+            one_row = one_row && row == row_there;
+            one_column = one_column && column == column_there;
+            if (!one_row && !one_column) return true;
+        }
+    }
+    return false;
+}
+
+// Which halves of a meshlet have triangles, as PageBlock::boxes says it.
+gpu::uint PageBuilder::halves_of(int number) const {
+    if (whole_) return gpu::both_halves;
+    constexpr int half = static_cast<int>(gpu::half_quads), side = static_cast<int>(gpu::meshlet_posts);
+    const int row = number / meshlets_per_side * meshlet_quads;
+    const int column = number % meshlets_per_side * meshlet_quads;
+    if (!may_have_triangles(row + half, column, half + 1, side)) return gpu::first_rows;
+    if (!may_have_triangles(row, column, half + 1, side)) return gpu::last_rows;
+    return may_have_triangles(row, column + half, side, half + 1) ? gpu::both_halves : gpu::first_columns;
+}
+
 // PageBlock::boxes, rounded outwards. By more than a float's rounding of each term: the radius is, too.
 gpu::uint PageBuilder::box_around(std::span<const glm::dvec3> points,
                                   const gpu::MeshletBounds& bounds) const {
@@ -268,7 +301,8 @@ void PageBuilder::bound_finely(int number) {
     const glm::dvec3 origin_m(rho0_m_, 0.0, z0_m_);
     for (std::size_t i = 0; i < count; ++i)
         horizon[i] = horizon_point((points[i] + origin_m) / shape_.occluder.radii_m);
-    block_.boxes[number] = box_around(std::span(points).first(count), block_.meshlets[number]);
+    block_.boxes[number] = box_around(std::span(points).first(count), block_.meshlets[number]) |
+                           halves_of(number) << gpu::halves_bit;
     bound_by_horizon(number, std::span(horizon).first(count));
 }
 

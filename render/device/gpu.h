@@ -78,6 +78,12 @@ Result<RasterPath> raster_path_for(const std::string& request, const DeviceRepor
 // "mesh" or "compute".
 std::string name_of(RasterPath path);
 
+// What a mesh workgroup draws at a time: as many whole meshlets as it has room for, or half of one. The
+// triangle ids are the same.
+enum class MeshletSplit { by_device, whole, halves };
+// What by_device means on a device; the others are themselves. Never by_device.
+MeshletSplit meshlet_split_for(MeshletSplit request, const DeviceReport& device);
+
 struct Pipelines;  // render/frame/pipelines.h
 
 // How many entries the compute path's lists take in a frame, of those that their buffers hold
@@ -99,6 +105,7 @@ struct PipelinesKey {
     bool overdraw{};
     bool packed_heights{};
     bool shares_triangles{};
+    MeshletSplit split{MeshletSplit::whole};
     ListRoom list_room{};
     auto operator<=>(const PipelinesKey&) const = default;
 };

@@ -51,7 +51,8 @@ PipelineWants wants_of(const FrameRendererOptions& options, bool packed_heights)
             options.show == gpu::show_overdraw,
             options.shares_triangles,
             packed_heights,
-            options.list_room};
+            options.list_room,
+            options.split};
 }
 
 bool has_packed_heights(const FramePlan& plan) {

@@ -44,6 +44,7 @@ struct FrameRendererOptions {
     OcclusionUse occlusion{OcclusionUse::if_it_pays};  // without record_positions
     // Mesh path: triangles that cover no pixel's centre are not drawn; the ids are the same.
     bool leave_out_small{false};
+    MeshletSplit split{MeshletSplit::by_device};  // mesh path; the ids are the same
     // Compute path: triangles are shared between invocations as on a GPU, also where a processor draws
     // (tests); the ids are the same.
     bool shares_triangles{false};

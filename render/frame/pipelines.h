@@ -50,7 +50,6 @@ struct Pipelines {
     OwnedPipeline terrain;              // mesh path: task, mesh, fragment
     OwnedPipeline terrain_ties;         // ... and what is as near as what is there, with lower ids
     std::uint32_t meshlets_per_task{1};
-    std::uint32_t meshlets_per_group{1};  // of a mesh workgroup
     // Compute path, in this order.
     std::int32_t alone_max_px{};  // of the largest box of pixels that an invocation draws by itself
     OwnedPipeline raster_clear, raster, raster_clip, raster_boxes, raster_large;
@@ -81,6 +80,7 @@ struct PipelineWants {
     bool shares_triangles{false};
     bool packed_heights{false};  // pages may have packed heights: their code would cost others registers
     ListRoom list_room{};        // compute path: fewer in tests only
+    MeshletSplit split{MeshletSplit::by_device};  // mesh path: what a workgroup draws at a time
 };
 
 // Made once and kept until the device ends, with all that has been added since: drivers take longer to make

@@ -88,7 +88,7 @@ bool is_hidden(FramePage page, uint node, float more_m) {
     float radius_m = block.at[0].meshlets[node].radius;
     uint steps = block.at[0].boxes[node];
     vec2 up = block.at[0].up;
-    vec3 half_m = vec3(steps & 1023u, steps >> 10u & 1023u, steps >> 20u) * (radius_m / 1023.0);
+    vec3 half_m = vec3(steps & 1023u, steps >> 10u & 1023u, steps >> 20u & 1023u) * (radius_m / 1023.0);
     vec3 centre = page.view_from_page * centre_m + page.origin_view;
     mat3 axes = page.view_from_page * mat3(vec3(0.0, 1.0, 0.0), vec3(-up.y, 0.0, up.x), vec3(up.x, 0.0, up.y));
     mat3 half_axes = mat3(axes[0] * half_m.x, axes[1] * half_m.y, axes[2] * half_m.z);

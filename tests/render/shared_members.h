@@ -87,6 +87,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameCounts, meshlets_hidden),
         ORO_MEMBER(FrameCounts, meshlets_drawn_later),
         ORO_MEMBER(FrameCounts, triangles_left_out),
+        ORO_MEMBER(FrameCounts, halves_left_out),
         ORO_MEMBER(FrameRound, first_share),
         ORO_MEMBER(FrameRound, last_share),
         ORO_MEMBER(FrameRound, is_last),

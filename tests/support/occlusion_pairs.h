@@ -59,10 +59,12 @@ inline std::pair<Camera, Camera> eyes_in_motion(const EyeGround& where, std::mt1
     return {one, other};
 }
 
-// A renderer with occlusion and one without. The one with it draws as a GPU does, also where there is none.
+// A renderer with occlusion and one without. The one with it draws as a GPU does, also where there is none;
+// split: whole meshlets, or halves of them.
 class OcclusionPair {
   public:
-    OcclusionPair(const Gpu& gpu, RasterPath path, int width_px, int height_px, bool wrong = false) {
+    OcclusionPair(const Gpu& gpu, RasterPath path, int width_px, int height_px, bool wrong = false,
+                  MeshletSplit split = MeshletSplit::by_device) {
         FrameRendererOptions options;
         options.extent = {static_cast<std::uint32_t>(width_px), static_cast<std::uint32_t>(height_px)};
         options.path = path;
@@ -74,6 +76,7 @@ class OcclusionPair {
         options.leave_out_small = true;
         options.shares_triangles = true;
         options.nearest_pyramid = wrong;
+        options.split = split;
         with_.emplace(made(gpu, options));
     }
 

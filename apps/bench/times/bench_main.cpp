@@ -135,6 +135,7 @@ ordered_json asked_json(const BenchOptions& options, const DeviceReport& device)
     json["tau_px"] = options.tau_px;
     json["frames"] = options.frames;
     json["occlusion"] = options.occlusion;
+    json["meshlets"] = meshlet_split_for(options.split, device) == MeshletSplit::halves ? "halves" : "whole";
     json["small_triangles"] = options.leave_out_small ? "skip" : "draw";
     if (options.random_eyes > 0) json["seed"] = options.seed;
     json["heights"] = options.heights == HeightStorage::i16      ? "16"
@@ -199,7 +200,7 @@ Result<void> set_size(const std::string& text, BenchOptions& options) {
 
 // Words that become options once all are read.
 struct BenchWords {
-    std::string size{"1920x1080"}, heights{"32"}, small{"draw"};
+    std::string size{"1920x1080"}, heights{"32"}, small{"draw"}, meshlets{"auto"};
 };
 
 void add_what_is_drawn(CLI::App& app, BenchOptions& options, BenchWords& words) {
@@ -236,6 +237,11 @@ void add_ways_of_drawing(CLI::App& app, BenchOptions& options, BenchWords& words
                    "Bits that the GPU keeps of a height: 32 or 16; packed: as few as the same heights as "
                    "with 32 need")
         ->check(CLI::IsMember({"32", "16", "packed"}));
+    app.add_option(
+           "--meshlets", words.meshlets,
+           "Mesh path: a workgroup for each whole meshlet, for each half of one, or auto (as the device "
+           "does it). The picture is the same")
+        ->check(CLI::IsMember({"auto", "whole", "halves"}));
     app.add_option(
            "--small-triangles", words.small,
            "Mesh path: draw triangles that cover no pixel's centre, or skip them. The picture is the same")
@@ -288,6 +294,9 @@ int main(int argc, char** argv) {
                       : words.heights == "packed" ? oro::HeightStorage::packed
                                                   : oro::HeightStorage::f32;
     options.leave_out_small = words.small == "skip";
+    options.split = words.meshlets == "whole"    ? oro::MeshletSplit::whole
+                    : words.meshlets == "halves" ? oro::MeshletSplit::halves
+                                                 : oro::MeshletSplit::by_device;
     oro::Result<void> done = oro::set_size(words.size, options);
     if (done.ok()) done = oro::read_style(options);
     if (done.ok()) done = oro::run_bench(options);

@@ -6,6 +6,7 @@
 
 #include "apps/bench/bench_style.h"
 #include "core/terrain/height_quantization.h"
+#include "render/device/gpu.h"
 #include "render/device/raster_request.h"
 
 namespace oro {
@@ -29,6 +30,7 @@ struct BenchOptions {
     int gpu_memory_mb{0};
     std::string mesh{"grid"};
     HeightStorage heights{HeightStorage::f32};
+    MeshletSplit split{MeshletSplit::by_device};
     bool leave_out_small{false};  // mesh path: triangles that cover no pixel's centre
     int random_eyes{0};           // 0: those of `path`
     std::uint64_t seed{1};        // of these

@@ -11,6 +11,17 @@ namespace oro {
 
 using nlohmann::ordered_json;
 
+namespace {
+
+// Triangles over those that the workgroups that were started have room for.
+double lanes_used(const gpu::FrameCounts& counts) {
+    const double lanes = static_cast<double>(gpu::meshlet_triangles) * counts.meshlets_drawn -
+                         static_cast<double>(gpu::half_triangles) * counts.halves_left_out;
+    return lanes == 0.0 ? 0.0 : counts.triangles_drawn / lanes;
+}
+
+}  // namespace
+
 Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Camera& camera,
                                const BenchOptions& options) {
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
@@ -63,6 +74,7 @@ Result<FrameRenderer> renderer_for(const Gpu& gpu, RasterPath path, const BenchO
     renderer_options.occlusion = options.occlusion == "on"    ? OcclusionUse::on
                                  : options.occlusion == "off" ? OcclusionUse::off
                                                               : OcclusionUse::if_it_pays;
+    renderer_options.split = options.split;
     renderer_options.leave_out_small = options.leave_out_small;
     renderer_options.smooth_edges = options.style.smooth_edges != 0;
     return FrameRenderer::create(gpu, renderer_options);
@@ -121,10 +133,8 @@ ordered_json times_json(const BenchTimes& times) {
     json["triangles"] = counts.triangles_drawn;
     json["triangles_left_out"] = counts.triangles_left_out;
     json["meshlets"] = counts.meshlets_drawn;
-    json["lanes_used"] =
-        counts.meshlets_drawn == 0
-            ? 0.0
-            : counts.triangles_drawn / (static_cast<double>(gpu::meshlet_triangles) * counts.meshlets_drawn);
+    json["halves_left_out"] = counts.halves_left_out;
+    json["lanes_used"] = lanes_used(counts);
     json["task_workgroups"] = counts.task_groups;
     json["mesh_workgroups"] = counts.mesh_groups;
     json["pages_in_frame"] = times.last.pages;

@@ -1,0 +1,47 @@
+#include "render/raster/pipeline_parts.h"
+
+#include <array>
+
+namespace oro {
+
+Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t> words, const char* name) {
+    VkShaderModuleCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    info.codeSize = words.size_bytes();
+    info.pCode = words.data();
+    VkShaderModule handle{};
+    ORO_VK(vkCreateShaderModule(gpu.device(), &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_SHADER_MODULE, handle, name);
+    return OwnedShader(gpu.device(), handle);
+}
+
+VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, const OwnedShader& shader,
+                                      const VkSpecializationInfo* constants) {
+    VkPipelineShaderStageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage = bit;
+    info.module = shader.get();
+    info.pName = "main";
+    info.pSpecializationInfo = constants;
+    return info;
+}
+
+AllConstants::AllConstants(const VkSpecializationInfo* own, const Pipelines& pipelines) {
+    if (own != nullptr) {
+        entries_.assign(own->pMapEntries, own->pMapEntries + own->mapEntryCount);
+        const auto* const values = static_cast<const std::byte*>(own->pData);
+        values_.assign(values, values + own->dataSize);
+    }
+    constexpr std::uint32_t heights_packed = 100;
+    const ListRoom& room = pipelines.list_room;
+    const std::array<std::uint32_t, 5> common{pipelines.packed_heights ? VK_TRUE : VK_FALSE, room.boxes,
+                                              room.large, room.tasks, room.clips};
+    for (std::uint32_t id = heights_packed; const std::uint32_t& value : common) {
+        entries_.push_back({id++, static_cast<std::uint32_t>(values_.size()), sizeof(value)});
+        const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
+        values_.insert(values_.end(), bytes, bytes + sizeof(value));
+    }
+    info_ = {static_cast<std::uint32_t>(entries_.size()), entries_.data(), values_.size(), values_.data()};
+}
+
+}  // namespace oro

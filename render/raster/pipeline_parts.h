@@ -1,0 +1,39 @@
+// What every pipeline is made of: shaders, their constants, stages.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/device/gpu.h"
+#include "render/device/resources.h"
+#include "render/frame/pipelines.h"
+
+namespace oro {
+
+// A module of SPIR-V words. Errors: the device.
+Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t> words, const char* name);
+
+// The entry point of a shader; all three must outlive what is returned.
+VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, const OwnedShader& shader,
+                                      const VkSpecializationInfo* constants);
+
+// A program's own constants, and those that many programs have: all that read heights
+// (shaders/place/heights.glsl), and all that list triangles (shaders/choose/lists.glsl).
+class AllConstants {
+  public:
+    // own: may be null.
+    AllConstants(const VkSpecializationInfo* own, const Pipelines& pipelines);
+    AllConstants(const AllConstants&) = delete;
+    AllConstants& operator=(const AllConstants&) = delete;
+    // Points into this.
+    [[nodiscard]] const VkSpecializationInfo* info() const { return &info_; }
+
+  private:
+    std::vector<VkSpecializationMapEntry> entries_;
+    std::vector<std::byte> values_;
+    VkSpecializationInfo info_{};
+};
+
+}  // namespace oro
