@@ -26,7 +26,7 @@ void FrameRenderer::record_clear(VkCommandBuffer commands, const FramePlan& plan
 // Levels: which nodes of which pages, for whichever way of drawing follows.
 void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& grid,
                                   const FramePlan& plan) const {
-    if (plan.clusters.on) return;  // their cut is the processor's
+    if (plan.clusters.on) return;  // the first round makes their cut
     grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     const auto count = static_cast<std::uint32_t>(plan.pages.size());
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->accept.get());
