@@ -77,7 +77,7 @@ class ClusterCuts : public test::GpuTest, public ::testing::WithParamInterface<R
 // processor makes from the beginning, and shows what is seen where that one is drawn.
 TEST_P(ClusterCuts, AreTheProcessors) {
     constexpr unsigned seed = 351;
-    const int eyes = asked_eyes(25);
+    const int eyes = asked_eyes(12);
     std::mt19937_64 random(seed);
     test::DrawnScene offers = scene(), waits = scene();
     const HorizonOccluder& occluder = offers.scene().pages().facts().shape.occluder;
@@ -113,7 +113,7 @@ TEST_P(ClusterCuts, AreTheProcessors) {
 // The same of levels of the graph.
 TEST_P(ClusterCuts, OfLevelsAreTheProcessors) {
     constexpr unsigned seed = 352;
-    const int eyes = asked_eyes(8);
+    const int eyes = asked_eyes(4);
     std::mt19937_64 random(seed);
     test::DrawnScene offers = scene(1);
     const HorizonOccluder& occluder = offers.scene().pages().facts().shape.occluder;
