@@ -14,7 +14,7 @@
 namespace oro {
 namespace {
 
-constexpr int quads_of_side = static_cast<int>(gpu::meshlets_per_side);
+constexpr int page_meshlets = static_cast<int>(gpu::meshlets_per_side);
 
 HeightField hills(int rows, int columns) {
     return test::made_field(46.0, 8.0, 1200.0, rows, columns, [](double lat_deg, double lon_deg) {
@@ -29,7 +29,7 @@ std::unique_ptr<gpu::PageBlock> block_of(const HeightField& field) {
 }
 
 gpu::uint told(const gpu::PageBlock& block, int row, int column) {
-    return block.boxes[row * quads_of_side + column] >> gpu::halves_bit;
+    return block.boxes[row * page_meshlets + column] >> gpu::halves_bit;
 }
 
 float& H_of(HeightField& field, int row, int column) {
@@ -73,7 +73,7 @@ TEST(HalvesOfAPage, EndWithTheData) {
 
 // Triangles of a meshlet as shaders make them, whatever its edges: of its first and last rows, and columns.
 std::array<int, 4> triangles_of(const gpu::PageBlock& block, int meshlet, gpu::uvec2 quads) {
-    const gpu::uvec2 first = 8U * gpu::uvec2(meshlet / quads_of_side, meshlet % quads_of_side);
+    const gpu::uvec2 first = 8U * gpu::uvec2(meshlet / page_meshlets, meshlet % page_meshlets);
     std::array<int, 4> count{};
     for (gpu::uint edges = 0; edges < 16; ++edges) {
         for (gpu::uint quad = 0; quad < 64; ++quad) {
@@ -120,10 +120,10 @@ TEST(HalvesOfAPage, LeaveOutNoTriangle) {
             }
         }
         const auto block = block_of(field);
-        for (int meshlet = 0; meshlet < quads_of_side * quads_of_side; ++meshlet) {
+        for (int meshlet = 0; meshlet < page_meshlets * page_meshlets; ++meshlet) {
             if (block->meshlets[meshlet].radius < 0.0F) continue;
             const gpu::uvec2 left = gpu::uvec2(rows - 1, columns - 1) -
-                                    8U * gpu::uvec2(meshlet / quads_of_side, meshlet % quads_of_side);
+                                    8U * gpu::uvec2(meshlet / page_meshlets, meshlet % page_meshlets);
             const std::array<int, 4> count = triangles_of(*block, meshlet, glm::min(left, gpu::uvec2(8)));
             const gpu::uint halves = block->boxes[meshlet] >> gpu::halves_bit;
             ++drawn;
