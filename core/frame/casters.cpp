@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "core/cast/cast_map.h"
 #include "core/earth/model_view.h"
 #include "core/frame/frame_plan.h"
 #include "core/lod/levels.h"
@@ -19,161 +20,6 @@ namespace oro {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double sun_radius_rad = 0.00465;
-constexpr int cells_max = 128;  // along a side of the map of what is shaded
-
-// Cells of pages of one level over the region: what the lines from all that is seen towards the sun need.
-class CastMap {
-  public:
-    struct Need {
-        double error_m{infinite};  // that casters there may have
-        double low_m{infinite};    // nothing below this height matters
-    };
-    struct Receiver {
-        int row, column;
-        double error_per_slope_m;
-        double lowest_m;
-    };
-
-    CastMap(const RegionPages& pages, const glm::dvec3& sun_ecef, double top_m)
-        : grid_(pages.facts().grid), sun_ecef_(sun_ecef), top_m_(top_m) {
-        while (level_ + 1 < pages.levels() &&
-               std::max(pages.layout(level_).rows, pages.layout(level_).columns) > cells_max)
-            ++level_;
-        layout_ = pages.layout(level_);
-        needs_.resize(static_cast<std::size_t>(layout_.rows) * static_cast<std::size_t>(layout_.columns));
-        posts_ = std::int64_t{gpu::page_quads} << level_;
-        receivers_.resize(needs_.size(), {infinite, infinite});
-    }
-
-    // The cells [first, last) of a page's quarter or of a page.
-    struct Patch {
-        int north, south, west, east;
-    };
-    [[nodiscard]] Patch patch(std::int64_t row, std::int64_t column, std::int64_t posts) const {
-        const auto clamped = [](std::int64_t cell, int count) {
-            return static_cast<int>(std::clamp<std::int64_t>(cell, 0, count - 1));
-        };
-        return {clamped(row / posts_, layout_.rows), clamped((row + posts - 1) / posts_, layout_.rows),
-                clamped(column / posts_, layout_.columns),
-                clamped((column + posts - 1) / posts_, layout_.columns)};
-    }
-    void receive(const Patch& patch, double error_per_slope_m, double lowest_m) {
-        for (int row = patch.north; row <= patch.south; ++row)
-            for (int column = patch.west; column <= patch.east; ++column) {
-                Need& need = receivers_[place(row, column)];
-                need.error_m = std::min(need.error_m, error_per_slope_m);
-                need.low_m = std::min(need.low_m, lowest_m);
-            }
-    }
-    void cast() {
-        for (int row = 0; row < layout_.rows; ++row)
-            for (int column = 0; column < layout_.columns; ++column)
-                if (receivers_[place(row, column)].low_m < infinite) cast_from(row, column);
-    }
-    [[nodiscard]] Need need(const Patch& patch) const {
-        Need all;
-        for (int row = patch.north; row <= patch.south; ++row)
-            for (int column = patch.west; column <= patch.east; ++column) {
-                all.error_m = std::min(all.error_m, needs_[place(row, column)].error_m);
-                all.low_m = std::min(all.low_m, needs_[place(row, column)].low_m);
-            }
-        return all;
-    }
-
-  private:
-    [[nodiscard]] std::size_t place(int row, int column) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(layout_.columns) +
-               static_cast<std::size_t>(column);
-    }
-    // How the posts lie around one of them.
-    struct CellLie {
-        PostPlace place;
-        double row_m, column_m;  // from one to the next
-        SineCosine turn;         // of rows, from east towards north
-        double bend;  // how far a line strays from a straight one among them, of a great circle's stray
-    };
-    [[nodiscard]] CellLie lie_of_cell(std::int64_t row, std::int64_t column) const;
-    void cast_from(int row, int column);
-    void mark(double north, double south, double west, double east, const Need& need);
-
-    const PostGrid& grid_;
-    glm::dvec3 sun_ecef_;
-    double top_m_;
-    int level_{0};
-    PageLayout layout_;
-    std::int64_t posts_{};  // along a cell
-    std::vector<Need> needs_, receivers_;
-};
-
-void CastMap::mark(double north, double south, double west, double east, const Need& need) {
-    const auto clamped = [](double cell, int count) {
-        return static_cast<int>(std::clamp(std::floor(cell), 0.0, static_cast<double>(count - 1)));
-    };
-    if (south < 0.0 || east < 0.0 || north >= layout_.rows || west >= layout_.columns) return;
-    for (int row = clamped(north, layout_.rows); row <= clamped(south, layout_.rows); ++row)
-        for (int column = clamped(west, layout_.columns); column <= clamped(east, layout_.columns);
-             ++column) {
-            Need& there = needs_[place(row, column)];
-            there.error_m = std::min(there.error_m, need.error_m);
-            there.low_m = std::min(there.low_m, need.low_m);
-        }
-}
-
-CastMap::CellLie CastMap::lie_of_cell(std::int64_t row, std::int64_t column) const {
-    if (grid_.net) {
-        const auto y = static_cast<double>(row), x = static_cast<double>(column);
-        const GridNet::Lie lie = grid_.net->lie_at(y, x);
-        return {grid_.net->place_at(y, x), lie.row_m, lie.column_m,
-                sine_cosine_deg(deg_from_radians(Radians(lie.turn_rad))), 1.0 + grid_.net->bend()};
-    }
-    const double lat_deg = row_lat_deg(grid_, row);
-    return {{lat_deg, grid_.lon.at_deg(column)},
-            meridian_radius_m(lat_deg) * grid_.row_step_rad(),
-            prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine * grid_.column_step_rad(),
-            {0.0, 1.0},
-            1.0 + std::abs(std::tan(radians_from_deg(lat_deg).rad))};
-}
-
-// Moves a cell towards the sun, half a cell at a time, until it is above all terrain.
-void CastMap::cast_from(int row, int column) {
-    const Need& receiver = receivers_[place(row, column)];
-    const auto posts = static_cast<double>(posts_);
-    const std::int64_t at_post_row = std::min<std::int64_t>(row * posts_ + posts_ / 2, grid_.rows() - 1);
-    const std::int64_t at_post_column =
-        std::min<std::int64_t>(column * posts_ + posts_ / 2, grid_.columns() - 1);
-    const CellLie lie = lie_of_cell(at_post_row, at_post_column);
-    const glm::dvec3 sun = glm::transpose(ecef_from_enu(lie.place.lat_deg, lie.place.lon_deg)) * sun_ecef_;
-    const double row_m = posts * lie.row_m, column_m = std::max(1.0, posts * lie.column_m);
-    const double half_rad =
-        0.5 * std::hypot(row_m, column_m) / mean_radius_m;  // the sun's rise differs over the cell
-    const double level = std::max(std::hypot(sun.x, sun.y), 1e-6);
-    const double rise = std::atan2(sun.z, level) - half_rad;
-    const Need need{receiver.error_m * std::clamp(std::tan(rise), 0.02, 1.0), receiver.low_m};
-    const double lowest = std::tan(std::clamp(rise - 1.1 * sun_radius_rad, -1.5, 1.5));
-    const double step_m = 0.5 * std::min(row_m, column_m);
-    // Cells a metre.
-    const double south = (sun.x * lie.turn.sine - sun.y * lie.turn.cosine) / level / row_m;
-    const double east = (sun.x * lie.turn.cosine + sun.y * lie.turn.sine) / level / column_m;
-    double low_m = receiver.low_m;
-    for (double from_m = 0.0; low_m <= top_m_ || from_m * lowest < 0.0; from_m += step_m) {
-        const double to_m = from_m + step_m;
-        // Towards the pole's side the line bends, and the sun's direction differs over the cell.
-        const double aside_m = to_m * (half_rad + to_m / (2.0 * mean_radius_m)) * lie.bend;
-        const double rows = aside_m / row_m + 0.01, columns = aside_m / column_m + 0.01;
-        const double sag_m = from_m * from_m / (2.0 * mean_radius_m);
-        low_m = receiver.low_m + std::min(from_m * lowest, to_m * lowest) + 0.99 * sag_m;
-        if (to_m > 1.2e6) break;
-        mark(row + std::min(from_m * south, to_m * south) - rows,
-             row + 1.0 + std::max(from_m * south, to_m * south) + rows,
-             column + std::min(from_m * east, to_m * east) - columns,
-             column + 1.0 + std::max(from_m * east, to_m * east) + columns, {need.error_m, low_m});
-        const double at_row = row + 0.5 + from_m * south, at_column = column + 0.5 + from_m * east;
-        if (at_row < -1.0 - rows || at_row > layout_.rows + 1.0 + rows || at_column < -1.0 - columns ||
-            at_column > layout_.columns + 1.0 + columns)
-            break;
-    }
-}
 
 // Collects the pages.
 class CasterChoice {
@@ -274,9 +120,19 @@ void CasterChoice::list(FramePlan& plan) const {
     casters.frame.page_count = static_cast<gpu::uint>(casters.pages.size());
 }
 
-// What of a plan is seen, and so may be shaded.
-Result<void> receive_plan(const RegionPages& pages, const Camera& camera, const Tile& tile,
-                          double error_per_m, const FramePlan& plan, CastMap& map) {
+// What casters may be off for each metre from the eye.
+double error_per_metre(const FramePlan& plan) {
+    return caster_error_px / static_cast<double>(plan.constants.pixels_per_tangent);
+}
+
+// A quarter of a plan's page that is seen, and so may be shaded.
+struct SeenQuarter {
+    std::int64_t row, column, posts;  // its first post in the region, and how many along a side
+    CastReceiver ground;
+};
+Result<void> look_for_quarters(const RegionPages& pages, const Camera& camera, const Tile& tile,
+                               const FramePlan& plan, const std::function<void(const SeenQuarter&)>& found) {
+    const double error_per_m = error_per_metre(plan);
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
     const glm::dvec3 eye = camera.eye_ecef().m;
     const auto planes = frustum_planes_view(projection_of_tile(camera, tile));
@@ -290,8 +146,9 @@ Result<void> receive_plan(const RegionPages& pages, const Camera& camera, const 
             if (index.level > 0 && (page.stand_in >> static_cast<unsigned>(quarter) & 1U) == 0) continue;
             const PageQuarter& part = record.quarters[static_cast<std::size_t>(quarter)];
             if (part.lod_radius_m < 0.0) continue;
-            const glm::dvec3 centre = view_from_ecef * (record.summary.origin_ecef.m +
-                                                        record.summary.ecef_from_page * part.centre_m - eye);
+            const glm::dvec3 centre_ecef =
+                record.summary.origin_ecef.m + record.summary.ecef_from_page * part.centre_m;
+            const glm::dvec3 centre = view_from_ecef * (centre_ecef - eye);
             const double lift_m =
                 0.1 * glm::dot(centre, centre) / mean_radius_m;  // light that bends shows it higher
             if (beyond_frustum(planes, centre, part.lod_radius_m + lift_m)) continue;
@@ -299,9 +156,13 @@ Result<void> receive_plan(const RegionPages& pages, const Camera& camera, const 
                 std::max(0.5, 0.999 * (glm::length(centre) - part.lod_radius_m - lift_m));
             const double error_m =
                 index.level == 0 ? 0.0 : std::min(1.0e4, static_cast<double>(part.largest_error_m));
-            map.receive(map.patch(2 * index.row * half + quarter / 2 * half,
-                                  2 * index.column * half + quarter % 2 * half, half),
-                        error_per_m * distance_m, record.summary.lowest_h_m - error_m);
+            found({2 * index.row * half + quarter / 2 * half,
+                   2 * index.column * half + quarter % 2 * half,
+                   half,
+                   {{centre_ecef},
+                    part.lod_radius_m,
+                    error_per_m * distance_m,
+                    record.summary.lowest_h_m - error_m}});
         }
     }
     return {};
@@ -345,31 +206,51 @@ Result<double> region_top_m(const RegionPages& pages) {
     return std::max(top_m, -1.0e5) + 1.0;
 }
 
+// The ground of a seam lies along the rims of grids, a few of their posts wide.
+Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const Camera& camera,
+                                                 const Tile& tile, const FramePlan& plan) {
+    constexpr double rim_posts = 3.0;
+    std::vector<CastReceiver> all;
+    if (pages.is_seam()) return all;
+    const double rim_m = rim_posts * mean_radius_m * pages.facts().grid.row_step_rad();
+    ORO_CHECK(look_for_quarters(pages, camera, tile, plan, [&](const SeenQuarter& quarter) {
+        all.push_back(quarter.ground);
+        all.back().radius_m += rim_m;
+    }));
+    return all;
+}
+
 Result<void> plan_casters(const RegionPages& pages,
                           const std::function<std::uint64_t(const PageIndex&)>& residency,
                           const Camera& camera, const Tile& tile, const CastRequest& request, double top_m,
-                          FramePlan& plan) {
+                          FramePlan& plan, std::span<const CastReceiver> beside) {
     const int top = pages.levels() - 1;
-    if (plan.pages.empty() || pages.layout(top).count() == 0) return {};
-    const RegionFacts& facts = pages.facts();
-    const double error_per_m = caster_error_px / static_cast<double>(plan.constants.pixels_per_tangent);
+    if (pages.layout(top).count() == 0) return {};
     CasterChoice choice(pages, residency);
-    if (request.sun_enu) {
+    bool for_shadows = request.sun_enu.has_value();
+    if (for_shadows) {
         CastMap map(pages, ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg) * *request.sun_enu, top_m);
-        ORO_CHECK(receive_plan(pages, camera, tile, error_per_m, plan, map));
+        ORO_CHECK(look_for_quarters(pages, camera, tile, plan, [&](const SeenQuarter& quarter) {
+            map.receive(map.patch(quarter.row, quarter.column, quarter.posts),
+                        quarter.ground.error_per_slope_m, quarter.ground.lowest_m);
+        }));
         map.cast();
-        ORO_CHECK(choice.want(map, {0, 0, top}));
+        for (const CastReceiver& receiver : beside) map.cast_from_beside(receiver);
+        for_shadows = !plan.pages.empty() || map.any();
+        if (for_shadows) ORO_CHECK(choice.want(map, {0, 0, top}));
     }
+    if (plan.pages.empty() && !for_shadows) return {};
     if (request.sky_openness) ORO_CHECK(choice.want_around(plan));
     choice.list(plan);
-    plan.casters.for_shadows = request.sun_enu.has_value();
+    plan.casters.for_shadows = for_shadows;
     plan.casters.for_openness = request.sky_openness;
+    const RegionFacts& facts = pages.facts();
     gpu::Casters& frame = plan.casters.frame;
     frame.level_count = static_cast<gpu::uint>(pages.levels());
     frame.row_rad = static_cast<float>(facts.grid.row_step_rad());
     frame.column_rad = static_cast<float>(facts.grid.column_step_rad());
     frame.top_m = static_cast<float>(top_m);
-    frame.error_per_m = static_cast<float>(error_per_m);
+    frame.error_per_m = static_cast<float>(error_per_metre(plan));
     return {};
 }
 

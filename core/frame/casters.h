@@ -5,9 +5,11 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/earth/camera.h"
+#include "core/earth/ellipsoid.h"
 #include "core/frame/region_pages.h"
 #include "shaders/shared.h"
 
@@ -33,19 +35,33 @@ struct CasterPlan {
     std::vector<gpu::uint> table;
 };
 
+// Ground of another grid that a frame shows: in a sphere, in ECEF.
+struct CastReceiver {
+    Ecef centre;
+    double radius_m;
+    double error_per_slope_m;  // what casts shadows there may be off, a metre of light's rise a metre
+    double lowest_m;           // above the ellipsoid; no ground there is lower
+};
+
 // A shadow's edge may be off by so many pixels because coarser levels cast it.
 inline constexpr double caster_error_px = 0.1;
 
 // Height above the ellipsoid that nothing in the region is above, as drawn. Reads the records of some pages.
 Result<double> region_top_m(const RegionPages& pages);
 
+// The ground that a plan of these pages shows, for plan_casters() of other grids of the frame. Errors: a
+// page's record that cannot be read.
+Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const Camera& camera,
+                                                 const Tile& tile, const FramePlan& plan);
+
 // Chooses the pages of all levels that are needed around a plan's own. For shadows those that a line from any
 // place of the plan's pages towards the sun may pass below the top of, no coarser than `caster_error_px` asks
 // for; light is parallel and straight. For the sky's openness those beside the plan's. Adds what is not on
-// the GPU to plan.missing. residency: as for plan_frame(). Errors: a page's record that cannot be read.
+// the GPU to plan.missing. residency: as for plan_frame(). beside: ground of other grids that is seen in the
+// frame; a plan without pages of its own may cast on that alone. Errors: a page's record that cannot be read.
 Result<void> plan_casters(const RegionPages& pages,
                           const std::function<std::uint64_t(const PageIndex&)>& residency,
                           const Camera& camera, const Tile& tile, const CastRequest& request, double top_m,
-                          FramePlan& plan);
+                          FramePlan& plan, std::span<const CastReceiver> beside = {});
 
 }  // namespace oro

@@ -211,7 +211,7 @@ Result<void> FrameRenderer::upload(std::size_t number, FramePlan& plan, const Fr
         grid.drape.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? drape : nullptr, constants));
     if (options_.shades) {
         ORO_CHECK(air_.prepare(*gpu_, *pipelines_, constants));
-        ORO_CHECK(grid.casters.prepare(*gpu_, options_.path, *pipelines_, plan, constants));
+        ORO_CHECK(grid.casters.prepare(*gpu_, options_.path, *pipelines_, plan, shared_shares_, constants));
         ORO_CHECK(choose_shading(grid, constants));
     }
     grid.address(plan);
@@ -274,6 +274,7 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     occlusion_->begin(plan, remembers(plan));
     if (occlusion_->is_on() && !occlusion_->uses_last_frame())
         for (GridFrame& grid : grids_) grid.forget();
+    ORO_CHECK(shared_shares_.reserve(*gpu_, plan, style));
     const FrameAsked asked{style, sample_index, sample_count, drapes};
     ORO_CHECK(upload(0, plan, asked));
     for (std::size_t i = 0; i < plan.beside.size(); ++i) ORO_CHECK(upload(i + 1, plan.beside[i], asked));

@@ -138,6 +138,7 @@ class FrameRenderer {
     void remember(const FramePlan& plan);
     Result<void> choose_shading(GridFrame& grid, gpu::FrameConstants& constants);
     [[nodiscard]] bool has_images(const FramePlan& plan) const;
+    void record_casters(VkCommandBuffer commands, const FramePlan& plan);
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
     void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;
@@ -156,6 +157,7 @@ class FrameRenderer {
     std::optional<ComputeRaster> compute_;
     std::optional<Occlusion> occlusion_;
     AirTables air_;
+    SharedShares shared_shares_;
     Commands commands_;
     Image ids_, depth_, sum_, picture_;
     OwnedQueryPool timestamps_;

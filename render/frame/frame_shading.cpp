@@ -24,7 +24,7 @@ std::uint32_t tiles_of(std::uint32_t pixels) {
 Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants& constants) {
     const gpu::FrameStyle& style = constants.style;
     ShadingKind kind = shading_of(style);
-    kind.casts = grid.casters.casts();
+    kind.casts = grid.casters.has_shadows();
     kind.opens = grid.casters.opens();
     kind.draped = grid.drape.is_on();
     kind.by_means = constants.has_means != 0 && asks_for_means(style);
@@ -53,6 +53,22 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants&
     return {};
 }
 
+// What each pixel sees of the sun: past the terrain of all grids, where there are several.
+void FrameRenderer::record_casters(VkCommandBuffer commands, const FramePlan& plan) {
+    const auto each = [&](const auto& record_grid) {
+        for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+            if (!grids_[i].casters.any()) continue;
+            grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+            record_grid(grids_[i].casters);
+        }
+    };
+    if (shared_shares_.is_on()) shared_shares_.record_clear(commands);
+    each([&](CasterBuffers& casters) { casters.record_casters(commands, *pipelines_); });
+    each([&](CasterBuffers& casters) { casters.record_places(commands, *pipelines_); });
+    each([&](CasterBuffers& casters) { casters.record_shares(commands, *pipelines_); });
+    each([&](CasterBuffers& casters) { casters.record_join(commands, *pipelines_); });
+}
+
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
     const bool in_parts =
         std::any_of(grids_.begin(), grids_.begin() + static_cast<std::ptrdiff_t>(1 + plan.beside.size()),
@@ -65,11 +81,7 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
                   : compute_       ? unused
                                    : as_colour,
                   shader_read);
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
-        if (!grids_[i].casters.any()) continue;
-        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        grids_[i].casters.record(commands, *pipelines_);
-    }
+    record_casters(commands, plan);
     const bool first = plan.constants.sample_index == 0;
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);

@@ -60,6 +60,10 @@ struct Pipelines {
     OwnedPipeline caster_tops, openness;       // of what casts shadows
     // Off and on a net, of clusters: of every second pixel, of all; 16 x 16 of them.
     std::array<std::array<OwnedPipeline, 2>, 3> sun_shares;
+    // Of frames of several grids, off and on a net: where pixels' ground is, 8 x 8; as sun_shares; 8 x 8.
+    std::array<OwnedPipeline, 2> cast_places;
+    std::array<std::array<OwnedPipeline, 2>, 2> joined_shares;
+    OwnedPipeline join_shares;
     OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
     OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8
     // Of frames that draw clusters: see add_cluster_pipelines().

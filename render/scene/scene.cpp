@@ -79,13 +79,41 @@ std::size_t Scene::image_tiles_max() const {
 
 Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau_px,
                               const WorldModel& model) {
-    ORO_TRY(FramePlan plan, own_plan(camera, tile, tau_px, model, Clusters::that_are_here));
-    for (Scene& other : beside_) {
-        ORO_TRY(FramePlan more, other.own_plan(camera, tile, tau_px, model, Clusters::that_are_here));
-        other.missed_ = more.missing;
-        plan.beside.push_back(std::move(more));
+    const std::vector<Scene*> scenes = all();
+    std::vector<FramePlan> plans;
+    for (Scene* const scene : scenes) {
+        ORO_TRY(FramePlan begun, scene->begun_plan(camera, tile, tau_px, model, Clusters::that_are_here));
+        plans.push_back(std::move(begun));
     }
+    ORO_CHECK(tell_receivers(camera, tile, plans));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        ORO_CHECK(scenes[i]->end_plan(camera, tile, plans[i]));
+        if (i > 0) scenes[i]->missed_ = plans[i].missing;
+    }
+    return joined(std::move(plans));
+}
+
+FramePlan Scene::joined(std::vector<FramePlan> plans) {
+    FramePlan plan = std::move(plans.front());
+    plan.beside.assign(std::make_move_iterator(plans.begin() + 1), std::make_move_iterator(plans.end()));
     return plan;
+}
+
+// Ground that another grid draws is ground that a grid's terrain may darken.
+Result<void> Scene::tell_receivers(const Camera& camera, const Tile& tile,
+                                   const std::vector<FramePlan>& plans) {
+    if (beside_.empty()) return {};
+    const std::vector<Scene*> scenes = all();
+    for (Scene* const scene : scenes) scene->shown_beside_.clear();
+    if (!cast_.sun_enu) return {};
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        ORO_TRY(const std::vector<CastReceiver> shown,
+                cast_receivers(*scenes[i]->pages_, camera, tile, plans[i]));
+        for (std::size_t j = 0; j < scenes.size(); ++j)
+            if (j != i)
+                scenes[j]->shown_beside_.insert(scenes[j]->shown_beside_.end(), shown.begin(), shown.end());
+    }
+    return {};
 }
 
 bool Scene::is_hidden(const PageIndex& page) const {
@@ -134,7 +162,7 @@ Result<void> Scene::add_casters(const Camera& camera, const Tile& tile, FramePla
     plan.missing.erase(first_hidden, plan.missing.end());
     ORO_CHECK(plan_casters(
         *pages_, [&](const PageIndex& page) { return store_.address(page); }, camera, tile, cast_, *top_m_,
-        plan));
+        plan, shown_beside_));
     plan.missing_hidden = 0;
     std::set<std::tuple<int, int, int>> wanted;
     for (const PageIndex& page : plan.missing) wanted.insert({page.level, page.row, page.column});
@@ -158,9 +186,21 @@ Result<void> Scene::add_clusters(const Camera& camera, const Tile& tile, double 
 
 Result<FramePlan> Scene::own_plan(const Camera& camera, const Tile& tile, double tau_px,
                                   const WorldModel& model, Clusters clusters) {
+    ORO_TRY(FramePlan plan, begun_plan(camera, tile, tau_px, model, clusters));
+    ORO_CHECK(end_plan(camera, tile, plan));
+    return plan;
+}
+
+// Without what casts shadows.
+Result<FramePlan> Scene::begun_plan(const Camera& camera, const Tile& tile, double tau_px,
+                                    const WorldModel& model, Clusters clusters) {
     ORO_TRY(FramePlan plan, plan_of_pages(camera, tile, tau_px, model));
     for (const PageIndex& page : plan.hidden) store_.note_hidden(page);
     ORO_CHECK(add_clusters(camera, tile, tau_px, model, clusters, plan));
+    return plan;
+}
+
+Result<void> Scene::end_plan(const Camera& camera, const Tile& tile, FramePlan& plan) {
     if (cast_.any()) ORO_CHECK(add_casters(camera, tile, plan));
     full_for_hidden_ = false;
     hidden_.clear();
@@ -176,7 +216,7 @@ Result<FramePlan> Scene::own_plan(const Camera& camera, const Tile& tile, double
     }
     plan.constants.undulation.N_m = address_words(undulation_.address);
     plan.heights = number_;
-    return plan;
+    return {};
 }
 
 Result<Scene::Sent> Scene::send_ready(bool wait) {
@@ -235,6 +275,18 @@ bool Scene::make_room() {
 
 Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                       const WorldModel& model) {
+    ORO_CHECK(tell_receivers(camera, tile, std::vector<FramePlan>(grids())));
+    ORO_TRY(std::vector<FramePlan> plans, settled_plans(camera, tile, tau_px, model));
+    if (!beside_.empty() && cast_.sun_enu) {
+        // What each of them shows is known: what the others need to cast on that comes, too.
+        ORO_CHECK(tell_receivers(camera, tile, plans));
+        ORO_TRY(plans, settled_plans(camera, tile, tau_px, model));
+    }
+    return joined(std::move(plans));
+}
+
+Result<std::vector<FramePlan>> Scene::settled_plans(const Camera& camera, const Tile& tile, double tau_px,
+                                                    const WorldModel& model) {
     std::vector<FramePlan> plans;
     for (Scene* const scene : all()) {
         ORO_TRY(FramePlan plan, scene->own_settled_plan(camera, tile, tau_px, model));
@@ -249,9 +301,7 @@ Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, do
         }
         plans.push_back(std::move(plan));
     }
-    FramePlan plan = std::move(plans.front());
-    plan.beside.assign(std::make_move_iterator(plans.begin() + 1), std::make_move_iterator(plans.end()));
-    return plan;
+    return plans;
 }
 
 // Pages become ready in any order, so no more are asked for than there is room for. Where they differ in size

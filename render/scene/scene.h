@@ -57,8 +57,8 @@ class Scene {
     void draw_clusters(ClusterScene clusters) { clusters_.emplace(std::move(clusters)); }
     [[nodiscard]] const std::optional<ClusterScene>& clusters() const { return clusters_; }
 
-    // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h);
-    // terrain of one grid is none for another.
+    // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h):
+    // for shadows of all its grids, on the ground of all. How open the sky is each grid's own terrain tells.
     void cast(const CastRequest& request);
     // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px,
@@ -120,8 +120,17 @@ class Scene {
                                Clusters clusters);
     Result<void> add_clusters(const Camera& camera, const Tile& tile, double tau_px, const WorldModel& model,
                               Clusters clusters, FramePlan& plan);
+    Result<FramePlan> begun_plan(const Camera& camera, const Tile& tile, double tau_px,
+                                 const WorldModel& model, Clusters clusters);
+    Result<void> end_plan(const Camera& camera, const Tile& tile, FramePlan& plan);
     Result<FramePlan> own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
                                        const WorldModel& model);
+    // Of all(), in their order.
+    Result<std::vector<FramePlan>> settled_plans(const Camera& camera, const Tile& tile, double tau_px,
+                                                 const WorldModel& model);
+    static FramePlan joined(std::vector<FramePlan> plans);
+    // To each grid what the plans of the others show.
+    Result<void> tell_receivers(const Camera& camera, const Tile& tile, const std::vector<FramePlan>& plans);
     // This and those beside it.
     std::vector<Scene*> all();
     // Lets go of what the grids' frames do not use: true where there is more room now.
@@ -139,7 +148,8 @@ class Scene {
     bool full_for_hidden_{false};                 // at least for those
     bool can_give_way_{false};                    // hidden pages of the last plan could, for missing ones
     CastRequest cast_;
-    std::optional<double> top_m_;  // of the region, once it was asked for
+    std::vector<CastReceiver> shown_beside_;  // by other grids of the frame
+    std::optional<double> top_m_;             // of the region, once it was asked for
     std::optional<ClusterScene> clusters_;
     std::vector<Scene> beside_;
     std::vector<PageIndex> missed_;  // by its last plan, where it is one of those beside another

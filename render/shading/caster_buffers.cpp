@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/shading/shading.h"
+#include "shaders/shared_places.h"
 
 namespace oro {
 namespace {
@@ -29,7 +30,7 @@ struct CasterLayout {
     VkDeviceSize pages, table, size;
 };
 CasterLayout layout_of(const CasterPlan& plan) {
-    const VkDeviceSize pages = aligned(sizeof(gpu::Casters));
+    const VkDeviceSize pages = aligned(sizeof(gpu::FrameCasters));
     const VkDeviceSize table = aligned(pages + plan.pages.size() * sizeof(gpu::CasterPage));
     return {pages, table, aligned(table + plan.table.size() * sizeof(gpu::uint))};
 }
@@ -70,7 +71,34 @@ void record_sun_shares(VkCommandBuffer commands, const std::array<OwnedPipeline,
     wait_for_shaders(commands);
 }
 
+void dispatch_over_pixels(VkCommandBuffer commands, const OwnedPipeline& pipeline, std::uint32_t width_px,
+                          std::uint32_t height_px) {
+    constexpr std::uint32_t side_px = 8;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+    vkCmdDispatch(commands, (width_px + side_px - 1) / side_px, (height_px + side_px - 1) / side_px, 1);
+}
+
 }  // namespace
+
+Result<void> SharedShares::reserve(const Gpu& gpu, const FramePlan& plan, const gpu::FrameStyle& style) {
+    const auto casts = [](const FramePlan& one) { return one.casters.for_shadows; };
+    is_on_ = style.shadows != 0 && !plan.beside.empty() &&
+             (casts(plan) || std::ranges::any_of(plan.beside, casts));
+    if (!is_on_) return {};
+    const VkDeviceSize pixels = VkDeviceSize{plan.constants.width_px} * plan.constants.height_px;
+    if (shares_.size >= pixels * sizeof(float)) return {};
+    ORO_TRY(places_, create_buffer(gpu, pixels * sizeof(gpu::CastPlace), on_device, MemoryKind::device,
+                                   "places in shadow"));
+    ORO_TRY(shares_, create_buffer(gpu, pixels * sizeof(float), on_device, MemoryKind::device,
+                                   "sun shares of all grids"));
+    return {};
+}
+
+void SharedShares::record_clear(VkCommandBuffer commands) const {
+    constexpr std::uint32_t one = 0x3f800000;  // as a float
+    vkCmdFillBuffer(commands, shares_.handle.get(), 0, VK_WHOLE_SIZE, one);
+    wait(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+}
 
 Result<void> CasterBuffers::reserve(const Gpu& gpu, const FramePlan& frame,
                                     const gpu::FrameConstants& constants) {
@@ -106,7 +134,7 @@ Result<void> CasterBuffers::reserve(const Gpu& gpu, const FramePlan& frame,
 
 // What nodes and openness follow from: the casters as they are sent, then whose heights they are and of which
 // pages. Heights stay where they are, and the same place holds others only as another page.
-void CasterBuffers::describe(const FramePlan& frame, const gpu::Casters& casters) {
+void CasterBuffers::describe(const FramePlan& frame, const gpu::FrameCasters& casters) {
     const CasterPlan& plan = frame.casters;
     const CasterLayout layout = layout_of(plan);
     wanted_.assign(layout.size, std::byte{});
@@ -134,26 +162,33 @@ void CasterBuffers::describe(const FramePlan& frame, const gpu::Casters& casters
 }
 
 Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& pipelines,
-                                    const FramePlan& frame, gpu::FrameConstants& constants) {
+                                    const FramePlan& frame, const SharedShares& shared,
+                                    gpu::FrameConstants& constants) {
     const CasterPlan& plan = frame.casters;
     const gpu::FrameStyle& style = constants.style;
     const bool there = !plan.pages.empty();
     casts_ = there && style.shadows != 0 && plan.for_shadows;
     opens_ = there && style.sky_openness != 0 && plan.for_openness;
+    is_joined_ = shared.is_on() && (casts_ || !frame.pages.empty());
     on_net_ = constants.has_net != 0;
     on_clusters_ = constants.clusters.on != 0;
     lists_together_ = lists_pixels_together(gpu);
     constants.casters = {};
     if (!any()) return {};
-    ORO_CHECK(add_cast_pipelines(gpu, path, on_net_, on_clusters_, pipelines));
+    ORO_CHECK(add_cast_pipelines(gpu, pipelines));
+    ORO_CHECK(is_joined_ ? add_joined_pipelines(gpu, path, on_net_, casts_, pipelines)
+                         : add_share_pipelines(gpu, path, on_net_, on_clusters_, pipelines));
     ORO_CHECK(reserve(gpu, frame, constants));
     const CasterLayout layout = layout_of(plan);
-    gpu::Casters casters = plan.frame;
-    casters.openness = address_words(openness_.address);
-    casters.sun_shares = address_words(sun_shares_.address);
-    casters.pages = address_words(data_.address + layout.pages);
-    casters.table = address_words(data_.address + layout.table);
-    casters.nodes = address_words(nodes_.address);
+    gpu::FrameCasters casters{};
+    casters.own = plan.frame;
+    casters.own.openness = address_words(openness_.address);
+    casters.own.sun_shares = address_words(sun_shares_.address);
+    casters.own.pages = address_words(data_.address + layout.pages);
+    casters.own.table = address_words(data_.address + layout.table);
+    casters.own.nodes = address_words(nodes_.address);
+    casters.shown_shares = is_joined_ ? address_words(shared.shares()) : casters.own.sun_shares;
+    casters.places = address_words(shared.places());
     describe(frame, casters);
     if (is_new_) std::memcpy(staging_.mapped, wanted_.data(), size_);
     constants.casters = address_words(data_.address);
@@ -162,29 +197,42 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& 
     return {};
 }
 
-void CasterBuffers::record(VkCommandBuffer commands, const Pipelines& pipelines) {
-    if (!any()) return;
+void CasterBuffers::record_casters(VkCommandBuffer commands, const Pipelines& pipelines) {
+    if (!any() || !is_new_) return;
     const auto dispatch = [&](const OwnedPipeline& pipeline, std::uint32_t groups) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
         vkCmdDispatch(commands, std::min(groups, gpu::groups_per_row),
                       (groups + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
     };
-    if (is_new_) {
-        const VkBufferCopy copy{0, 0, size_};
-        vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
-        memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
-        if (casts_) dispatch(pipelines.caster_tops, groups_a_page * pages_);
-        if (opens_) dispatch(pipelines.openness, gpu::open_groups_a_page * frame_pages_);
-        wait_for_shaders(commands);
-        made_.swap(wanted_);
-    }
+    const VkBufferCopy copy{0, 0, size_};
+    vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    if (casts_) dispatch(pipelines.caster_tops, groups_a_page * pages_);
+    if (opens_) dispatch(pipelines.openness, gpu::open_groups_a_page * frame_pages_);
+    wait_for_shaders(commands);
+    made_.swap(wanted_);
+}
+
+void CasterBuffers::record_places(VkCommandBuffer commands, const Pipelines& pipelines) const {
+    if (!is_joined_ || frame_pages_ == 0) return;
+    dispatch_over_pixels(commands, pipelines.cast_places[on_net_ ? 1 : 0], width_px_, height_px_);
+    wait_for_shaders(commands);
+}
+
+void CasterBuffers::record_shares(VkCommandBuffer commands, const Pipelines& pipelines) const {
     if (!casts_) return;
-    record_sun_shares(commands,
-                      pipelines.sun_shares[on_clusters_ ? 2
-                                           : on_net_    ? 1
-                                                        : 0],
-                      sun_shares_.handle.get(), {width_px_, height_px_}, lists_together_);
+    const auto& programs = is_joined_ ? pipelines.joined_shares[on_net_ ? 1 : 0]
+                                      : pipelines.sun_shares[on_clusters_ ? 2
+                                                             : on_net_    ? 1
+                                                                          : 0];
+    record_sun_shares(commands, programs, sun_shares_.handle.get(), {width_px_, height_px_}, lists_together_);
+}
+
+void CasterBuffers::record_join(VkCommandBuffer commands, const Pipelines& pipelines) const {
+    if (!is_joined_ || !casts_) return;
+    dispatch_over_pixels(commands, pipelines.join_shares, width_px_, height_px_);
+    wait_for_shaders(commands);
 }
 
 }  // namespace oro

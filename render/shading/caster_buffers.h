@@ -8,29 +8,54 @@
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
 #include "render/frame/pipelines.h"
+#include "shaders/shared_places.h"
 
 namespace oro {
+
+// In a frame of several grids whose terrain casts shadows: where the ground in each pixel is, and what it
+// sees of the sun past all of them (gpu::FrameCasters).
+class SharedShares {
+  public:
+    // Room for a frame of that plan and style; none where it has one grid, or no shadows.
+    Result<void> reserve(const Gpu& gpu, const FramePlan& plan, const gpu::FrameStyle& style);
+    [[nodiscard]] bool is_on() const { return is_on_; }
+    [[nodiscard]] VkDeviceAddress places() const { return is_on_ ? places_.address : 0; }
+    [[nodiscard]] VkDeviceAddress shares() const { return shares_.address; }
+    // All of the sun in all pixels.
+    void record_clear(VkCommandBuffer commands) const;
+
+  private:
+    Buffer places_, shares_;
+    bool is_on_{};
+};
 
 class CasterBuffers {
   public:
     // Room for a plan's casters, and their place into the frame's constants; the pipelines on first use.
-    // Nothing happens for a style without shadows and openness, and for a plan without casters.
+    // Nothing happens for a style without shadows and openness, and for a plan without casters unless others
+    // of the frame may take the sun from its ground.
     Result<void> prepare(const Gpu& gpu, RasterPath path, Pipelines& pipelines, const FramePlan& plan,
-                         gpu::FrameConstants& constants);
+                         const SharedShares& shared, gpu::FrameConstants& constants);
     // Sends them, and finds out how high they reach and how much of the sky they leave, unless all that is as
-    // it was in the frame before; and what each pixel sees of the sun. The frame's set is bound, its
-    // ids can be read.
-    void record(VkCommandBuffer commands, const Pipelines& pipelines);
+    // it was in the frame before. The frame's set is bound for all that is recorded, its ids can be read.
+    void record_casters(VkCommandBuffer commands, const Pipelines& pipelines);
+    // In a frame of several grids, where its pixels' ground is; after the casters of the same grid.
+    void record_places(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    // What each pixel sees of the sun past these casters; after the places of all grids.
+    void record_shares(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    // ... and joins that to what others leave.
+    void record_join(VkCommandBuffer commands, const Pipelines& pipelines) const;
     // Whether the frame that was prepared has any of it, and what.
-    [[nodiscard]] bool any() const { return casts_ || opens_; }
-    [[nodiscard]] bool casts() const { return casts_; }
+    [[nodiscard]] bool any() const { return casts_ || opens_ || is_joined_; }
+    // Whether its ground may lie in shadow.
+    [[nodiscard]] bool has_shadows() const { return casts_ || is_joined_; }
     [[nodiscard]] bool opens() const { return opens_; }
 
   private:
     Result<void> reserve(const Gpu& gpu, const FramePlan& plan, const gpu::FrameConstants& constants);
-    void describe(const FramePlan& plan, const gpu::Casters& casters);
+    void describe(const FramePlan& plan, const gpu::FrameCasters& casters);
 
-    Buffer staging_;  // gpu::Casters, then pages, then the table
+    Buffer staging_;  // gpu::FrameCasters, then pages, then the table
     Buffer data_;     // the same on the device
     Buffer nodes_;
     Buffer openness_;
@@ -38,6 +63,7 @@ class CasterBuffers {
     std::vector<std::byte> wanted_, made_;  // what nodes_ and openness_ follow from: of this frame, and made
     VkDeviceSize size_{};
     bool casts_{}, opens_{}, is_new_{};
+    bool is_joined_{};       // the frame has several grids that cast shadows
     bool lists_together_{};  // shading.h, lists_pixels_together
     bool on_net_{};          // the frame's posts lie on a net
     bool on_clusters_{};     // its pixels show clusters

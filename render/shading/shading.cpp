@@ -9,7 +9,10 @@
 #include "spirv/drape_wants_comp.h"
 #include "spirv/edges_clusters_comp.h"
 #include "spirv/edges_comp.h"
+#include "spirv/join_shares_comp.h"
 #include "spirv/openness_comp.h"
+#include "spirv/places_comp.h"
+#include "spirv/places_net_comp.h"
 #include "spirv/shade_air_clusters_comp.h"
 #include "spirv/shade_air_comp.h"
 #include "spirv/shade_air_net_comp.h"
@@ -19,6 +22,8 @@
 #include "spirv/shade_map_comp.h"
 #include "spirv/shade_map_net_comp.h"
 #include "spirv/shade_net_comp.h"
+#include "spirv/shares_beside_comp.h"
+#include "spirv/shares_beside_net_comp.h"
 #include "spirv/shares_clusters_comp.h"
 #include "spirv/shares_comp.h"
 #include "spirv/shares_net_comp.h"
@@ -103,8 +108,26 @@ bool lists_pixels_together(const Gpu& gpu) {
     return gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU;
 }
 
-Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, bool on_clusters,
-                                Pipelines& pipelines) {
+namespace {
+
+// shares.comp, `does`: its two turns, or both as one program and the list between them.
+Result<void> make_share_pipelines(const Gpu& gpu, RasterPath path, std::span<const std::uint32_t> words,
+                                  const Pipelines& pipelines, std::array<OwnedPipeline, 2>& shares) {
+    const std::uint32_t first = lists_pixels_together(gpu) ? 2 : 0;
+    for (std::uint32_t turn = 0; turn < shares.size(); ++turn) {
+        if (shares[turn]) continue;
+        const std::array<std::uint32_t, 2> values{flag(path == RasterPath::compute), first + turn};
+        const std::array<VkSpecializationMapEntry, 2> entries{
+            {{0, 0, sizeof(values[0])}, {1, sizeof(values[0]), sizeof(values[1])}}};
+        const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
+        ORO_TRY(shares[turn], create_compute_pipeline(gpu, pipelines, words, "sun shares", &constants));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> add_cast_pipelines(const Gpu& gpu, Pipelines& pipelines) {
     if (!pipelines.caster_tops) {
         ORO_TRY(pipelines.caster_tops,
                 create_compute_pipeline(gpu, pipelines, tops_comp_spirv, "caster tops"));
@@ -113,22 +136,42 @@ Result<void> add_cast_pipelines(const Gpu& gpu, RasterPath path, bool on_net, bo
         ORO_TRY(pipelines.openness,
                 create_compute_pipeline(gpu, pipelines, openness_comp_spirv, "sky openness"));
     }
+    return {};
+}
+
+Result<void> add_share_pipelines(const Gpu& gpu, RasterPath path, bool on_net, bool on_clusters,
+                                 Pipelines& pipelines) {
     const std::span<const std::uint32_t> words =
         on_clusters ? std::span<const std::uint32_t>(shares_clusters_comp_spirv)
         : on_net    ? std::span<const std::uint32_t>(shares_net_comp_spirv)
                     : std::span<const std::uint32_t>(shares_comp_spirv);
-    std::array<OwnedPipeline, 2>& sun_shares = pipelines.sun_shares[on_clusters ? 2 : on_net ? 1 : 0];
-    // shares.comp, `does`: its two turns, or both as one program and the list between them.
-    const std::uint32_t first = lists_pixels_together(gpu) ? 2 : 0;
-    for (std::uint32_t turn = 0; turn < sun_shares.size(); ++turn) {
-        if (sun_shares[turn]) continue;
-        const std::array<std::uint32_t, 2> values{flag(path == RasterPath::compute), first + turn};
-        const std::array<VkSpecializationMapEntry, 2> entries{
-            {{0, 0, sizeof(values[0])}, {1, sizeof(values[0]), sizeof(values[1])}}};
-        const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
-        ORO_TRY(sun_shares[turn], create_compute_pipeline(gpu, pipelines, words, "sun shares", &constants));
+    return make_share_pipelines(gpu, path, words, pipelines,
+                                pipelines.sun_shares[on_clusters ? 2
+                                                     : on_net    ? 1
+                                                                 : 0]);
+}
+
+Result<void> add_joined_pipelines(const Gpu& gpu, RasterPath path, bool on_net, bool casts,
+                                  Pipelines& pipelines) {
+    using Words = std::span<const std::uint32_t>;
+    const std::size_t number = on_net ? 1 : 0;
+    if (!pipelines.cast_places[number]) {
+        const VkBool32 from_compute = flag(path == RasterPath::compute);
+        const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
+        const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};
+        ORO_TRY(pipelines.cast_places[number],
+                create_compute_pipeline(gpu, pipelines,
+                                        on_net ? Words(places_net_comp_spirv) : Words(places_comp_spirv),
+                                        "places in shadow", &constants));
     }
-    return {};
+    if (!pipelines.join_shares) {
+        ORO_TRY(pipelines.join_shares,
+                create_compute_pipeline(gpu, pipelines, join_shares_comp_spirv, "join sun shares"));
+    }
+    if (!casts) return {};
+    return make_share_pipelines(
+        gpu, path, on_net ? Words(shares_beside_net_comp_spirv) : Words(shares_beside_comp_spirv), pipelines,
+        pipelines.joined_shares[number]);
 }
 
 Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, bool on_clusters, Pipelines& pipelines) {

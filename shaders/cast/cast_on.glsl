@@ -7,6 +7,6 @@ bool faces_sun(SurfacePoint surface) {
 }
 
 void cast_on(SurfacePoint surface, ivec2 pixel) {
-    if (casts && faces_sun(surface)) shown_share = CasterShares(CASTERS.sun_shares).at[pixel.y * int(FRAME.width_px) + pixel.x];
+    if (casts && faces_sun(surface)) shown_share = CasterShares(CasterList(FRAME.casters).at.shown_shares).at[pixel.y * int(FRAME.width_px) + pixel.x];
     if (opens) open_share = sky_openness(surface);
 }

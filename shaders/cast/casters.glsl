@@ -1,9 +1,11 @@
 // The pages that cast shadows, as shaders reach them. Needs frame.glsl and place.glsl.
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer CasterList { Casters at; };
+#include "shaders/shared_places.h"
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer CasterList { FrameCasters at; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer CasterPages { CasterPage at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CasterNodes { CasterNode at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CasterShares { float at[]; };
-#define CASTERS CasterList(FRAME.casters).at
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CastPlaces { CastPlace at[]; };
+#define CASTERS CasterList(FRAME.casters).at.own
 
 const float no_sun_share = -1.0;  // of a pixel without ground
 

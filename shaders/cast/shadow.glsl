@@ -88,9 +88,27 @@ struct SunLine {
     float level;  // cosine of the sun's elevation
     bool rises;   // above the disc's lower edge, too, and so all the way
 };
+#ifdef BESIDE
+// Of a grid on a net, a line from another grid's ground: fitted where it passes over this one, for beyond its rims the net goes on
+// straight, and is only about right.
+float line_begins_m = 0.0;
+vec3 line_begins_at = vec3(0.0);
+vec3 along(SunLine line, float t_m) {
+    float share = (t_m - line_begins_m) * line.per_m;
+    return line_begins_at + share * (line.a1 + share * (line.a2 + share * line.a3));
+}
+#else
 vec3 along(SunLine line, float t_m) {
     float share = t_m * line.per_m;
     return share * (line.a1 + share * (line.a2 + share * line.a3));
+}
+#endif
+
+// The cubic through four places of the line, evenly apart.
+void fit(inout SunLine line, vec3 f1, vec3 f2, vec3 f3) {
+    line.a1 = 9.0 * f1 - 4.5 * f2 + f3;
+    line.a2 = -22.5 * f1 + 18.0 * f2 - 4.5 * f3;
+    line.a3 = 13.5 * f1 - 13.5 * f2 + 4.5 * f3;
 }
 
 SunLine sun_line(CastFrame at) {
@@ -104,9 +122,7 @@ SunLine sun_line(CastFrame at) {
     line.rises = up > 0.01;
     vec3 f1 = towards_sun_m(at, line.length_m / 3.0), f2 = towards_sun_m(at, line.length_m * 2.0 / 3.0);
     vec3 f3 = towards_sun_m(at, line.length_m);
-    line.a1 = 9.0 * f1 - 4.5 * f2 + f3;
-    line.a2 = -22.5 * f1 + 18.0 * f2 - 4.5 * f3;
-    line.a3 = 13.5 * f1 - 13.5 * f2 + 4.5 * f3;
+    fit(line, f1, f2, f3);
     return line;
 }
 
@@ -315,33 +331,61 @@ float smooth_lift_m(SunLine line, CastPiece piece, CasterCell cell, uint level, 
     return smoothly * 2.0 * max(over, 0.0) * (out_m + 0.7 * cell_m);
 }
 
-float sun_over_terrain(CastPoint point) {
-    // The sun's rise where the place is decides how much its casters may be off.
-    CastFrame at = cast_frame(point, 0.0);
-    float slope = clamp(at.sun.z / max(length(at.sun.xy), 1.0e-3), 0.02, 1.0);
-    float error_m = CASTERS.error_per_m * point.distance_m * slope;
-    uint level = point.level;
+// Where a line begins: a place, its ground, and on which level of casters that was found.
+struct CastStart {
+    CastPoint point;
+    CastFrame at;
+    float error_m;  // that casters may have
+    uint level;
+    CasterCell cell;
+    bool west;  // of the cell's two triangles
+};
+
+// The sun's rise where the place is decides how much its casters may be off.
+float caster_error_m(CastFrame at, float distance_m) {
+    return CASTERS.error_per_m * distance_m * clamp(at.sun.z / max(length(at.sun.xy), 1.0e-3), 0.02, 1.0);
+}
+
+// On the grid's own ground, as its casters have it; false where they have none.
+bool starts_on_ground(CastPoint point, out CastStart start) {
+    start.point = point;
+    start.at = cast_frame(point, 0.0);
+    start.error_m = caster_error_m(start.at, point.distance_m);
+    start.level = point.level;
     CasterNode node;
-    if (!caster_at(point.post, error_m, level, node)) return 1.0;
-    CasterCell cell = caster_cell(PageBlocks(node.block), level, point.post);
-    vec2 share = clamp((as_floats(point.post - cell.from) + point.beyond) / as_floats(cell.to - cell.from), 0.0, 1.0);
-    float base_m = above_base(cell, share, west_of_diagonal(cell, share) >= 0.0, 0);
-    if (base_m == no_ground_m) return 1.0;
-    at.h_m = base_m;
-    CastSearch search = CastSearch(point.post, int(round(base_m / height_step_m)), 0.02, 1.1 * sun_radius_rad, 0.0, 0.0, level, 0.0, 0.0, 1.0);
-    SunLine line = sun_line(at);
+    if (!caster_at(point.post, start.error_m, start.level, node)) return false;
+    start.cell = caster_cell(PageBlocks(node.block), start.level, point.post);
+    vec2 share = clamp((as_floats(point.post - start.cell.from) + point.beyond) / as_floats(start.cell.to - start.cell.from), 0.0, 1.0);
+    start.west = west_of_diagonal(start.cell, share) >= 0.0;
+    start.at.h_m = above_base(start.cell, share, start.west, 0);
+    return start.at.h_m != no_ground_m;
+}
+
+// What a line meets that begins there.
+CastSearch search_from(CastStart start) {
+    return CastSearch(start.point.post, int(round(start.at.h_m / height_step_m)), 0.02, 1.1 * sun_radius_rad, 0.0, 0.0, start.level, 0.0, 0.0, 1.0);
+}
+
+#ifndef BESIDE
+float sun_over_terrain(CastPoint point) {
+    CastStart start;
+    if (!starts_on_ground(point, start)) return 1.0;
+    CastSearch search = search_from(start);
+    uint level = start.level;
+    SunLine line = sun_line(start.at);
     CastPiece piece;
     piece.from_m = 0.0;
     piece.at = point.beyond;
     piece.per_m = line.a1.xy * line.per_m;
-    search.lift_m += smooth_lift_m(line, piece, cell, level, point, west_of_diagonal(cell, share) >= 0.0);
+    search.lift_m += smooth_lift_m(line, piece, start.cell, level, point, start.west);
     for (int i = 0; i < 500 && piece.from_m < line.length_m; ++i) {
         piece.to_m = min(piece.from_m + cast_piece_m, line.length_m);
         vec2 end = point.beyond + along(line, piece.to_m).xy;
         piece.per_m = (end - piece.at) / (piece.to_m - piece.from_m);
-        if (!look_along(line, piece, error_m, level, search)) break;
+        if (!look_along(line, piece, start.error_m, level, search)) break;
         piece.from_m = piece.to_m;
         piece.at = end;
     }
     return disc_share(search.least);
 }
+#endif

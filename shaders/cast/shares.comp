@@ -1,7 +1,7 @@
 #version 460
 // How much of the sun the ground in each pixel sees. First in every second pixel of every second row, then in all: where those found
 // before all around a pixel see all of the sun, or none of it, it does as they do, and elsewhere it has a line of its own. What that misses
-// is narrower than two pixels, and alone.
+// is narrower than two pixels, and alone. With BESIDE also the ground of other grids of the frame, over this grid's terrain.
 #extension GL_GOOGLE_include_directive : require
 const bool as_map = false;
 const bool in_air = false;
@@ -20,6 +20,9 @@ const bool opens = false;
 #include "shaders/cast/casters.glsl"
 #include "shaders/cast/shadow.glsl"
 #include "shaders/cast/shown.glsl"
+#ifdef BESIDE
+#include "shaders/cast/beside.glsl"
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
@@ -29,10 +32,7 @@ const uint first_turn = 0u, second_turn = 1u, both_turns = 2u, lists_second_turn
 layout(constant_id = 1) const uint does = first_turn;
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 
-float share_at(ivec2 pixel) {
-    uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
-                           : imageLoad(ids, pixel).x;
-    if (!is_of_grid(id)) return no_sun_share;
+CastPoint own_point(uint id, ivec2 pixel) {
     vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
     uvec2 posts[3];
@@ -43,7 +43,23 @@ float share_at(ivec2 pixel) {
     SurfacePoint point;
     point.view = (1.0 - shares.x - shares.y) * at[0] + shares.x * at[1] + shares.y * at[2];
     point.post = place_on_page(page, triangle_of_id(id), posts, vec3(1.0 - shares.x - shares.y, shares));
-    return sun_over_terrain(cast_point(triangle_of_id(id), point));
+    return cast_point(triangle_of_id(id), point);
+}
+
+float share_at(ivec2 pixel) {
+    uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
+                           : imageLoad(ids, pixel).x;
+#ifdef BESIDE
+    if (id == 0u) return no_sun_share;
+    CastStart start;
+    bool is_own = is_of_grid(id);
+    if (!is_own) start = start_beside(CastPlaces(CasterList(FRAME.casters).at.places).at[pixel.y * int(FRAME.width_px) + pixel.x]);
+    else if (!starts_on_ground(own_point(id, pixel), start)) return 1.0;
+    return sun_from(start, is_own);
+#else
+    if (!is_of_grid(id)) return no_sun_share;
+    return sun_over_terrain(own_point(id, pixel));
+#endif
 }
 
 // Written by a function: glslang 12.0 does not end on such an assignment in main().

@@ -19,6 +19,7 @@
 #include "spirv/cluster_raster_comp.h"
 #include "spirv/drape_wants_comp.h"
 #include "spirv/live_pages_comp.h"
+#include "spirv/places_comp.h"
 #include "spirv/raster_comp.h"
 #include "spirv/raster_large_comp.h"
 #include "spirv/shade_air_comp.h"
@@ -71,7 +72,7 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
           std::span<const std::uint32_t>(shade_air_comp_spirv),
           std::span<const std::uint32_t>(drape_wants_comp_spirv),
           std::span<const std::uint32_t>(triangles_comp_spirv),
-          std::span<const std::uint32_t>(tops_comp_spirv),
+          std::span<const std::uint32_t>(tops_comp_spirv), std::span<const std::uint32_t>(places_comp_spirv),
           std::span<const std::uint32_t>(cluster_raster_comp_spirv),
           std::span<const std::uint32_t>(choose_clusters_comp_spirv)}) {
         all.merge(member_offsets(words));
@@ -84,7 +85,7 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
 std::set<std::string> shared_structs() {
     std::string text;
     for (const char* const name : {"shaders/shared.h", "shaders/shared_rounds.h", "shaders/shared_clusters.h",
-                                   "shaders/shared_heights.h"}) {
+                                   "shaders/shared_heights.h", "shaders/shared_places.h"}) {
         std::ifstream file(test::bundled_data().parent_path() / name);
         text += std::string((std::istreambuf_iterator<char>(file)), {});
     }

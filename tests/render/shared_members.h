@@ -7,6 +7,7 @@
 
 #include "shaders/shared.h"
 #include "shaders/shared_heights.h"
+#include "shaders/shared_places.h"
 
 namespace oro {
 
@@ -220,6 +221,12 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(Casters, nodes),
         ORO_MEMBER(Casters, openness),
         ORO_MEMBER(Casters, sun_shares),
+        ORO_MEMBER(FrameCasters, own),
+        ORO_MEMBER(FrameCasters, shown_shares),
+        ORO_MEMBER(FrameCasters, places),
+        ORO_MEMBER(CastPlace, from_eye_rad),
+        ORO_MEMBER(CastPlace, h_m),
+        ORO_MEMBER(CastPlace, distance_m),
         ORO_MEMBER(CasterNode, top_m),
         ORO_MEMBER(CasterNode, error_m),
         ORO_MEMBER(CasterNode, above_top_m),
