@@ -10,7 +10,6 @@
 
 #include "core/cells/cell_diagonal.h"
 #include "core/measure/picture_errors.h"
-#include "core/seam/seam_pages.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/ground.h"
 #include "geo/together/cut_regions.h"
@@ -18,20 +17,13 @@
 #include "render/frame/depth_picture.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
+#include "tests/scenes/scene_of_grids.h"
 #include "tests/support/brute_depths.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/height_storage.h"
 #include "tests/support/three_grids.h"
 
 namespace oro {
 namespace {
-
-HeightField rest_of(const HeightField& field, const CutOut& cut) {
-    HeightField rest = field;
-    for (std::size_t post = 0; post < cut.left_out.size(); ++post)
-        if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
-    return rest;
-}
 
 gpu::FrameStyle plain_style() {
     gpu::FrameStyle style{};
@@ -52,25 +44,11 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         ASSERT_TRUE(cuts.ok()) << cuts.error().line();
         cuts_ = std::move(cuts).value();
         seam_ = seam_between(region_, cuts_, 1.0);
-        std::vector<const Region*> grids = all_grids(region_);
-        for (std::size_t i = 0; i < grids.size(); ++i) {
-            falling_.push_back(grids[i]->field);
+        for (const Region* const grid : all_grids(region_)) {
+            falling_.push_back(grid->field);
             falling_.back().grid.split = CellSplit::all_fall;
-            Scene scene = scene_of(pages_in_memory(rest_of(grids[i]->field, cuts_.grids[i]), 1.0, 2));
-            if (i == 0)
-                scene_.emplace(std::move(scene));
-            else
-                scene_->draw_beside(std::move(scene));
         }
-        auto pages = seam_pages(seam_, {}, region_shape(region_.field, 1.0));
-        ASSERT_TRUE(pages.ok()) << pages.error().line();
-        scene_->draw_beside(scene_of(std::move(pages).value()));
-    }
-    Scene scene_of(std::unique_ptr<RegionPages> pages) {
-        auto scene =
-            Scene::create(*gpu_, std::move(pages), {std::uint64_t{64} << 20U, 0}, test::asked_heights());
-        EXPECT_TRUE(scene.ok()) << scene.error().line();
-        return std::move(scene).value();
+        scene_.emplace(test::scene_of_grids(*gpu_, region_, cuts_, seam_));
     }
     std::vector<float> depths(const Camera& camera, double tau_px) {
         const auto width = static_cast<std::uint32_t>(camera.width_px),
@@ -242,7 +220,7 @@ std::vector<test::NearTriangle> all_triangles(const Region& region, const Region
     std::vector<test::NearTriangle> all;
     const std::vector<const Region*> grids = all_grids(region);
     for (std::size_t grid = 0; grid < grids.size(); ++grid) {
-        const HeightField rest = rest_of(grids[grid]->field, cuts.grids[grid]);
+        const HeightField rest = test::rest_of(grids[grid]->field, cuts.grids[grid]);
         const auto there = [&](int row, int column) { return !is_void(rest.H_at_post_m(row, column)); };
         const auto at = [&](int row, int column) { return post_ecef(rest, row, column, 1.0).m - eye; };
         for (int row = 0; row + 1 < rest.grid.rows(); ++row) {
