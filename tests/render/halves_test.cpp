@@ -10,8 +10,8 @@
 namespace oro {
 namespace {
 
-constexpr int side_px = 128;
-const Tile picture{0, 0, side_px, side_px, {0.5, 0.5}};
+constexpr int halves_px = 128;
+const Tile halves_picture{0, 0, halves_px, halves_px, {0.5, 0.5}};
 
 struct DrawnIds {
     std::vector<std::uint32_t> ids;
@@ -24,7 +24,7 @@ class Halves : public test::GpuTest {
                                             gpu::uint show = gpu::show_colours,
                                             OcclusionUse occlusion = OcclusionUse::off) const {
         FrameRendererOptions options;
-        options.extent = {side_px, side_px};
+        options.extent = {halves_px, halves_px};
         options.path = path;
         options.split = split;
         options.show = show;
@@ -41,14 +41,14 @@ class Halves : public test::GpuTest {
     }
     static FramePlan plan_of(Scene& scene, const Camera& camera, double tau_px,
                              const WorldModel& model = {}) {
-        auto plan = scene.settled_plan(camera, picture, tau_px, model);
+        auto plan = scene.settled_plan(camera, halves_picture, tau_px, model);
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         return std::move(plan).value();
     }
     static DrawnIds draw(FrameRenderer& renderer, const FramePlan& plan) {
         auto drawn = renderer.draw(plan, {});
         EXPECT_TRUE(drawn.ok()) << drawn.error().line();
-        auto ids = renderer.read_ids(side_px, side_px);
+        auto ids = renderer.read_ids(halves_px, halves_px);
         EXPECT_TRUE(ids.ok()) << ids.error().line();
         return {std::move(ids).value(), drawn->counts};
     }
@@ -62,7 +62,7 @@ Camera eye_over(const HeightField& field, double south, double east, double abov
     Camera camera;
     camera.eye = {place.lat_deg, place.lon_deg, *ground_h_m(field, place.lat_deg, place.lon_deg) + above_m};
     camera.attitude = {heading_deg, pitch_deg, 0.0};
-    camera.width_px = camera.height_px = side_px;
+    camera.width_px = camera.height_px = halves_px;
     return camera;
 }
 
@@ -158,7 +158,7 @@ TEST_F(Halves, LeaveTheLowerIdWhereTrianglesAreAsNear) {
                       same.pages.size() * gpu::meshlets_per_page * gpu::meshlet_triangles);
         }
     }
-    EXPECT_GT(ground, std::size_t{4} * side_px * side_px / 2);
+    EXPECT_GT(ground, std::size_t{4} * halves_px * halves_px / 2);
 }
 
 // What explains a frame is the same, too.
@@ -172,11 +172,11 @@ TEST_F(Halves, ExplainAFrameAsWholeMeshletsDo) {
         FrameRenderer whole = renderer_of(MeshletSplit::whole, RasterPath::mesh, show, occlusion),
                       halves = renderer_of(MeshletSplit::halves, RasterPath::mesh, show, occlusion);
         ASSERT_EQ(draw(whole, plan).ids, draw(halves, plan).ids) << "show " << show;
-        const auto one = *whole.read_picture(side_px, side_px),
-                   other = *halves.read_picture(side_px, side_px);
+        const auto one = *whole.read_picture(halves_px, halves_px),
+                   other = *halves.read_picture(halves_px, halves_px);
         EXPECT_EQ(one, other) << "show " << show;
         EXPECT_GT(std::ranges::count_if(one, [](std::uint8_t code) { return code != 0 && code != 255; }),
-                  side_px * side_px / 4);
+                  halves_px * halves_px / 4);
     }
 }
 
