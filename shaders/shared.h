@@ -391,9 +391,7 @@ struct FrameConstants {
     uvec2 cluster_states;  // uint[clusters.count]: cluster_..., of the round
     uint clusters_turn;    // number of this frame among those in rounds, for ClusterBlock.seen
     uint clusters_before;  // ... of the last one; 0: nothing is known of it
-    uvec2 asked_groups;    // AskedGroup: those that DrawnCluster tells of
-    CutRule cut_rule;
-    uint clusters_in_cut;  // of clusters.count: those of the processor's cut, which come first
+    ClusterCut cut;
 };
 
 #ifdef __cplusplus

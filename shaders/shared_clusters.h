@@ -46,6 +46,12 @@ struct CutRule {
     uint level;  // groups up to it stand, and none above; no_cut_level: those do whose error is at most tau_px
 };
 ORO_CONST uint no_cut_level = 0xffffffffu;
+// The cut that a frame makes of its clusters.
+struct ClusterCut {
+    uvec2 asked;  // device address of the frame's AskedGroup
+    CutRule rule;
+    uint offered;  // those of the processor's cut, which come first among the frame's clusters
+};
 // What a drawn cluster lies in: a box around a point of view coordinates, where light would be straight. Its
 // half axes are along ECEF.
 struct ClusterBox {

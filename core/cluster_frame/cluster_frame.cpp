@@ -70,8 +70,8 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
             {gpu::vec3(view_from_ecef * (cluster.centre.m - eye.m)), cluster.half_axes_m});
     }
     plan.clusters.asked = offer.asked;
-    plan.constants.cut_rule = offer.rule;
-    plan.constants.clusters_in_cut = static_cast<gpu::uint>(plan.clusters.in_cut);
+    plan.constants.cut.rule = offer.rule;
+    plan.constants.cut.offered = static_cast<gpu::uint>(plan.clusters.in_cut);
     plan.constants.clusters.on = 1;
     plan.constants.clusters.count = static_cast<gpu::uint>(plan.clusters.drawn.size());
     plan.constants.clusters.rows = static_cast<gpu::uint>(plan.row_terms.size());

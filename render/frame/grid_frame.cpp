@@ -17,7 +17,7 @@ constexpr VkDeviceSize cluster_groups_bytes = 16;
 // Addresses that straddle 8 bytes cost 2 to 4 % of a frame.
 static_assert((offsetof(gpu::FrameConstants, clusters) + offsetof(gpu::ClusterTable, drawn)) % 8 == 0);
 static_assert(offsetof(gpu::FrameConstants, sights) % 8 == 0);
-static_assert(offsetof(gpu::FrameConstants, asked_groups) % 8 == 0);
+static_assert(offsetof(gpu::FrameConstants, cut) % 8 == 0);
 
 // Where the parts of a grid's data lie, in bytes.
 struct DataLayout {
@@ -25,7 +25,7 @@ struct DataLayout {
     VkDeviceSize columns;
     VkDeviceSize before;
     VkDeviceSize clusters;  // workgroups of their draw, then they
-    VkDeviceSize asked;     // FrameConstants::asked_groups
+    VkDeviceSize asked;     // ClusterCut::asked
     VkDeviceSize boxes;     // of clusters
     VkDeviceSize size;
 };
@@ -218,7 +218,7 @@ void GridFrame::address(FramePlan& plan) const {
     constants.column_terms = address_words(data_.address + layout.columns);
     if (plan.clusters.on) {
         constants.clusters.drawn = address_words(data_.address + layout.clusters + cluster_groups_bytes);
-        constants.asked_groups = address_words(data_.address + layout.asked);
+        constants.cut.asked = address_words(data_.address + layout.asked);
         constants.cluster_boxes = address_words(data_.address + layout.boxes);
         constants.cluster_states = address_words(cluster_states_.address);
         constants.clusters_turn = clusters_turn_ + 1;

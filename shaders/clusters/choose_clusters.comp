@@ -36,7 +36,7 @@ bool was_seen(uint number) {
     return FRAME.clusters_before != 0u && SeenBlocks(drawn_cluster(number).block).at.seen == FRAME.clusters_before;
 }
 
-bool asked_stands(uint number) { return group_stands(AskedGroups(FRAME.asked_groups).at[number], FRAME.cut_rule); }
+bool asked_stands(uint number) { return group_stands(AskedGroups(FRAME.cut.asked).at[number], FRAME.cut.rule); }
 
 bool is_of_cut(uint number) {
     DrawnCluster cluster = drawn_cluster(number);
@@ -46,7 +46,7 @@ bool is_of_cut(uint number) {
 
 // The cut's clusters come first: coarser ones are as far as the last of them.
 bool is_in_turn(uint number) {
-    uint count = max(FRAME.clusters_in_cut, 1u);
+    uint count = max(FRAME.cut.offered, 1u);
     return is_looked_at(min(number, count - 1u), count);
 }
 

@@ -93,7 +93,7 @@ TEST_P(ClusterCuts, AreTheProcessors) {
         EXPECT_EQ(finest, cut_here(**region, view(camera, 1.0, occluder)));
         const double tau_px = 1.0 + std::pow(2.0, static_cast<double>(random() % 8) - 3.0);
         const ClusterView other = view(camera, tau_px, occluder);
-        plan.constants.cut_rule = other.cut_rule();
+        plan.constants.cut.rule = other.cut_rule();
         const Numbers cut = cut_on_gpu(offers, plan);
         EXPECT_EQ(cut, cut_here(**region, other)) << "tau " << tau_px;
         clusters += finest.size() + cut.size();
@@ -125,7 +125,7 @@ TEST_P(ClusterCuts, OfLevelsAreTheProcessors) {
         FramePlan plan = settled(offers, camera, 1.0).plan;
         for (const std::uint32_t level : {1U, 2U, 5U}) {
             const ClusterView other = view(camera, 1.0, occluder, level);
-            plan.constants.cut_rule = other.cut_rule();
+            plan.constants.cut.rule = other.cut_rule();
             EXPECT_EQ(cut_on_gpu(offers, plan), cut_here(**region, other)) << "level " << level;
         }
     }
