@@ -22,7 +22,8 @@ struct DrawnCluster {
     uint number;  // in the graph
     uint group;   // in the graph: that which made it; of one of the original's, that which uses it
     // It is of the cut where the group that made it stands, and that which uses it does not. Numbers among the
-    // frame's AskedGroup; no_asked_group: there is none, or only that answer goes with what is there.
+    // frame's AskedGroup; no_asked_group: there is none, or its answer is the one that draws the cluster,
+    // for not all is there that the other would draw.
     uint made_by;
     uint used_by;
 };
@@ -48,7 +49,8 @@ struct CutRule {
 ORO_CONST uint no_cut_level = 0xffffffffu;
 // The cut that a frame makes of its clusters.
 struct ClusterCut {
-    uvec2 asked;  // device address of the frame's AskedGroup
+    uvec2 asked;   // device address of the frame's AskedGroup
+    uvec2 groups;  // ... of three numbers of mesh workgroups: up to the last cluster of the cut, one each
     CutRule rule;
     uint offered;  // those of the processor's cut, which come first among the frame's clusters
 };

@@ -1,7 +1,6 @@
 #include "core/cast/cast_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -131,10 +130,9 @@ void CastMap::cast_from(int row, int column) {
     const double row_m = posts * lie.row_m, column_m = std::max(1.0, posts * lie.column_m);
     const double half_rad =
         0.5 * std::hypot(row_m, column_m) / mean_radius_m;  // the sun's rise differs over the cell
-    const double level = std::max(std::hypot(sun.x, sun.y), 1e-6);
-    const double rise = std::atan2(sun.z, level) - half_rad;
-    const Need need{receiver.error_m * std::clamp(std::tan(rise), 0.02, 1.0), receiver.low_m};
-    const double lowest = std::tan(std::clamp(rise - 1.1 * sun_radius_rad, -1.5, 1.5));
+    const SunRise rise = sun_rise(sun, half_rad);
+    const double level = rise.level, lowest = rise.lowest;
+    const Need need{receiver.error_m * rise.slope, receiver.low_m};
     const double step_m = 0.5 * std::min(row_m, column_m);
     // Cells a metre.
     const double south = (sun.x * lie.turn.sine - sun.y * lie.turn.cosine) / level / row_m;
@@ -171,18 +169,27 @@ void CastMap::cast_from_beside(const CastReceiver& receiver) {
         static_cast<double>(posts_) * std::max(1.0, std::min(middle.row_m, middle.column_m));
     const double step_m = std::max(0.5 * cell_m, 0.25 * receiver.radius_m);
     double low_m = receiver.lowest_m;
-    for (double from_m = 0.0; low_m <= top_m_ || from_m * rise.lowest < 0.0; from_m += step_m) {
-        const double to_m = from_m + step_m;
+    double from_m = 0.0;
+    for (double next_m = 0.0; low_m <= top_m_ || from_m * rise.lowest < 0.0; from_m = next_m) {
+        const double to_m = next_m = from_m + step_m;
         if (to_m > 1.2e6) break;
         const double sag_m = from_m * from_m / (2.0 * mean_radius_m);
         low_m = receiver.lowest_m + std::min(from_m * rise.lowest, to_m * rise.lowest) + 0.99 * sag_m;
         const glm::dvec3 there = receiver.centre.m + sun_ecef_ * ((from_m + 0.5 * step_m) / level);
         // Around it: what is received, half a step, and lines that are not quite parallel over the ground.
         const double around_m = receiver.radius_m + 0.51 * step_m + to_m * half_rad;
-        const double highest_m = std::max(top_m_, 0.0) + to_m * to_m / mean_radius_m + 2.0e4;
-        if (glm::length(there - middle_.m) > reach_m_ + around_m + highest_m) continue;
+        const double highest_m =
+            std::max(top_m_, 0.0) + to_m * to_m / mean_radius_m + 2.0e4 + to_m * std::max(sun.z, 0.0) / level;
+        const double off_m = glm::length(there - middle_.m) - (reach_m_ + around_m + highest_m);
+        if (off_m > 0.0) {
+            // Past the grid it does not come back; before it half of the way is free.
+            if (glm::dot(there - middle_.m, sun_ecef_) > 0.0) break;
+            next_m = std::max(to_m, from_m + 0.5 * off_m * level);
+            continue;
+        }
         const Geodetic below = geodetic_from_ecef({there});
         const PostNumber post = grid_.post_at(below.lat_deg, below.lon_deg);
+        if (!std::isfinite(post.row) || !std::isfinite(post.column)) continue;
         const auto within = [](double number, int count) {
             return static_cast<std::int64_t>(std::clamp(number, 0.0, static_cast<double>(count - 1)));
         };

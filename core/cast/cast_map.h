@@ -28,17 +28,20 @@ class CastMap {
         divide(pages);
     }
 
-    // The cells [first, last) of a page's quarter or of a page.
+    // Cells from north to south and from west to east, both among them.
     struct Patch {
         int north, south, west, east;
     };
+    // The cells of so many rows and columns of posts (of level 0) from there on.
     [[nodiscard]] Patch patch(std::int64_t row, std::int64_t column, std::int64_t posts) const;
+    // Ground that is seen (CastReceiver says of what), and then what all of it needs.
     void receive(const Patch& patch, double error_per_slope_m, double lowest_m);
     void cast();
     // The same of ground that is another grid's: where lines from there pass over this one.
     void cast_from_beside(const CastReceiver& receiver);
     // Whether any line passes over the region.
     [[nodiscard]] bool any() const { return any_; }
+    // What lines need of the terrain in these cells; infinite where none passes.
     [[nodiscard]] Need need(const Patch& patch) const;
 
   private:

@@ -59,8 +59,8 @@ class OfferedCut {
     ClusterOffer offer_;
 };
 
-// Of clusters that were chosen, without any that is coarser: no group is asked.
 struct ClusterChoice;
+// Of clusters that were chosen, without any that is coarser: no group is asked.
 ClusterOffer offer_of(const ClusterChoice& choice);
 
 }  // namespace oro

@@ -66,7 +66,6 @@ void FrameRenderer::record_casters(VkCommandBuffer commands, const FramePlan& pl
     each([&](CasterBuffers& casters) { casters.record_casters(commands, *pipelines_); });
     each([&](CasterBuffers& casters) { casters.record_places(commands, *pipelines_); });
     each([&](CasterBuffers& casters) { casters.record_shares(commands, *pipelines_); });
-    each([&](CasterBuffers& casters) { casters.record_join(commands, *pipelines_); });
 }
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {

@@ -219,6 +219,7 @@ void GridFrame::address(FramePlan& plan) const {
     if (plan.clusters.on) {
         constants.clusters.drawn = address_words(data_.address + layout.clusters + cluster_groups_bytes);
         constants.cut.asked = address_words(data_.address + layout.asked);
+        constants.cut.groups = address_words(data_.address + layout.clusters);
         constants.cluster_boxes = address_words(data_.address + layout.boxes);
         constants.cluster_states = address_words(cluster_states_.address);
         constants.clusters_turn = clusters_turn_ + 1;
@@ -262,9 +263,7 @@ void GridFrame::fill(const FramePlan& plan) {
     if (plan.constants.occlusion != 0) copy(layout.before, numbers_before(plan));
     cluster_groups_ = plan.clusters.on ? layout.clusters : 0;
     if (!plan.clusters.on) return;
-    const auto count = static_cast<std::uint32_t>(plan.clusters.drawn.size());
-    const std::array<std::uint32_t, 3> groups{std::min(count, gpu::groups_per_row),
-                                              (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1};
+    constexpr std::array<std::uint32_t, 3> groups{0, 0, 1};  // until the cut is made
     std::memcpy(staging_.mapped + layout.clusters, groups.data(), sizeof(groups));
     copy(layout.clusters + cluster_groups_bytes, plan.clusters.drawn);
     copy(layout.asked, plan.clusters.asked);

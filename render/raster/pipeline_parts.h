@@ -15,7 +15,7 @@ namespace oro {
 // A module of SPIR-V words. Errors: the device.
 Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t> words, const char* name);
 
-// The entry point of a shader; all three must outlive what is returned.
+// The entry point of a shader; shader and constants must outlive what is returned.
 VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, const OwnedShader& shader,
                                       const VkSpecializationInfo* constants);
 

@@ -26,6 +26,10 @@ VkDeviceSize list_at(VkExtent2D extent) {
     return aligned(VkDeviceSize{extent.width} * extent.height * sizeof(float));
 }
 
+VkDeviceSize bytes_of_shares(const Gpu& gpu, VkExtent2D extent) {
+    return (lists_pixels_together(gpu) ? 2 : 1) * list_at(extent) + sizeof(empty_list);
+}
+
 struct CasterLayout {
     VkDeviceSize pages, table, size;
 };
@@ -89,6 +93,9 @@ Result<void> SharedShares::reserve(const Gpu& gpu, const FramePlan& plan, const 
     if (shares_.size >= pixels * sizeof(float)) return {};
     ORO_TRY(places_, create_buffer(gpu, pixels * sizeof(gpu::CastPlace), on_device, MemoryKind::device,
                                    "places in shadow"));
+    ORO_TRY(of_one_grid_,
+            create_buffer(gpu, bytes_of_shares(gpu, {plan.constants.width_px, plan.constants.height_px}),
+                          on_device, MemoryKind::device, "sun shares of one grid"));
     ORO_TRY(shares_, create_buffer(gpu, pixels * sizeof(float), on_device, MemoryKind::device,
                                    "sun shares of all grids"));
     return {};
@@ -125,10 +132,8 @@ Result<void> CasterBuffers::reserve(const Gpu& gpu, const FramePlan& frame,
                        "openness"));
     width_px_ = constants.width_px;
     height_px_ = constants.height_px;
-    if (casts_)
-        ORO_CHECK(grow(sun_shares_,
-                       (lists_together_ ? 2 : 1) * list_at({width_px_, height_px_}) + sizeof(empty_list),
-                       "sun shares"));
+    if (casts_ && !is_joined_)
+        ORO_CHECK(grow(sun_shares_, bytes_of_shares(gpu, {width_px_, height_px_}), "sun shares"));
     return {};
 }
 
@@ -183,7 +188,9 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& 
     gpu::FrameCasters casters{};
     casters.own = plan.frame;
     casters.own.openness = address_words(openness_.address);
-    casters.own.sun_shares = address_words(sun_shares_.address);
+    const Buffer& shares = is_joined_ ? shared.of_one_grid() : sun_shares_;
+    shares_ = shares.handle.get();
+    casters.own.sun_shares = address_words(shares.address);
     casters.own.pages = address_words(data_.address + layout.pages);
     casters.own.table = address_words(data_.address + layout.table);
     casters.own.nodes = address_words(nodes_.address);
@@ -226,11 +233,14 @@ void CasterBuffers::record_shares(VkCommandBuffer commands, const Pipelines& pip
                                       : pipelines.sun_shares[on_clusters_ ? 2
                                                              : on_net_    ? 1
                                                                           : 0];
-    record_sun_shares(commands, programs, sun_shares_.handle.get(), {width_px_, height_px_}, lists_together_);
-}
-
-void CasterBuffers::record_join(VkCommandBuffer commands, const Pipelines& pipelines) const {
-    if (!is_joined_ || !casts_) return;
+    // What another grid's were for is done with.
+    if (is_joined_)
+        memory_barrier(
+            commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    record_sun_shares(commands, programs, shares_, {width_px_, height_px_}, lists_together_);
+    if (!is_joined_) return;
     dispatch_over_pixels(commands, pipelines.join_shares, width_px_, height_px_);
     wait_for_shaders(commands);
 }

@@ -16,16 +16,19 @@ namespace oro {
 // sees of the sun past all of them (gpu::FrameCasters).
 class SharedShares {
   public:
-    // Room for a frame of that plan and style; none where it has one grid, or no shadows.
+    // Room for a frame of that plan and style; none where it has one grid, or no shadows. Errors: out of
+    // memory.
     Result<void> reserve(const Gpu& gpu, const FramePlan& plan, const gpu::FrameStyle& style);
     [[nodiscard]] bool is_on() const { return is_on_; }
     [[nodiscard]] VkDeviceAddress places() const { return is_on_ ? places_.address : 0; }
     [[nodiscard]] VkDeviceAddress shares() const { return shares_.address; }
+    // Those of one grid after the other, with room for a list (shares.comp).
+    [[nodiscard]] const Buffer& of_one_grid() const { return of_one_grid_; }
     // All of the sun in all pixels.
     void record_clear(VkCommandBuffer commands) const;
 
   private:
-    Buffer places_, shares_;
+    Buffer places_, shares_, of_one_grid_;
     bool is_on_{};
 };
 
@@ -41,10 +44,9 @@ class CasterBuffers {
     void record_casters(VkCommandBuffer commands, const Pipelines& pipelines);
     // In a frame of several grids, where its pixels' ground is; after the casters of the same grid.
     void record_places(VkCommandBuffer commands, const Pipelines& pipelines) const;
-    // What each pixel sees of the sun past these casters; after the places of all grids.
+    // What each pixel sees of the sun past these casters; after the places of all grids. In a frame of
+    // several grids it is joined to what others leave: SharedShares has room for one grid at a time.
     void record_shares(VkCommandBuffer commands, const Pipelines& pipelines) const;
-    // ... and joins that to what others leave.
-    void record_join(VkCommandBuffer commands, const Pipelines& pipelines) const;
     // Whether the frame that was prepared has any of it, and what.
     [[nodiscard]] bool any() const { return casts_ || opens_ || is_joined_; }
     // Whether its ground may lie in shadow.
@@ -60,6 +62,7 @@ class CasterBuffers {
     Buffer nodes_;
     Buffer openness_;
     Buffer sun_shares_;
+    VkBuffer shares_{VK_NULL_HANDLE};       // sun_shares_, or SharedShares::of_one_grid()
     std::vector<std::byte> wanted_, made_;  // what nodes_ and openness_ follow from: of this frame, and made
     VkDeviceSize size_{};
     bool casts_{}, opens_{}, is_new_{};

@@ -16,7 +16,9 @@ CastPoint point_beside(CastPlace place) {
         // The eye's post may be a large number: what is added to it would be rounded as it is.
         whole = floor(eye.post);
         part = eye.post - whole + vec2(-place.from_eye_rad.x, place.from_eye_rad.y) * eye.per_rad;
-        whole.y -= eye.turn * round((whole.y + part.y - 0.5 * float(FRAME.last_column)) / eye.turn);
+        float turned = eye.turn * round((whole.y + part.y - 0.5 * float(FRAME.last_column)) / eye.turn);
+        whole.y -= floor(turned);
+        part.y -= turned - floor(turned);
     }
     vec2 posts = floor(part);
     point.post = ivec2(whole) + ivec2(posts);
@@ -24,8 +26,8 @@ CastPoint point_beside(CastPlace place) {
     return point;
 }
 
-// The part of a piece over the grid and so many posts around it; false where there is none.
-bool held_over_grid(inout CastPiece piece, ivec2 post, float by_posts) {
+// Leaves the part of a piece over the grid and so many posts around it; false where there is none.
+bool cut_to_grid(inout CastPiece piece, ivec2 post, float by_posts) {
     vec2 low = vec2(-post) - by_posts, high = vec2(ivec2(FRAME.last_row, FRAME.last_column) - post) + by_posts;
     vec2 per_m = mix(piece.per_m, vec2(1.0e-12), lessThan(abs(piece.per_m), vec2(1.0e-12)));
     vec2 one = (low - piece.at) / per_m, other = (high - piece.at) / per_m, near = min(one, other), far = max(one, other);
@@ -54,7 +56,7 @@ bool fit_over_net(CastStart start, inout SunLine line, inout float from_m, inout
     float at_m = from_m;
     for (int i = 0; i < 500 && at_m < end_m && next_piece(line, start.point.beyond, at_m, end_m, piece); ++i) {
         at_m = piece.to_m;
-        if (!held_over_grid(piece, start.point.post, around)) continue;
+        if (!cut_to_grid(piece, start.point.post, around)) continue;
         if (first_m < 0.0) first_m = piece.from_m;
         last_m = piece.to_m;
     }
@@ -91,7 +93,8 @@ float sun_from(CastStart start, bool is_own) {
             search.lift_m += smooth_lift_m(line, first, start.cell, level, start.point, start.west);
         }
         from_m = piece.to_m;
-        if (!is_own && !held_over_grid(piece, start.point.post, within_rims)) continue;
+        float rounded = 2.5e-7 * max(abs(piece.at.x), abs(piece.at.y));
+        if (!is_own && !cut_to_grid(piece, start.point.post, within_rims - rounded)) continue;
         bool goes_on = look_along(line, piece, start.error_m, level, search);
         if (search.least <= -sun_radius_rad || (is_own && !goes_on)) break;
     }

@@ -191,6 +191,15 @@ void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, boo
     search.least = min(search.least, (along(line, t_m).z + search.lift_m - ground_m) * line.level / t_m);
 }
 
+// A step along a piece that changes the post, and is more than what far places are rounded to.
+float cast_step_m(CastPiece piece) {
+    float posts_per_m = max(max(abs(piece.per_m.x), abs(piece.per_m.y)), 1.0e-9), step_m = 1.0e-3 / posts_per_m;
+#ifdef BESIDE
+    step_m = max(step_m, 2.5e-7 * max(piece.to_m, max(abs(piece.at.x), abs(piece.at.y)) / posts_per_m));
+#endif
+    return step_m;
+}
+
 // Begins a node of another level than the one before it.
 void meet_level(CastPiece piece, CasterCell cell, float t_m, float to_m, bool west, inout CastSearch search) {
     vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
@@ -205,7 +214,7 @@ void meet_level(CastPiece piece, CasterCell cell, float t_m, float to_m, bool we
 // The terrain's edge as seen along the part of a piece in one node, cell by cell: its triangles are highest against the line where the
 // line crosses their sides.
 void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, float from_m, float to_m, inout CastSearch search) {
-    float step_m = 1.0e-3 / max(max(abs(piece.per_m.x), abs(piece.per_m.y)), 1.0e-9);
+    float step_m = cast_step_m(piece);
     float base_m = float(search.base) * height_step_m, per_slope = 1.0 / line.level;
     float t_m = from_m, z_m = along(line, t_m).z + search.lift_m;
     bool meets = level != search.last_level && from_m - search.last_m <= 2.0 * step_m;
@@ -250,7 +259,7 @@ void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, fl
 // Follows one piece; false when the rest of the line does not matter.
 bool look_along(SunLine line, CastPiece piece, float error_m, inout uint level, inout CastSearch search) {
     const uint top = CASTERS.level_count - 1u;
-    float step_m = 1.0e-3 / max(max(abs(piece.per_m.x), abs(piece.per_m.y)), 1.0e-9);
+    float step_m = cast_step_m(piece);
     float t_m = piece.from_m, base_m = float(search.base) * height_step_m, slope = sun_radius_rad / line.level;
     uint page = no_page, page_level = no_page;
     ivec2 page_at = ivec2(0);

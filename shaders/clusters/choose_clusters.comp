@@ -20,6 +20,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer SeenBlocks 
 shared uint tested_here;
 shared uint hidden_here;
 shared uint later_here;
+shared uint cut_here;  // 1 + the last cluster of the cut; 0: none
 
 bool is_cluster_hidden(uint number) {
     ClusterBox box = ClusterBoxes(FRAME.cluster_boxes).at[number];
@@ -62,7 +63,7 @@ uint first_state(uint number) {
 uint later_state(uint number, uint before) {
     uint state = before & ~cluster_drawn_now;
     bool is_last = round.is_last != 0u, drawn = (before & cluster_drawn) != 0u;
-    bool asks = (before & cluster_kept) != 0u && (is_last || (!drawn && is_looked_at(number, FRAME.clusters.count)));
+    bool asks = (before & cluster_kept) != 0u && (is_last || (!drawn && is_in_turn(number)));
     if (!asks) return state;
     bool hidden = is_cluster_hidden(number);
     if (is_last) {
@@ -93,7 +94,7 @@ void list_clusters(uint number, bool now) {
 
 void main() {
     uint number = gl_GlobalInvocationID.x, lane = gl_LocalInvocationIndex;
-    if (lane == 0u) tested_here = hidden_here = later_here = 0u;
+    if (lane == 0u) tested_here = hidden_here = later_here = cut_here = 0u;
     barrier();
     bool there = number < FRAME.clusters.count;
     Words states = Words(FRAME.cluster_states);
@@ -101,10 +102,17 @@ void main() {
     if (there) {
         state = is_first ? first_state(number) : later_state(number, states.at[number]);
         states.at[number] = state;
+        if (is_first && (state & cluster_kept) != 0u) atomicMax(cut_here, number + 1u);
     }
     if (for_compute) list_clusters(number, (state & cluster_drawn_now) != 0u);
     barrier();
-    if (lane != 0u || is_first) return;
+    if (lane != 0u) return;
+    if (is_first && cut_here > 0u) {
+        Words groups = Words(FRAME.cut.groups);
+        atomicMax(groups.at[0], min(cut_here, groups_per_row));
+        atomicMax(groups.at[1], (cut_here + groups_per_row - 1u) / groups_per_row);
+    }
+    if (is_first) return;
     Counts counts = Counts(FRAME.counts);
     if (tested_here > 0u) atomicAdd(counts.at.meshlets_tested, tested_here);
     if (hidden_here > 0u) atomicAdd(counts.at.meshlets_hidden, hidden_here);

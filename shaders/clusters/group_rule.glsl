@@ -12,12 +12,15 @@ ORO_FUNCTION bool group_stands(AskedGroup group, CutRule rule) {
     ORO_PRECISE float tau_px = rule.tau_px * (1.0f - 2.0e-6f * float(group.level + 1u));
     ORO_PRECISE float stretched = group.error * rule.stretch;
     ORO_PRECISE float right = (group.radius + stretched) * tau_px + rule.pixels_per_tangent * stretched * rule.stretch;
-    if (group.distance * tau_px >= right) return true;
+    ORO_PRECISE float left = group.distance * tau_px;
+    if (left >= right) return true;
     ORO_PRECISE float z = group.along - group.radius;
     ORO_PRECISE float clear = z - group.error;
     if (clear <= 0.0f) return false;
     ORO_PRECISE float across = min(group.across + group.radius, rule.corner_tangent * z);
     ORO_PRECISE float moved = rule.pixels_per_tangent * group.error;
     ORO_PRECISE float allowed = tau_px * clear * z;
-    return moved * moved * (z * z + across * across) <= allowed * allowed;
+    ORO_PRECISE float moved_squared = moved * moved * (z * z + across * across);
+    ORO_PRECISE float allowed_squared = allowed * allowed;
+    return moved_squared <= allowed_squared;
 }

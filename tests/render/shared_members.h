@@ -353,6 +353,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, clusters_before),
         ORO_MEMBER(FrameConstants, cut),
         ORO_MEMBER(ClusterCut, asked),
+        ORO_MEMBER(ClusterCut, groups),
         ORO_MEMBER(ClusterCut, rule),
         ORO_MEMBER(ClusterCut, offered),
         ORO_MEMBER(CutRule, pixels_per_tangent),
