@@ -1,5 +1,8 @@
 // Clusters that other ground hides are left out, and nothing that shows: from eyes in motion the ids in every
 // pixel are those of frames that draw the whole cut, on both paths.
+#include <chrono>
+#include <thread>
+
 #include "tests/support/cluster_scene.h"
 #include "tests/support/occlusion_pairs.h"
 #include "tests/support/rough_terrain.h"
@@ -65,6 +68,37 @@ TEST_P(OccludedClusters, AWrongPyramidIsNoticed) {
     Scene drawn = scene();
     test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px, true);
     EXPECT_GT(test::draw_pairs(renderers, drawn, where(), 179, 16, width_px, height_px), 10U);
+}
+
+// A window's frames have coarser clusters beside the cut, which no round draws.
+TEST_P(OccludedClusters, WindowsAreThoseWithout) {
+    Scene drawn = scene();
+    test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
+    std::mt19937 random(181);
+    const Tile tile{0, 0, width_px, height_px, {0.5, 0.5}};
+    std::size_t coarser = 0;
+    for (int i = 0; i < 4; ++i) {
+        const auto [one, other] = test::eyes_in_motion(where(), random, width_px, height_px);
+        for (const Camera& camera : {one, other}) {
+            auto plan = drawn.plan(camera, tile, 1.0);
+            for (int turn = 0; turn < 2000 && plan.ok() && !plan->is_settled(); ++turn) {
+                ASSERT_EQ(renderers.differing(*plan), 0U) << "seed 181, eye " << i;
+                for (int news = 0; news < 100; ++news) {
+                    const auto better = drawn.advance(plan->missing);
+                    ASSERT_TRUE(better.ok()) << better.error().line();
+                    if (*better) break;
+                    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+                }
+                plan = drawn.plan(camera, tile, 1.0);
+            }
+            ASSERT_TRUE(plan.ok()) << plan.error().line();
+            EXPECT_TRUE(plan->is_settled());
+            ASSERT_EQ(renderers.differing(*plan), 0U) << "seed 181, eye " << i;
+            coarser += plan->clusters.drawn.size() - plan->clusters.in_cut;
+        }
+    }
+    EXPECT_GT(coarser, 50U);
+    EXPECT_GT(renderers.hidden, 0U);
 }
 
 // One renderer draws blocks and clusters by turns: what either saw says nothing of the other.
