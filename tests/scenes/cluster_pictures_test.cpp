@@ -112,7 +112,7 @@ int camera_count() {
 TEST_F(ClusterPictures, HaveNoCracks) {
     const test::ClusterTerrain made(test::rough_field(47.0, 8.0, 500, 600));
     for (const RasterPath path : {RasterPath::mesh, RasterPath::compute})
-        look_for_holes("made terrain", made, path, camera_count() / 8, 321);
+        look_for_holes("made terrain", made, path, camera_count() / 4, 321);
 }
 
 TEST_F(ClusterPictures, OfTheAlpsHaveNoCracks) {
@@ -120,7 +120,7 @@ TEST_F(ClusterPictures, OfTheAlpsHaveNoCracks) {
     if (!field) GTEST_SKIP() << "needs the tiles of the Alps";
     const test::ClusterTerrain alps(std::move(*field));
     for (const RasterPath path : {RasterPath::mesh, RasterPath::compute})
-        look_for_holes("within N46E008", alps, path, camera_count() / 8, 322);
+        look_for_holes("within N46E008", alps, path, camera_count() / 4, 322);
 }
 
 // Frames of a flight that do not wait, and with room for few clusters besides: no crack while any are
