@@ -1,11 +1,13 @@
 // The cut that the GPU makes of what a frame offers is the processor's.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "core/cluster_frame/cluster_choice.h"
 #include "tests/support/cluster_scene.h"
@@ -34,10 +36,19 @@ class ClusterCuts : public test::GpuTest, public ::testing::WithParamInterface<R
         test::draw_by_clusters(*gpu_, terrain_, drawn.scene(), std::uint64_t{64} << 20U, level);
         return drawn;
     }
-    // As a window draws it that nothing is missing of, nor of what is coarser.
+    // As a window draws it that nothing is missing of, once nothing has come for a while that is coarser,
+    // either.
     static test::DrawnFrame settled(test::DrawnScene& drawn, const Camera& camera, double tau_px) {
-        const auto frame = test::stream_frames(drawn, camera, tau_px, [](const test::DrawnFrame&) {}).last;
-        EXPECT_TRUE(frame.plan.is_settled());
+        test::DrawnFrame frame;
+        std::size_t asked = 0;
+        for (int turns = 0; turns < 50; ++turns) {
+            frame = test::stream_frames(drawn, camera, tau_px, [](const test::DrawnFrame&) {}).last;
+            EXPECT_TRUE(frame.plan.is_settled());
+            if (frame.plan.clusters.asked.size() != asked) turns = 0;
+            asked = frame.plan.clusters.asked.size();
+            EXPECT_TRUE(drawn.scene().advance(frame.plan.missing).ok());
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
         return frame;
     }
     // The clusters that the GPU has made the cut of a plan of.
