@@ -52,7 +52,7 @@ struct ClusterCut {
     uvec2 asked;   // device address of the frame's AskedGroup
     uvec2 groups;  // ... of three numbers of mesh workgroups: up to the last cluster of the cut, one each
     CutRule rule;
-    uint offered;  // those of the processor's cut, which come first among the frame's clusters
+    uint in_cut;  // those of the processor's cut, which come first among the frame's clusters
 };
 // What a drawn cluster lies in: a box around a point of view coordinates, where light would be straight. Its
 // half axes are along ECEF.

@@ -71,7 +71,7 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
     }
     plan.clusters.asked = offer.asked;
     plan.constants.cut.rule = offer.rule;
-    plan.constants.cut.offered = static_cast<gpu::uint>(plan.clusters.in_cut);
+    plan.constants.cut.in_cut = static_cast<gpu::uint>(plan.clusters.in_cut);
     plan.constants.clusters.on = 1;
     plan.constants.clusters.count = static_cast<gpu::uint>(plan.clusters.drawn.size());
     plan.constants.clusters.rows = static_cast<gpu::uint>(plan.row_terms.size());

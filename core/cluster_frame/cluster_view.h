@@ -27,7 +27,7 @@ class ClusterView {
     [[nodiscard]] bool stands(const ClusterGroup& group) const { return rule_.stands(group); }
     // What the GPU needs for the same answer.
     [[nodiscard]] gpu::AskedGroup measured(const ClusterGroup& group) const { return rule_.measured(group); }
-    [[nodiscard]] gpu::CutRule cut_rule() const { return rule_.cut_rule(); }
+    [[nodiscard]] const gpu::CutRule& cut_rule() const { return rule_.cut_rule(); }
     // All that a group covers, of any detail.
     [[nodiscard]] bool is_beyond_frustum(const ClusterGroup& group) const;
 

@@ -19,17 +19,23 @@ using std::min;
 }  // namespace oro::gpu
 
 namespace oro {
+namespace {
+
+constexpr std::uint32_t last_cut_level = gpu::no_cut_level - 1;
+
+}  // namespace
 
 GroupRule::GroupRule(const Camera& camera, double tau_px, const Air& air, std::optional<std::uint32_t> level)
-    : level_(level),
+    : tau_px_(tau_px),
       curvature_per_m_(Refraction(camera.eye, air).curvature_per_m()),
       view_from_ecef_(camera.view_from_ecef()),
       eye_(camera.eye_ecef()),
       up_view_(view_from_ecef_ * ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg)[2]) {
     const LevelView view = level_view(camera, tau_px);
-    pixels_per_tangent_ = static_cast<double>(view.pixels_per_tangent);
-    corner_tangent_ = static_cast<double>(view.corner_tangent);
-    tau_px_ = tau_px;
+    const auto corner_tangent = static_cast<double>(view.corner_tangent);
+    rule_ = {view.pixels_per_tangent, view.corner_tangent,
+             static_cast<float>(std::sqrt(1.0 + corner_tangent * corner_tangent)), static_cast<float>(tau_px),
+             level ? std::min(*level, last_cut_level) : gpu::no_cut_level};
 }
 
 GroupRule::SeenSphere GroupRule::seen(const Ecef& centre, double radius_m) const {
@@ -49,29 +55,32 @@ double GroupRule::error_px(const ClusterGroup& group) const {
     if (group.error_m <= 0.0) return 0.0;
     const SeenSphere sphere = seen(group.centre, group.radius_m);
     const double e = group.error_m * sphere.stretch;
+    const auto pixels_per_tangent = static_cast<double>(rule_.pixels_per_tangent);
+    const auto corner_tangent = static_cast<double>(rule_.corner_tangent);
     const double across_m =
         std::sqrt(sphere.centre_m.x * sphere.centre_m.x + sphere.centre_m.y * sphere.centre_m.y);
-    const double stretch = std::sqrt(1.0 + corner_tangent_ * corner_tangent_);
+    const double stretch = std::sqrt(1.0 + corner_tangent * corner_tangent);
     double px = std::numeric_limits<double>::infinity();
     const double z_min_m = -sphere.centre_m.z - sphere.radius_m;
     if (z_min_m > e) {
-        const double t = std::min((across_m + sphere.radius_m) / z_min_m, corner_tangent_);
-        px = pixels_per_tangent_ * e * std::sqrt(1.0 + t * t) / (z_min_m - e);
+        const double t = std::min((across_m + sphere.radius_m) / z_min_m, corner_tangent);
+        px = pixels_per_tangent * e * std::sqrt(1.0 + t * t) / (z_min_m - e);
     }
     const double d_min_m = glm::length(sphere.centre_m) - sphere.radius_m;
     if (d_min_m > e * stretch)
-        px = std::min(px, pixels_per_tangent_ * e * stretch * stretch / (d_min_m - e * stretch));
+        px = std::min(px, pixels_per_tangent * e * stretch * stretch / (d_min_m - e * stretch));
     return px;
 }
 
 GroupRule GroupRule::coarser(unsigned steps) const {
     GroupRule other = *this;
     if (steps >= most_coarser_steps) {
-        other.level_ = std::numeric_limits<std::uint32_t>::max();
-    } else if (level_) {
-        other.level_ = std::min(*level_, std::numeric_limits<std::uint32_t>::max() - steps) + steps;
+        other.rule_.level = last_cut_level;
+    } else if (rule_.level != gpu::no_cut_level) {
+        other.rule_.level = std::min(rule_.level, last_cut_level - steps) + steps;
     } else if (steps > 0) {
         other.tau_px_ = std::max(tau_px_, 1.0 / 16.0) * std::pow(2.0, 0.5 * steps);
+        other.rule_.tau_px = static_cast<float>(other.tau_px_);
     }
     return other;
 }
@@ -93,13 +102,6 @@ gpu::AskedGroup GroupRule::measured(const ClusterGroup& group) const {
             scaled(radius_m),
             scaled(group.error_m * sphere.stretch),
             group.level};
-}
-
-gpu::CutRule GroupRule::cut_rule() const {
-    const double stretch = std::sqrt(1.0 + corner_tangent_ * corner_tangent_);
-    return {static_cast<float>(pixels_per_tangent_), static_cast<float>(corner_tangent_),
-            static_cast<float>(stretch), static_cast<float>(tau_px_),
-            level_ ? std::min(*level_, gpu::no_cut_level - 1) : gpu::no_cut_level};
 }
 
 bool stands(const gpu::AskedGroup& group, const gpu::CutRule& rule) {

@@ -31,7 +31,7 @@ class GroupRule {
     [[nodiscard]] bool stands(const ClusterGroup& group) const;
     // What the GPU needs for the same answer.
     [[nodiscard]] gpu::AskedGroup measured(const ClusterGroup& group) const;
-    [[nodiscard]] gpu::CutRule cut_rule() const;
+    [[nodiscard]] const gpu::CutRule& cut_rule() const { return rule_; }
     // The same eye where less is asked for: each step is sqrt(2) times the tau, of at least 1/16 px, or one
     // level more. After the last all groups stand.
     [[nodiscard]] GroupRule coarser(unsigned steps) const;
@@ -49,10 +49,8 @@ class GroupRule {
     [[nodiscard]] SeenSphere seen(const Ecef& centre, double radius_m) const;
 
   private:
-    double pixels_per_tangent_;
-    double corner_tangent_;
-    double tau_px_;
-    std::optional<std::uint32_t> level_;
+    gpu::CutRule rule_;
+    double tau_px_;  // before it is rounded
     double curvature_per_m_;
     glm::dmat3 view_from_ecef_;
     Ecef eye_;

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "core/cast/cast_receiver.h"
 #include "core/earth/camera.h"
-#include "core/earth/ellipsoid.h"
 #include "core/frame/region_pages.h"
 #include "shaders/shared.h"
 
@@ -33,14 +33,6 @@ struct CasterPlan {
     bool for_openness{};
     std::vector<gpu::CasterPage> pages;  // first those of the frame, in its order
     std::vector<gpu::uint> table;
-};
-
-// Ground of another grid that a frame shows: in a sphere, in ECEF.
-struct CastReceiver {
-    Ecef centre;
-    double radius_m;
-    double error_per_slope_m;  // what casts shadows there may be off, a metre of light's rise a metre
-    double lowest_m;           // above the ellipsoid; no ground there is lower
 };
 
 // A shadow's edge may be off by so many pixels because coarser levels cast it.

@@ -47,7 +47,7 @@ bool is_of_cut(uint number) {
 
 // The cut's clusters come first: coarser ones are as far as the last of them.
 bool is_in_turn(uint number) {
-    uint count = max(FRAME.cut.offered, 1u);
+    uint count = max(FRAME.cut.in_cut, 1u);
     return is_looked_at(min(number, count - 1u), count);
 }
 

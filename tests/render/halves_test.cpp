@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/terrain/ground.h"
+#include "tests/support/made_renderer.h"
 #include "tests/support/occlusion_pairs.h"
 #include "tests/support/rough_terrain.h"
 
@@ -29,9 +30,7 @@ class Halves : public test::GpuTest {
         options.split = split;
         options.show = show;
         options.occlusion = occlusion;
-        auto renderer = FrameRenderer::create(*gpu_, options);
-        EXPECT_TRUE(renderer.ok()) << renderer.error().line();
-        return std::move(renderer).value();
+        return test::made_renderer(*gpu_, options);
     }
     [[nodiscard]] Scene scene_of(const HeightField& field, HeightStorage heights = HeightStorage::f32) const {
         auto scene =

@@ -10,6 +10,7 @@
 #include "core/frame/casters.h"
 #include "core/terrain/height_quantization.h"
 #include "tests/support/drawn_scene.h"
+#include "tests/support/made_renderer.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {
@@ -51,9 +52,7 @@ class HeightsOnGpu : public test::GpuTest {
         options.path = path;
         options.keep_depths = true;
         options.record_positions = records;
-        auto made = FrameRenderer::create(*gpu_, options);
-        EXPECT_TRUE(made.ok()) << made.error().line();
-        return std::move(made).value();
+        return test::made_renderer(*gpu_, options);
     }
 
     // Over the void part, heading and pitch as given.

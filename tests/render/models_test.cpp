@@ -12,6 +12,7 @@
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/made_renderer.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {
@@ -78,9 +79,7 @@ class Models : public test::GpuTest, public ::testing::WithParamInterface<Raster
         options.path = path;
         options.keep_depths = true;
         options.record_positions = options.record_view = record_view;
-        auto renderer = FrameRenderer::create(*gpu_, options);
-        EXPECT_TRUE(renderer.ok()) << renderer.error().line();
-        return std::move(renderer).value();
+        return test::made_renderer(*gpu_, options);
     }
 
     static std::vector<float> depths_of(FrameRenderer& renderer, FramePlan plan) {

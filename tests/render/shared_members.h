@@ -355,7 +355,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(ClusterCut, asked),
         ORO_MEMBER(ClusterCut, groups),
         ORO_MEMBER(ClusterCut, rule),
-        ORO_MEMBER(ClusterCut, offered),
+        ORO_MEMBER(ClusterCut, in_cut),
         ORO_MEMBER(CutRule, pixels_per_tangent),
         ORO_MEMBER(CutRule, corner_tangent),
         ORO_MEMBER(CutRule, stretch),

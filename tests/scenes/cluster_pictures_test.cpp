@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 
 #include "core/base/parallel.h"
@@ -11,6 +10,7 @@
 #include "core/truth/view_set.h"
 #include "geo/region/region.h"
 #include "render/frame/depth_picture.h"
+#include "tests/support/asked_count.h"
 #include "tests/support/cluster_scene.h"
 #include "tests/support/cracks.h"
 #include "tests/support/drawn_scene.h"
@@ -105,8 +105,7 @@ class ClusterPictures : public test::GpuTest {
 };
 
 int camera_count() {
-    const char* const wanted = std::getenv("OROGRAPH_TEST_CAMERAS");
-    return wanted ? std::atoi(wanted) : 500;
+    return test::asked_count("OROGRAPH_TEST_CAMERAS", 500);
 }
 
 TEST_F(ClusterPictures, HaveNoCracks) {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 
 #include "geo/region/region.h"
+#include "tests/support/asked_count.h"
 #include "tests/support/cracks.h"
 #include "tests/support/drawn_scene.h"
 #include "tests/support/net_terrain.h"
@@ -33,8 +33,7 @@ HeightField patchy_field() {
 }
 
 int camera_count() {
-    const char* const wanted = std::getenv("OROGRAPH_TEST_CAMERAS");
-    return wanted ? std::atoi(wanted) : 500;
+    return test::asked_count("OROGRAPH_TEST_CAMERAS", 500);
 }
 
 class Cracks : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {

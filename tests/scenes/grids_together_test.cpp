@@ -18,8 +18,10 @@
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
 #include "tests/scenes/scene_of_grids.h"
+#include "tests/support/asked_count.h"
 #include "tests/support/brute_depths.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/made_renderer.h"
 #include "tests/support/three_grids.h"
 
 namespace oro {
@@ -58,9 +60,7 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
             options.extent = {width, height};
             options.path = GetParam();
             options.keep_depths = true;
-            auto renderer = FrameRenderer::create(*gpu_, options);
-            EXPECT_TRUE(renderer.ok()) << renderer.error().line();
-            renderer_.emplace(std::move(renderer).value());
+            renderer_.emplace(test::made_renderer(*gpu_, options));
         }
         const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
         auto plan = scene_->settled_plan(camera, tile, tau_px);
@@ -109,8 +109,7 @@ constexpr int once_open_view = 5414;
 // open; 10,000 take OROGRAPH_TEST_VIEWS=10000.
 TEST_P(GridsTogether, LeaveNoGap) {
     constexpr unsigned seed = 81;
-    const char* const asked = std::getenv("OROGRAPH_TEST_VIEWS");
-    const int views = asked != nullptr ? std::max(1, std::atoi(asked)) : 500;
+    const int views = test::asked_count("OROGRAPH_TEST_VIEWS", 500);
     std::mt19937 random(seed);
     open(test::three_grids(700));
     std::size_t background = 0, pixels = 0;

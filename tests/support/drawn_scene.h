@@ -9,6 +9,7 @@
 #include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/height_storage.h"
+#include "tests/support/made_renderer.h"
 
 namespace oro::test {
 
@@ -34,9 +35,7 @@ class DrawnScene {
         options.extent = {static_cast<std::uint32_t>(width_px), static_cast<std::uint32_t>(height_px)};
         options.path = path;
         options.keep_depths = true;
-        auto renderer = FrameRenderer::create(gpu, options);
-        EXPECT_TRUE(renderer.ok()) << renderer.error().line();
-        renderer_.emplace(std::move(renderer).value());
+        renderer_.emplace(test::made_renderer(gpu, options));
     }
 
     DrawnFrame draw(const Camera& camera, double tau_px, const gpu::FrameStyle& style = {}) {

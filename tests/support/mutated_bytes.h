@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "tests/support/asked_count.h"
 
 namespace oro::test {
 
@@ -17,8 +18,7 @@ struct Mutation {
 
 // How many mutations a test tries: OROGRAPH_TEST_MUTATIONS, or what the test takes by itself.
 inline int mutation_count(int otherwise) {
-    const char* const text = std::getenv("OROGRAPH_TEST_MUTATIONS");
-    return text ? std::max(1, std::atoi(text)) : otherwise;
+    return asked_count("OROGRAPH_TEST_MUTATIONS", otherwise);
 }
 
 // A copy of `whole` that differs from it. `parts`: where the file's parts begin, in order, the first at 0;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -14,14 +13,15 @@
 
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
+#include "tests/support/asked_count.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/made_renderer.h"
 
 namespace oro::test {
 
 // How many pairs a test draws: OROGRAPH_OCCLUSION_PAIRS (500 take minutes), or what it asks for.
 inline int occlusion_pairs(int asked) {
-    const char* const told = std::getenv("OROGRAPH_OCCLUSION_PAIRS");
-    return told != nullptr ? std::max(1, std::atoi(told)) : asked;
+    return asked_count("OROGRAPH_OCCLUSION_PAIRS", asked);
 }
 
 // Where eyes may stand, and the highest ground there, above the ellipsoid.
@@ -102,9 +102,7 @@ class OcclusionPair {
 
   private:
     static FrameRenderer made(const Gpu& gpu, const FrameRendererOptions& options) {
-        auto renderer = FrameRenderer::create(gpu, options);
-        EXPECT_TRUE(renderer.ok()) << renderer.error().line();
-        return std::move(renderer).value();
+        return test::made_renderer(gpu, options);
     }
     std::vector<std::uint32_t> ids(FrameRenderer& renderer, const FramePlan& plan) {
         auto report = renderer.draw(plan, {});

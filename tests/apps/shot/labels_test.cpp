@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
+using oro::test::joined;
 using oro::test::object_said_by;
 using oro::test::pixels_of;
 using oro::test::run_orograph;
@@ -31,10 +32,6 @@ class LabelsOfShots : public testing::Test {
 
     LabelsOfShots() { fs::copy_file(oro::test::bundled_data() / "jacksboro.tif", land); }
     [[nodiscard]] std::string path(const char* name) const { return (folder / name).string(); }
-    static Words joined(Words first, const Words& more) {
-        first.insert(first.end(), more.begin(), more.end());
-        return first;
-    }
     // A map of the bundled region, drawn from that file.
     json shot(const std::string& of, const std::string& out, const Words& more) const {
         const Words map{"--at", "36.545,-84.235", "--altitude", "30000", "--pitch", "-90", "--fov", "30"};

@@ -20,6 +20,7 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::joined;
 using oro::test::Outcome;
 using oro::test::Pixels;
 using oro::test::run_orograph;
@@ -62,11 +63,6 @@ class SameEverywhere : public testing::Test {
     // Of the two tiles only what the view needs: what is compared does not depend on how large the region is.
     void keep_to(const std::string& west_south_east_north) {
         tiles.push_back("--bbox=" + west_south_east_north);
-    }
-
-    static Words joined(Words all, const Words& more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
     }
 
     // Width 0 when nothing was drawn.

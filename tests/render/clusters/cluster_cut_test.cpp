@@ -3,13 +3,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <random>
 #include <set>
 #include <thread>
 
 #include "core/cluster_frame/cluster_choice.h"
+#include "tests/support/asked_count.h"
 #include "tests/support/cluster_scene.h"
 #include "tests/support/cracks.h"
 #include "tests/support/rough_terrain.h"
@@ -22,8 +22,7 @@ using Numbers = std::set<std::uint32_t>;
 
 // OROGRAPH_CLUSTER_CUTS: how many eyes, in the place of what a test asks for.
 int asked_eyes(int asked) {
-    const char* const told = std::getenv("OROGRAPH_CLUSTER_CUTS");
-    return told != nullptr ? std::max(1, std::atoi(told)) : asked;
+    return test::asked_count("OROGRAPH_CLUSTER_CUTS", asked);
 }
 
 class ClusterCuts : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tests/support/cluster_scene.h"
+#include "tests/support/made_renderer.h"
 #include "tests/support/occlusion_pairs.h"
 #include "tests/support/rough_terrain.h"
 
@@ -29,9 +30,7 @@ class FullLists : public test::GpuTest, public ::testing::WithParamInterface<Ful
         options.shares_triangles = true;  // or a processor would list next to nothing
         options.occlusion = OcclusionUse::off;
         options.list_room = room;
-        auto made = FrameRenderer::create(*gpu_, options);
-        EXPECT_TRUE(made.ok()) << made.error().line();
-        return std::move(made).value();
+        return test::made_renderer(*gpu_, options);
     }
     Scene scene() {
         auto made = Scene::create(*gpu_, pages_in_memory(field_, 1.0, 2), {std::uint64_t{256} << 20U, 0});

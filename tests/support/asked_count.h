@@ -1,0 +1,15 @@
+// How much of something a test does, where the environment may ask for more.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace oro::test {
+
+// The number in a variable of the environment, at least 1, or `otherwise` where there is none.
+inline int asked_count(const char* variable, int otherwise) {
+    const char* const told = std::getenv(variable);
+    return told != nullptr ? std::max(1, std::atoi(told)) : otherwise;
+}
+
+}  // namespace oro::test
