@@ -12,15 +12,16 @@ void OfferedCut::add_coarser(double distance_m, std::uint32_t cluster, std::uint
         coarser_.emplace_back(distance_m, cluster, user);
         return;
     }
-    must_give_way_.resize(clusters_.groups().size());
     must_give_way_[clusters_.maker(cluster)] = true;
 }
 
 std::uint32_t OfferedCut::ask(std::uint32_t group) {
     if (group == no_group || must_give_way_[group]) return gpu::no_asked_group;
-    const auto [at, is_new] = numbers_.try_emplace(group, static_cast<std::uint32_t>(offer_.asked.size()));
-    if (is_new) offer_.asked.push_back(view_.measured(clusters_.groups()[group]));
-    return at->second;
+    if (numbers_[group] == gpu::no_asked_group) {
+        numbers_[group] = static_cast<std::uint32_t>(offer_.asked.size());
+        offer_.asked.push_back(view_.measured(clusters_.groups()[group]));
+    }
+    return numbers_[group];
 }
 
 void OfferedCut::offer(std::vector<Found>& found) {
@@ -33,7 +34,6 @@ void OfferedCut::offer(std::vector<Found>& found) {
 }
 
 ClusterOffer OfferedCut::take(std::span<const std::uint32_t> opened) {
-    must_give_way_.resize(clusters_.groups().size());
     // Where a group cannot stand none above it can.
     for (const std::uint32_t group : opened | std::views::reverse) {
         if (!must_give_way_[group]) continue;

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -34,7 +33,11 @@ struct ClusterOffer {
 class OfferedCut {
   public:
     // Both outlive it.
-    OfferedCut(const RegionClusters& clusters, const ClusterView& view) : clusters_(clusters), view_(view) {}
+    OfferedCut(const RegionClusters& clusters, const ClusterView& view)
+        : clusters_(clusters),
+          view_(view),
+          must_give_way_(clusters.groups().size()),
+          numbers_(clusters.groups().size(), gpu::no_asked_group) {}
 
     // A cluster of the cut that is seen. user: the group that uses it, which gives way; no_group: none does.
     void add_of_cut(double distance_m, std::uint32_t cluster, std::uint32_t user) {
@@ -54,8 +57,8 @@ class OfferedCut {
     const RegionClusters& clusters_;
     const ClusterView& view_;
     std::vector<Found> of_cut_, coarser_;
-    std::vector<bool> must_give_way_;  // of each group
-    std::map<std::uint32_t, std::uint32_t> numbers_;
+    std::vector<bool> must_give_way_;     // of each group
+    std::vector<std::uint32_t> numbers_;  // of each group among those that are asked, or gpu::no_asked_group
     ClusterOffer offer_;
 };
 

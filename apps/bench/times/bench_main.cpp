@@ -132,6 +132,7 @@ ordered_json asked_json(const BenchOptions& options, const DeviceReport& device)
     json["region"] = options.region.empty() ? std::to_string(options.patches) + " patches" : options.region;
     json["size_px"] = json_list(options.width_px, options.height_px);
     json["mesh"] = options.mesh;
+    json["as_window"] = options.as_window;
     json["tau_px"] = options.tau_px;
     json["frames"] = options.frames;
     json["occlusion"] = options.occlusion;
@@ -225,6 +226,9 @@ void add_ways_of_drawing(CLI::App& app, BenchOptions& options, BenchWords& words
         ->check(CLI::IsMember(paths));
     app.add_option("--mesh", options.mesh, "What triangles are taken from: grid or clusters")
         ->check(CLI::IsMember({"grid", "clusters"}));
+    app.add_flag("--as-window", options.as_window,
+                 "Plan frames as a window does: of what is here, once that is all. Clusters come with those "
+                 "above them, of which the GPU makes its own cut. The picture is the same");
     app.add_option(
            "--occlusion", options.occlusion,
            "Leave out what other ground hides: on, off, or auto (where it pays). The picture is the same")

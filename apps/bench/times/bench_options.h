@@ -29,6 +29,7 @@ struct BenchOptions {
     double tau_px{1.0};
     int gpu_memory_mb{0};
     std::string mesh{"grid"};
+    bool as_window{false};  // plans of what is here, as a window's, in place of those that wait
     HeightStorage heights{HeightStorage::f32};
     MeshletSplit split{MeshletSplit::by_device};
     bool leave_out_small{false};  // mesh path: triangles that cover no pixel's centre
