@@ -20,7 +20,8 @@ std::uint32_t tiles_of(std::uint32_t pixels) {
 }  // namespace
 
 // The programs of a frame, and what they hand to each other. In air, near ground has a program without the
-// code for footprints of several parts: those are few, and the code takes registers from all pixels.
+// code for footprints of several parts: those are few, and the code takes registers from all pixels. Not
+// where a processor draws: it makes each program anew in each process, which takes it 0.2 s.
 Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants& constants) {
     const gpu::FrameStyle& style = constants.style;
     ShadingKind kind = shading_of(style);
@@ -31,7 +32,8 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants&
     kind.edges_follow = options_.smooth_edges;
     kind.on_net = constants.has_net != 0;
     kind.on_clusters = constants.clusters.on != 0;
-    kind.parts_follow = kind.by_means && kind.in_air && style.footprint == gpu::footprint_mean;
+    kind.parts_follow = kind.by_means && kind.in_air && style.footprint == gpu::footprint_mean &&
+                        (options_.parts_apart || gpu_->report().kind != VK_PHYSICAL_DEVICE_TYPE_CPU);
     ORO_TRY(grid.shade, shading_for(*gpu_, options_.path, kind, *pipelines_));
     if (kind.edges_follow) {
         ORO_TRY(edges_, edges_for(*gpu_, options_.path, kind, *pipelines_));

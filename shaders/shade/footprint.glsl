@@ -290,9 +290,10 @@ void average_over_pixel(uint number, vec2 region, float undulation_m, inout Surf
         point.normal = finest_normal(near_page, region, origin_m);
         return;
     }
-    if (parts_follow || parts_alone) {
-        point.is_left = one_place_will_do(near_page, region, origin_m, post_m, point) != parts_follow;
-        if (parts_follow || point.is_left) return;
+    if (in_air) {
+        bool will_do = one_place_will_do(near_page, region, origin_m, post_m, point);
+        point.is_left = (parts_follow || parts_alone) && will_do != parts_follow;
+        if (will_do || parts_follow) return;
     }
     mat3 axes = axes_at(point.view);
     vec3 to_eye = normalize(-point.view) * axes;

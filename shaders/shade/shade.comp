@@ -17,7 +17,7 @@ layout(constant_id = 1) const bool casts = false;     // FrameStyle.shadows
 layout(constant_id = 2) const bool opens = false;     // FrameStyle.sky_openness
 layout(constant_id = 3) const bool draped = false;    // FrameConstants.drape
 layout(constant_id = 4) const bool by_means = false;  // FrameStyle.footprint
-// Two programs share the pixels of a style in air: near ground and what is no ground, in small code, then footprints of several parts.
+// On a GPU two programs share the pixels of a style in air: near ground and what is no ground, in small code, then footprints of several parts.
 layout(constant_id = 6) const bool parts_follow = false;
 layout(constant_id = 7) const bool parts_alone = false;
 #include "shaders/place/frame.glsl"

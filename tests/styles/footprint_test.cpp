@@ -12,6 +12,7 @@
 #include "geo/region/region.h"
 #include "render/frame/picture_renderer.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/made_renderer.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -145,6 +146,20 @@ TEST_F(Footprint, HoldsForMaps) {
     hold("hillshade", down, style("hillshade", 315.0, 45.0), 2.2);
     hold("aspect", down, style("aspect", 315.0, 45.0), 2.3);
     hold("slope", down, style("slope", 315.0, 45.0), 2.9);
+}
+
+// A GPU shades footprints of several parts by a program of their own, a processor all pixels by one.
+TEST_F(Footprint, IsTheSameByOneProgramOrTwo) {
+    const gpu::FrameStyle natural = style("natural", 315.0, 38.0);
+    const Camera low = over(46.1, 7.5, 4500.0, 0.0, -6.0, 30.0);  // near ground, far ground, sky
+    const auto one = picture(low, natural, gpu::footprint_mean, 1.0, 1);
+    FrameRendererOptions options;
+    options.extent = {width_px, height_px};
+    options.path = RasterPath::compute;
+    options.smooth_edges = options.parts_apart = true;
+    single_.emplace(test::made_renderer(*gpu_, options));
+    EXPECT_EQ(picture(low, natural, gpu::footprint_mean, 1.0, 1), one);
+    EXPECT_NE(picture(low, natural, gpu::footprint_point, 1.0, 1), one);
 }
 
 // Where posts are larger than pixels a map has the angle of its posts, as gdaldem gives it.
