@@ -107,7 +107,7 @@ struct WaterModel {
     uint on;
     uint voids_are_sea;   // 1: what has no height inside the region is the sea
     float sea_low_H_m;    // posts between these two heights are the sea's, level or not; none where the
-    float sea_high_H_m;   // ... second is below the first
+    float sea_high_H_m;   // ... second is below the first. A first below -1e5: posts tell the sea's depth
     vec3 deep;            // share of light that comes out of deep water again
     float wave_variance;  // mean square of the slopes of its waves
 };

@@ -115,9 +115,10 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
         "--visibility", options.visibility_km, "KM",
         "How clear the air is: how far away at sea level something black can be told from the sky, " +
             span(view_limits::visibility_km) + ". Default: the style's. For styles with air.");
-    looks.choice("--sea", options.sea, sea_words(),
-                 "What a style with water draws as the sea: level (default), ground that is level, as lakes "
-                 "are; low, too, what is within 5 m of sea level; voids, what has no height.");
+    looks.choice(
+        "--sea", options.sea, sea_words(),
+        "What a style with water draws as the sea: level (default), ground that is level, as lakes "
+        "are; low, too, what is up to 5 m above sea level and all below it; voids, what has no height.");
     looks.choice("--rim", options.rim, rim_words(),
                  "What a style with voids draws below the region's rim: skirt (default), walls down to the "
                  "ellipsoid; or none.");

@@ -16,6 +16,7 @@
 #include "apps/styles/contour_interval.h"
 #include "apps/styles/daylight_json.h"
 #include "apps/styles/style_json.h"
+#include "apps/view/model_names.h"
 #include "core/light/sun_position.h"
 
 namespace oro {
@@ -50,16 +51,31 @@ Result<Style> read_style(const std::string& text, const std::string& path, const
     return style_of_text(text, path);
 }
 
+// That the style draws what options ask for. What only a view's file says may have no effect.
+Result<void> check_surroundings(const View& view, const gpu::FrameStyle& style) {
+    const auto of_no_use = [&](const std::string& option, const std::string& what) {
+        return Error{ErrorKind::usage, option,
+                     "is for styles with " + what + "; " + view.style + " has none"};
+    };
+    if (view.sea_asked && view.sea != Sea::level && style.water.on == 0)
+        return of_no_use(std::string("--sea ") + name_of(view.sea), "water");
+    const bool has_skirt = (style.voids.on & gpu::voids_with_skirt) != 0;
+    if (view.rim_asked && view.rim == Rim::none && !has_skirt) return of_no_use("--rim none", "voids");
+    return {};
+}
+
 // What the view says of the sea and of the rim. No dry land lies as low as 500 m below the sea: a region that
 // has such ground tells the sea's depth, and all of it that is not above 0 is sea.
 Result<void> surround(gpu::FrameStyle& style, const View& view, const HeightField& field) {
     if (view.rim == Rim::none) style.voids.on &= ~gpu::voids_with_skirt;
     gpu::WaterModel& water = style.water;
     if (water.on == 0) return {};
-    constexpr float lowest_land_H_m = -500.0F, noise_m = 5.0F;
+    // Posts are not below -12,000 m. Below -100,000 m ground would be coloured by the sea's depth (land_H_m
+    // in shaders/shade/water.glsl), and --sea low tells none.
+    constexpr float lowest_land_H_m = -500.0F, below_all_H_m = -2e4F, noise_m = 5.0F;
     if (view.sea == Sea::voids) water.voids_are_sea = 1;
     if (view.sea == Sea::low) {
-        water.sea_low_H_m = -noise_m;
+        water.sea_low_H_m = below_all_H_m;
         water.sea_high_H_m = noise_m;
     }
     if (height_range(field).lowest_m < lowest_land_H_m) {
@@ -131,6 +147,7 @@ Result<Style> load_style(const View& view, const HeightField& field) {
         style.frame.smooth_edges = 0;
     else if (view.edges)
         style.frame.smooth_edges = *view.edges == Edges::smooth ? 1 : 0;
+    ORO_CHECK(check_surroundings(view, style.frame));
     ORO_CHECK(surround(style.frame, view, field));
     ORO_CHECK(fit_to_view(style, view, field));
     return style;

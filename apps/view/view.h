@@ -30,8 +30,8 @@ struct ToldView {
     std::optional<Fingerprints> prints;  // none of before there were any
 };
 
-// What a style that has water takes for the sea: level ground alone; low ground, too (posts from 5 m below
-// sea level to 5 m above it, whose mean over 3 x 3 of them is at most 1 m: heights of the sea with noise);
+// What a style that has water takes for the sea: level ground alone; low ground, too (posts up to 5 m above
+// sea level, and all below it, whose mean over 3 x 3 of them is at most 1 m: heights of the sea with noise);
 // or, beside level ground, what has no height.
 enum class Sea { level, low, voids };
 // What is below the rim of a region, in styles that draw voids: walls down to the ellipsoid, or nothing.
@@ -76,6 +76,9 @@ struct View {
     std::optional<Show> show;          // nothing: the ground
     Sea sea{Sea::level};
     Rim rim{Rim::skirt};
+    // An option of this command says it, and not the view's file alone, which names both for any style.
+    bool sea_asked{};
+    bool rim_asked{};
     std::vector<std::string> drape;  // images over the ground, the last on top
     double drape_opacity{1.0};
     std::vector<ImageSource> images;                  // these files, from open_view on

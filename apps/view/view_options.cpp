@@ -106,9 +106,11 @@ Result<void> apply_colours(View& view, const ViewOptions& options) {
     }
     if (options.sea) {
         ORO_TRY(view.sea, sea_named(*options.sea));
+        view.sea_asked = true;
     }
     if (options.rim) {
         ORO_TRY(view.rim, rim_named(*options.rim));
+        view.rim_asked = true;
     }
     if (options.shadows) {
         ORO_TRY(view.shadows, switch_named("--shadows", *options.shadows));

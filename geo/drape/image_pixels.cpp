@@ -78,6 +78,12 @@ bool read_alpha(WindowReader& reader, std::size_t bands, int columns, int rows, 
     return true;
 }
 
+// The code, 0 to 255, of light from 0 (black) to 255 (white). Source: IEC 61966-2-1:1999, 5.2.
+float code_of_light(float light) {
+    const float share = light / 255.0F;
+    return 255.0F * (share <= 0.0031308F ? 12.92F * share : 1.055F * std::pow(share, 1.0F / 2.4F) - 0.055F);
+}
+
 Result<void> read_values(const ImageSource& image, WindowReader& reader, ImagePixels& pixels,
                          GDALRIOResampleAlg how) {
     std::vector<unsigned char> alpha;
@@ -95,7 +101,10 @@ Result<void> read_values(const ImageSource& image, WindowReader& reader, ImagePi
             if (!std::isfinite(values[at])) colour = {};
             const float code =
                 std::clamp((values[at] - static_cast<float>(image.black)) * scale, 0.0F, 255.0F);
-            colour[i] = colour[3] > 0.0F ? code * colour[3] : 0.0F;
+            if (colour[3] > 0.0F)
+                colour[i] = (image.is_light ? code_of_light(code) : code) * colour[3];
+            else
+                colour[i] = 0.0F;
         }
     }
     if (image.bands.size() == 1) {

@@ -69,12 +69,14 @@ Result<void> place(ImageSource& image, GDALDatasetH dataset) {
     return {};
 }
 
-// Of values that are no bytes: 2 in 100 of a sample are darker than black, 2 lighter than white.
+// Of values that are no bytes and taken for light: 2 in 100 of a sample are darker than black, 2 lighter than
+// white.
 Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, const GdalMessages& messages) {
     const auto is_byte = [&](int band) {
         return GDALGetRasterDataType(GDALGetRasterBand(dataset, band)) == GDT_Byte;
     };
     if (image.palette || std::ranges::all_of(image.bands, is_byte)) return {};
+    image.is_light = true;
     constexpr int most = 512;
     const int columns = std::min(image.columns, most), rows = std::min(image.rows, most);
     const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
@@ -101,8 +103,10 @@ Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, const GdalMe
     image.black = at(0.02);
     image.white = std::max(at(0.98), std::nextafter(image.black, INFINITY));
     char text[160];
-    std::snprintf(text, sizeof text, ": its values are no bytes; %.6g is shown as black, %.6g as white",
-                  image.black, image.white);
+    std::snprintf(
+        text, sizeof text,
+        ": its values are no bytes and taken for linear light; %.6g is shown as black, %.6g as white",
+        image.black, image.white);
     image.notes.push_back(image.file + text);
     return {};
 }

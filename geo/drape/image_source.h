@@ -24,9 +24,10 @@ struct ImageSource {
     std::vector<int> bands;  // red, green, blue; or one: grey, or numbers in a palette
     bool palette{};
     // Stored values that become 0 and 255: those of bytes, or of most of the values where there are other
-    // numbers.
+    // numbers. Bytes are sRGB codes; other numbers are light, encoded as they are read.
     double black{0.0};
     double white{255.0};
+    bool is_light{};
     std::vector<std::string> files;  // that it is made of, for those who must not write over them
     std::uint64_t print{};           // fingerprint of these files (image_print)
     std::vector<std::string> notes;  // what a user must know, one line each

@@ -31,6 +31,36 @@ TEST(StyleFiles, ThoseThatComeWithTheProgramAreRead) {
     EXPECT_GE(count, 8);
 }
 
+// An option that has no effect is refused. A view's file names a sea and a rim whatever its style is.
+TEST(StyleFiles, WithoutWaterOrVoidsRefuseOptionsForThem) {
+    const HeightField field = test::square_field(46.5, 8.0, 30.0, 4, [](int, int) { return 1.0; });
+    const auto line_of = [&](const View& view) {
+        const auto style = load_style(view, field);
+        if (style.ok()) return std::string();
+        EXPECT_EQ(style.error().kind, ErrorKind::usage);
+        return style.error().line();
+    };
+    View view;
+    for (const char* name : {"default", "plain", "natural"}) {
+        SCOPED_TRACE(name);
+        const std::string none = std::string("; ") + name + " has none";
+        const bool refuses = std::string(name) != "natural";
+        view = {};
+        view.style = name;
+        view.sea_asked = view.rim_asked = true;
+        EXPECT_EQ(line_of(view), "");
+        view.sea = Sea::low;
+        EXPECT_EQ(line_of(view), refuses ? "--sea low: is for styles with water" + none : "");
+        view.sea = Sea::voids;
+        EXPECT_EQ(line_of(view), refuses ? "--sea voids: is for styles with water" + none : "");
+        view.rim = Rim::none;
+        view.sea_asked = false;
+        EXPECT_EQ(line_of(view), refuses ? "--rim none: is for styles with voids" + none : "");
+        view.rim_asked = false;
+        EXPECT_EQ(line_of(view), "");
+    }
+}
+
 TEST(StyleFiles, FaultsAreToldInOneLine) {
     const std::string tints = R"("tints": [{"H_m": 0, "colour": "#ffffff"}])";
     const std::string map = tints + R"(, "background": "#ffffff")";

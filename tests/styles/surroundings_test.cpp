@@ -201,41 +201,54 @@ TEST_F(SurroundingsTest, LakesAreWaterAndSmallFlatFieldsAreNot) {
     }
 }
 
-// Noise of +-4 m around sea level is the sea where one asks for it.
+// Noise of +-4 m around sea level is the sea where one asks for it, and so is noise far below.
 TEST_F(SurroundingsTest, LowGroundIsTheSeaOnDemand) {
     constexpr unsigned seed = 20261126;
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> noise(-4, 4);
-    const HeightField field = test::square_field(54.3, 19.0, 90.0, 101, [&](int, int column) {
-        return column < 50 ? noise(random) - 0.5 : 40.0 + column % 3;
-    });
-    const Camera camera = test::straight_down(field, 90.0, 90.0, 200);
     gpu::FrameStyle dry{};
-    for (const Sea sea : {Sea::level, Sea::low}) {
-        const auto style = natural(field, camera, sea);
-        ASSERT_TRUE(style.ok()) << style.error().line();
-        dry = style->frame;
-        dry.water.wave_variance = 0.5F;  // other water is seen where there is any
-        dry.water.deep = gpu::vec3(1.0F, 0.0F, 0.0F);
-        const DepthPicture one = picture(field, camera, style->frame), other = picture(field, camera, dry);
-        int wet = 0, sea_pixels = 0, land_wet = 0;
-        for (std::size_t i = 0; i < one.points.size(); ++i) {
-            const bool is_wet = apart(codes_at(one, i), codes_at(other, i)) > 0;
-            if (one.points[i].column > 50.0) {
-                land_wet += is_wet ? 1 : 0;
-            } else if (one.points[i].column < 47.0) {
-                ++sea_pixels;
-                wet += is_wet ? 1 : 0;
+    for (const double middle_m : {-0.5, -13.0}) {
+        SCOPED_TRACE(testing::Message() << "around " << middle_m << " m");
+        const HeightField field = test::square_field(54.3, 19.0, 90.0, 101, [&](int, int column) {
+            return column < 50 ? noise(random) + middle_m : 40.0 + column % 3;
+        });
+        const Camera camera = test::straight_down(field, 90.0, 90.0, 200);
+        for (const Sea sea : {Sea::level, Sea::low}) {
+            const auto style = natural(field, camera, sea);
+            ASSERT_TRUE(style.ok()) << style.error().line();
+            dry = style->frame;
+            dry.water.wave_variance = 0.5F;  // other water is seen where there is any
+            dry.water.deep = gpu::vec3(1.0F, 0.0F, 0.0F);
+            const DepthPicture one = picture(field, camera, style->frame),
+                               other = picture(field, camera, dry);
+            int wet = 0, sea_pixels = 0, land_wet = 0;
+            for (std::size_t i = 0; i < one.points.size(); ++i) {
+                const bool is_wet = apart(codes_at(one, i), codes_at(other, i)) > 0;
+                if (one.points[i].column > 50.0) {
+                    land_wet += is_wet ? 1 : 0;
+                } else if (one.points[i].column < 47.0) {
+                    ++sea_pixels;
+                    wet += is_wet ? 1 : 0;
+                }
+            }
+            EXPECT_EQ(land_wet, 0);
+            if (sea == Sea::level) {
+                EXPECT_EQ(wet, 0);
+            } else {
+                EXPECT_GT(wet, sea_pixels * 9 / 10);
             }
         }
-        EXPECT_EQ(land_wet, 0);
-        if (sea == Sea::level) {
-            EXPECT_EQ(wet, 0);
-        } else {
-            EXPECT_GT(wet, sea_pixels * 9 / 10);
-        }
     }
+}
+
+// Far below all posts, but not so far that ground would have the colours of a sea's bed.
+TEST_F(SurroundingsTest, LowSeaReachesDownToAllPostsAndTellsNoDepths) {
+    const HeightField field = test::square_field(54.3, 19.0, 90.0, 11, [](int, int) { return -13.0; });
+    const auto low = natural(field, test::straight_down(field, 90.0, 9.0, 20), Sea::low);
+    ASSERT_TRUE(low.ok()) << low.error().line();
+    EXPECT_EQ(low->frame.water.sea_low_H_m, -20000.0F);
+    EXPECT_EQ(low->frame.water.sea_high_H_m, 5.0F);
 }
 
 // Walls are seen below the rim, and are no ground; without them nothing is hatched where nothing is void.

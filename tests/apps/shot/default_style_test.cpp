@@ -66,4 +66,26 @@ TEST_F(DefaultStyle, LeavesRecordedViewsAsTheyWere) {
     oro::test::expect_refusal(shoot("none.png", {"--view", folder / "none.json"}), 1, {"none.json", "style"});
 }
 
+// A view names a sea and a rim, of use to its style or not. An option that is of no use is refused.
+TEST_F(DefaultStyle, OpensViewsWithASeaAndARimThatItDoesNotDraw) {
+    const Outcome drawn = shoot("a.png", {land, "--style", "default"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    json view = view_of("a.png");
+    const std::string pixels = view.at("fingerprints").at("pixels");
+    view.erase("fingerprints");
+    view["sources"] = {land};
+    view["sea"] = "low";
+    view["rim"] = "none";
+    oro::test::write_bytes(folder / "view.json", view.dump());
+    const Outcome again = shoot("again.png", {"--view", folder / "view.json"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(view_of("again.png").at("sea"), "low");
+    EXPECT_EQ(view_of("again.png").at("rim"), "none");
+    EXPECT_EQ(view_of("again.png").at("fingerprints").at("pixels"), pixels);
+    oro::test::expect_refusal(shoot("low.png", {"--view", folder / "view.json", "--sea", "low"}), 2,
+                              {"--sea low: is for styles with water; default has none"});
+    oro::test::expect_refusal(shoot("rim.png", {"--view", folder / "view.json", "--rim", "none"}), 2,
+                              {"--rim none: is for styles with voids; default has none"});
+}
+
 }  // namespace
