@@ -60,19 +60,20 @@ vec3 sunlit(vec3 colour, SurfacePoint point) {
 vec3 hillshaded(vec3 codes, SurfacePoint point) { return codes * ((1.0 + 254.0 * max(towards_sun(point), 0.0)) / 255.0); }
 
 // Slopes towards the sun take its warm colour, those away from it are multiplied with a cool one; level ground keeps its tint. The air in
-// the valleys takes contrast away, as it does for one who looks down.
+// the valleys takes contrast away, as it does for one who looks down. Where the sun is hidden no slope is turned to it: all are in shade.
 // Source: E. Imhof, Cartographic Relief Presentation, 1982, chapters 9 and 13, by eye.
 vec3 in_relief_light(vec3 codes, SurfacePoint point) {
     float level = max(FRAME.style.sun_enu.z, 0.05), cosine = towards_sun(point);
-    float lit = clamp((cosine - level) / max(1.0 - level, 0.05), 0.0, 1.0), turned_away = clamp((level - cosine) / level, 0.0, 1.0);
+    float hidden = FRAME.style.sun_hidden, lit = (1.0 - hidden) * clamp((cosine - level) / max(1.0 - level, 0.05), 0.0, 1.0);
+    float turned_away = mix(clamp((level - cosine) / level, 0.0, 1.0), 1.0, hidden);
     ReliefLight light = FRAME.style.relief_light;
     float up = smoothstep(light.low_H_m, light.high_H_m, point.H_m);
     float contrast = mix(light.low_contrast, 1.0, up);
     vec3 warm = mix(codes, light.lit, light.lit_share * contrast * lit);
     vec3 shaded = warm * mix(vec3(1.0), light.shadow, contrast * turned_away);
-    // Steep ground is darker whichever way it faces: relief is seen in the light, too.
-    float steep = 1.0 - steeper(point.normal, FRAME.style.relief).z;
-    return mix(shaded * (1.0 - 0.35 * contrast * steep), light.veil, light.low_veil * (1.0 - up));
+    // Steep ground is darker whichever way it faces: relief is seen in the light, too, and where all is in shade by this alone.
+    float steep = mix(0.35, 0.7, hidden) * (1.0 - steeper(point.normal, FRAME.style.relief).z);
+    return mix(shaded * (1.0 - contrast * steep), light.veil, light.low_veil * (1.0 - up));
 }
 
 // Lines where H is a multiple of the interval, as wide as the style says wherever the ground is seen from; thinned out where they would

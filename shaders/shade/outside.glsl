@@ -43,29 +43,48 @@ float along_diagonal_m(vec2 post) { return dot(post * FRAME.eye_post.post_m, vec
 // How dark a line `off` from its middle is, in pixels.
 float line_px(float off_px, float half_width_px) { return clamp(half_width_px + 0.5 - off_px, 0.0, 1.0); }
 
+// The share of stripes in a direction: lines across azimuth and elevation, 12 px apart in the middle of a picture. They come from the
+// direction alone, a whole number of them once round, so that tiles of a picture meet.
+float stripe_share(vec3 direction) {
+    const float apart_px = 17.0;  // along the horizon, and up
+    vec3 east = FRAME.view_from_eye * vec3(0.0, 1.0, 0.0), north = cross(FRAME.up_view, east);
+    vec2 level = vec2(dot(direction, east), dot(direction, north));
+    float up = dot(direction, FRAME.up_view), across = max(length(level), 1.0e-3);
+    float round_about = max(round(2.0 * pi * FRAME.pixels_per_tangent / apart_px), 1.0);
+    float stripes = atan(level.x, level.y) * round_about / (2.0 * pi) + atan(up, across) * FRAME.pixels_per_tangent / apart_px;
+    float px_apart = apart_px * across / sqrt(1.0 + across * across);
+    return line_px(abs(stripes - round(stripes)) * px_apart, 0.9);
+}
+
 // The share of hatch lines at a place of a direction: lines across the diagonal, tied to latitude and longitude, 14 to 28 px apart
-// wherever they are seen from (every second line fades out between). Towards the horizon their mean, so that nothing flickers.
+// wherever they are seen from (every second line fades out between), and no closer than posts, so that a void of one post has one.
+// Towards the horizon, where they would flicker, and on ground so near that they are far apart, stripes tied to the eye instead.
 float hatch_share(vec3 direction, vec3 view, vec2 post) {
+    vec3 up = normalize(view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
+    float rise = -dot(direction, up), on_ground = smoothstep(0.03, 0.12, rise);
+    float stripes = rise < 0.8 ? stripe_share(direction) : 0.0;
+    if (on_ground <= 0.0) return stripes;
     vec2 pixel = 2.0 / (vec2(FRAME.width_px, FRAME.height_px) * FRAME.projection_scale);
     vec3 ray = direction / -direction.z;
     float horizon, here_m = along_diagonal_m(post), per_px_m = 0.0;
     for (int i = 0; i < 2; ++i) {
         vec3 beside = normalize(ray + (i == 0 ? vec3(pixel.x, 0.0, 0.0) : vec3(0.0, pixel.y, 0.0)));
         float distance_m = bare_sea_m(beside, horizon);
-        if (distance_m < 0.0) return 0.1;
+        if (distance_m < 0.0) return stripes;
         float step_m = along_diagonal_m(region_post_at(distance_m * beside)) - here_m;
         per_px_m += step_m * step_m;
     }
     per_px_m = max(sqrt(per_px_m), 1.0e-6);
-    float least_m = 8.0 * max(FRAME.eye_post.post_m.x, FRAME.eye_post.post_m.y);
+    float least_m = max(FRAME.eye_post.post_m.x, FRAME.eye_post.post_m.y);
     float octave = max(log2(14.0 * per_px_m), log2(least_m));
     float apart_m = exp2(ceil(octave)), between = ceil(octave) - octave;
     float half_width_px = max(0.9, 0.03 * apart_m / per_px_m);
     float in_lines = here_m / apart_m, off = abs(in_lines - round(in_lines)) * apart_m / per_px_m;
     float off_between = abs(in_lines - floor(in_lines) - 0.5) * apart_m / per_px_m;
     float lines = max(line_px(off, half_width_px), between * line_px(off_between, half_width_px));
-    vec3 up = normalize(view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
-    return mix(0.1, lines, smoothstep(0.03, 0.12, -dot(direction, up)));
+    // Azimuths run together below the eye: there lines stay on the ground.
+    float far_apart = smoothstep(40.0, 80.0, apart_m / per_px_m) * (1.0 - smoothstep(0.5, 0.8, rise));
+    return mix(stripes, lines, on_ground * (1.0 - far_apart));
 }
 
 // Drawn h of the region's surface at a post (row, column, fractional), from the finest page that is here; false on a void. The root is

@@ -152,6 +152,124 @@ TEST_F(SurroundingsTest, HatchHasLines) {
     EXPECT_LE(most - least, 4);
 }
 
+// Rows just below the horizon of a void, by how many of their pixels show the lines' colour and how many the
+// colour between.
+struct HatchCount {
+    int lines{}, between{}, least_in_row{1000};
+};
+
+// Over a void that reaches beyond the horizon, from `above_m`: in the picture's middle the sight is level.
+class HatchToTheHorizon : public SurroundingsTest {
+  protected:
+    HatchCount below_the_horizon(double post_m, int posts, double above_m) {
+        const HeightField field = test::square_field(46.5, 8.0, post_m, posts, [](int row, int column) {
+            return row < 2 && column < 2 ? 1.0 : double{void_height_m};
+        });
+        Camera camera;
+        camera.eye = {0.5 * (field.grid.north_deg() + field.grid.south_deg()),
+                      0.5 * (field.grid.west_deg() + field.grid.east_deg()), above_m};
+        camera.attitude = {30.0, 0.0, 0.0};
+        camera.vertical_fov_deg = 40.0;
+        camera.width_px = 240;
+        camera.height_px = 180;
+        const auto style = natural(field, camera);
+        EXPECT_TRUE(style.ok()) << style.error().line();
+        gpu::FrameStyle all_lines = style->frame, no_lines = style->frame;
+        all_lines.voids.colour = all_lines.voids.lines;
+        no_lines.voids.lines = no_lines.voids.colour;
+        const DepthPicture hatched = picture(field, camera, style->frame),
+                           lines = picture(field, camera, all_lines),
+                           between = picture(field, camera, no_lines);
+        HatchCount count;
+        for (int row = first_below_horizon(camera) + 1, rows = 0; rows < 12; ++row, ++rows) {
+            int of_row = 0;
+            for (int column = 0; column < camera.width_px; ++column) {
+                const auto i = static_cast<std::size_t>(row * camera.width_px + column);
+                EXPECT_TRUE(hatched.points[i].background());
+                const int whole = apart(codes_at(lines, i), codes_at(between, i)),
+                          to_lines = apart(codes_at(lines, i), codes_at(hatched, i)),
+                          to_between = apart(codes_at(between, i), codes_at(hatched, i));
+                EXPECT_GE(whole, 4) << "row " << row;  // through air, too, they are told apart
+                of_row += 4 * to_lines <= whole ? 1 : 0;
+                count.between += 4 * to_between <= whole ? 1 : 0;
+            }
+            count.lines += of_row;
+            count.least_in_row = std::min(count.least_in_row, of_row);
+        }
+        return count;
+    }
+
+    // The first row whose pixels all lie below the horizon.
+    static int first_below_horizon(const Camera& camera) {
+        for (int row = 0; row < camera.height_px; ++row) {
+            bool below = true;
+            for (int column = 0; column < camera.width_px; ++column)
+                below = below &&
+                        on_ellipsoid(camera, camera.ecef_direction_at({column + 0.5, row + 0.5})).has_value();
+            if (below) return row;
+        }
+        return camera.height_px;
+    }
+};
+
+// 12 rows of 240 pixels; stripes 17 px apart along a row, and 2.5 px wide there. Found: from a person's
+// height what lay beyond 70 m was one colour, like the sea.
+TEST_F(HatchToTheHorizon, IsSeenFromAPersonsHeight) {
+    const HatchCount count = below_the_horizon(30.0, 401, 2.0);
+    std::printf("%d of the lines, %d between, at least %d in a row\n", count.lines, count.between,
+                count.least_in_row);
+    EXPECT_GT(count.lines, 150);
+    EXPECT_LT(count.lines, 700);
+    EXPECT_GT(count.between, 1500);
+    EXPECT_GE(count.least_in_row, 8);
+}
+
+// The horizon is 87 km away.
+TEST_F(HatchToTheHorizon, IsSeenFromAMountain) {
+    const HatchCount count = below_the_horizon(1000.0, 221, 600.0);
+    std::printf("%d of the lines, %d between, at least %d in a row\n", count.lines, count.between,
+                count.least_in_row);
+    EXPECT_GT(count.lines, 150);
+    EXPECT_LT(count.lines, 700);
+    EXPECT_GT(count.between, 1500);
+    EXPECT_GE(count.least_in_row, 8);
+}
+
+// Voids of one post, 12 px from the next: a line crosses each of them, wherever it is. Found: lines stood 8
+// posts apart or more, and missed them.
+TEST_F(SurroundingsTest, SmallVoidsShowALine) {
+    constexpr int side_px = 480, px_a_post = 12;
+    const HeightField field = test::square_field(46.5, 8.0, 100.0, 45, [](int row, int column) {
+        return row % 4 == 2 && (column + row / 4) % 4 == 2 ? double{void_height_m} : 1.0;
+    });
+    const Camera camera = test::straight_down(field, 100.0, side_px / px_a_post, side_px);
+    const auto style = natural(field, camera);
+    ASSERT_TRUE(style.ok()) << style.error().line();
+    gpu::FrameStyle no_lines = style->frame;
+    no_lines.voids.lines = no_lines.voids.colour;
+    const DepthPicture hatched = picture(field, camera, style->frame),
+                       plain = picture(field, camera, no_lines);
+    int voids = 0, with_lines = 0;
+    for (int row = 6; row < 40; row += 4) {
+        for (int column = 4; column < 40; ++column) {
+            if ((column + row / 4) % 4 != 2) continue;
+            // Post 22 is in the picture's middle.
+            const int x = side_px / 2 + (column - 22) * px_a_post, y = side_px / 2 + (row - 22) * px_a_post;
+            int of_lines = 0;
+            for (int i = 0; i < 4 * px_a_post * px_a_post; ++i) {
+                const int at_x = x - px_a_post + i % (2 * px_a_post),
+                          at_y = y - px_a_post + i / (2 * px_a_post);
+                const auto pixel = static_cast<std::size_t>(at_y * side_px + at_x);
+                of_lines += apart(codes_at(hatched, pixel), codes_at(plain, pixel)) >= 6 ? 1 : 0;
+            }
+            ++voids;
+            with_lines += of_lines >= 12 ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(voids, 81);
+    EXPECT_EQ(with_lines, voids);
+}
+
 // More than a page of them: hills, N that slopes by 1 m in 10 km, a lake of 30 x 30 posts, and flat fields of
 // 3 x 3 and of 4 x 4 posts.
 HeightField land_with_a_lake() {

@@ -94,10 +94,12 @@ class OcclusionPair {
         }
         pixels += one.size();
         background += static_cast<std::size_t>(std::count(two.begin(), two.end(), 0U));
+        last_ids = two;
         return differ;
     }
 
     std::size_t pixels{}, background{};
+    std::vector<std::uint32_t> last_ids;  // of the picture with occlusion that was drawn last
     std::uint64_t drawn_without{}, drawn_with{}, later{}, hidden{};
 
   private:
