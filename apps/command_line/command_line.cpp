@@ -103,7 +103,7 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
             "How much the air bends light (a surveyor's coefficient of refraction), the same at all heights, "
             "-1 to 0.9: 0 is not at all, 0.13 is usual by day. Not with --air.");
     hide(command, {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--show",
-                   "--tolerance", "--mesh-level"});
+                   "--tolerance"});
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors");

@@ -5,6 +5,7 @@
 #include "apps/commands/info_text.h"
 #include "apps/drawing/clusters_of_region.h"
 #include "apps/drawing/pipeline_choice.h"
+#include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -76,6 +77,13 @@ Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
                       [&](double share, const std::string& what) { bar.show(share, "reading " + what); });
 }
 
+std::string checked_words(const Region& region) {
+    if (!region.file) return "every post was read, as always without a whole .oro";
+    const std::string words = "every page was read, and is as it was written";
+    if (!region.clusters) return words;
+    return words + "; so " + counted(region.clusters->outline().groups, "group", "groups") + " of clusters";
+}
+
 }  // namespace
 
 Result<void> run_info(const InfoOptions& options) {
@@ -112,9 +120,7 @@ Result<void> run_info(const InfoOptions& options) {
     std::printf("%s", info_text(region).c_str());
     for (const Region& other : region.beside) std::printf("\n%s", info_text(other).c_str());
     std::printf("%s", unread_files_text(listing).c_str());
-    if (options.check)
-        std::printf("check: %s\n", region.file ? "every page was read, and is as it was written"
-                                               : "every post was read, as always without a whole .oro");
+    if (options.check) std::printf("check: %s\n", checked_words(region).c_str());
     return {};
 }
 

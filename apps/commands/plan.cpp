@@ -3,8 +3,10 @@
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/mesh_forecast.h"
+#include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/plan_text.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
@@ -137,6 +139,16 @@ PlanEye eye_of(const View& view, const Region& region) {
     return place;
 }
 
+// As shot chooses, and refuses. A level of the graph promises nothing that could be told beforehand.
+Result<void> choose_mesh(const Region& region, View& view) {
+    if (const auto clusters = draws_clusters(region, view); !clusters.ok()) return clusters.error();
+    if (view.mesh_level)
+        return refused("--mesh-level", std::to_string(*view.mesh_level),
+                       "plan tells what --tau promises, and one level of clusters promises nothing (--tau "
+                       "takes its place)");
+    return {};
+}
+
 }  // namespace
 
 Result<void> run_plan(const PlanOptions& options) {
@@ -154,6 +166,7 @@ Result<void> run_plan(const PlanOptions& options) {
     ORO_CHECK(open_view(
         options.view_file, view_options, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
+    ORO_CHECK(choose_mesh(region, view));
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
     ORO_TRY(const GridPages pages, pages_of_grids(region, cuts, view.exaggeration, [&](double share) {
                 bar.show(share, "measuring levels");

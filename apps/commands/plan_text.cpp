@@ -127,6 +127,10 @@ std::string meshes_text(const std::optional<MeshForecasts>& meshes, const View& 
         line.erase(line.find_last_not_of(' ') + 1);
         out += line + "\n";
     }
+    if (view.mesh == "clusters")
+        out +=
+            "What is told of full detail, and the sum, are of blocks. Clusters may come nearer to --tau, and "
+            "no farther.\n";
     return out;
 }
 

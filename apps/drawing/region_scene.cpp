@@ -177,7 +177,8 @@ Error lacks_gpu_memory(Scene& scene, const std::string& what) {
             "the GPU may hold " +
                 (of_clusters ? std::to_string(clusters->store().capacity()) + " clusters"
                              : std::to_string(scene.store().capacity()) + " pages of terrain") +
-                "; " + what + " needs more (a larger --tau needs fewer)"};
+                "; " + what + " needs more (a larger --tau needs fewer" +
+                (clusters ? "; --mesh grid leaves all of the memory to blocks" : "") + ")"};
 }
 
 std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages) {

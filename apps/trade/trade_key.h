@@ -19,6 +19,11 @@ struct TradeKey {
     bool operator==(const TradeKey&) const = default;
 };
 
+// Whether it is predicted before it is drawn: what clusters leave out is not yet.
+inline bool is_predicted(const TradeKey& key) {
+    return !key.clusters;
+}
+
 // "full detail", "no geoid", "no full detail, tau 2", "clusters, tau 2" (likewise without full detail),
 // "draft", "ground between the posts": parts of the model as plan calls them.
 std::string name_of(const TradeKey& key);

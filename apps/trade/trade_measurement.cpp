@@ -132,11 +132,12 @@ Result<TradeShot> Trade::shoot(const TradeCase& one, const Camera& camera, const
 }
 
 Result<TradeEffect> Trade::predicted(const TradeCase& one, const EffectPrediction& prediction) const {
+    TradeEffect effect;
+    effect.key = one.key;
+    if (!is_predicted(one.key)) return effect;
     DrawingModel drawing{one.world, one.has_geoid, {}, one.tau_px};
     if (one.heights == HeightStorage::i16) drawing.coding = world_.grids.front().sixteen;
     ORO_TRY(const EffectSize size, prediction.total(drawing));
-    TradeEffect effect;
-    effect.key = one.key;
     effect.predicted_m = size.worst_m;
     effect.predicted_px = size.worst_px;
     return effect;

@@ -21,8 +21,8 @@ ordered_json number(double value) {
 ordered_json number(const std::optional<double>& value) {
     return value ? number(*value) : ordered_json(nullptr);
 }
-ordered_json measured(bool was, double value) {
-    return was ? number(value) : ordered_json(nullptr);
+ordered_json known(bool is, double value) {
+    return is ? number(value) : ordered_json(nullptr);
 }
 ordered_json range(const std::optional<RatioRange>& ratio) {
     if (!ratio) return nullptr;
@@ -47,13 +47,13 @@ ordered_json setting_json(const TradeSetting& setting) {
     json["gpu_ms"] = number(setting.gpu_ms);
     json["triangles"] = setting.triangles;
     json["bytes"] = setting.bytes;
-    json["ground_m"] = measured(ground, setting.displacement_m);
-    json["ground_px"] = measured(ground, setting.displacement_px);
-    json["ground_p99_px"] = measured(ground, setting.displacement_p99_px);
-    json["ground_mean_px"] = measured(ground, setting.displacement_mean_px);
-    json["surface_px"] = measured(ground, setting.surface_px);
-    json["seen_px"] = measured(ground, setting.seen_px);
-    json["skyline_px"] = measured(setting.skyline_columns > 0, setting.skyline_px);
+    json["ground_m"] = known(ground, setting.displacement_m);
+    json["ground_px"] = known(ground, setting.displacement_px);
+    json["ground_p99_px"] = known(ground, setting.displacement_p99_px);
+    json["ground_mean_px"] = known(ground, setting.displacement_mean_px);
+    json["surface_px"] = known(ground, setting.surface_px);
+    json["seen_px"] = known(ground, setting.seen_px);
+    json["skyline_px"] = known(setting.skyline_columns > 0, setting.skyline_px);
     json["over_limit"] = setting.over_limit;
     json["best"] = setting.on_front;
     return json;
@@ -87,10 +87,10 @@ ordered_json shot_json(const TradeReport& report, const std::vector<std::string>
 ordered_json effect_json(const EffectWorst& effect) {
     ordered_json json = ordered_json::object();
     json["name"] = name_of(effect.key);
-    json["predicted_m"] = number(effect.predicted_m);
+    json["predicted_m"] = known(is_predicted(effect.key), effect.predicted_m);
     json["measured_m"] = number(effect.measured_m);
     json["ratio_m"] = range(effect.ratio_m);
-    json["predicted_px"] = number(effect.predicted_px);
+    json["predicted_px"] = known(is_predicted(effect.key), effect.predicted_px);
     json["measured_px"] = number(effect.measured_px);
     json["ratio_px"] = range(effect.ratio_px);
     json["over_in"] = effect.broken_in.size();
@@ -103,12 +103,12 @@ ordered_json effect_json(const TradeEffect& effect) {
     ordered_json json = ordered_json::object();
     json["view"] = valid_text(effect.view);
     json["name"] = name_of(effect.key);
-    json["predicted_m"] = number(effect.predicted_m);
+    json["predicted_m"] = known(is_predicted(effect.key), effect.predicted_m);
     json["measured_m"] = number(effect.measured_m);
-    json["ratio_m"] = range(as_range(bound_ratio(effect.predicted_m, effect.measured_m)));
-    json["predicted_px"] = number(effect.predicted_px);
+    json["ratio_m"] = range(as_range(ratio_m(effect)));
+    json["predicted_px"] = known(is_predicted(effect.key), effect.predicted_px);
     json["measured_px"] = number(effect.measured_px);
-    json["ratio_px"] = range(as_range(bound_ratio(effect.predicted_px, effect.measured_px)));
+    json["ratio_px"] = range(as_range(ratio_px(effect)));
     json["over"] = bound_broken(effect);
     json["remark"] = remark_on(effect.measured_by);
     return json;
@@ -127,17 +127,21 @@ ordered_json limits_json(const TradeReport& report) {
 }
 
 ordered_json bounds_json(const TradeReport& report) {
-    std::size_t known = 0;
+    std::size_t measured = 0;
+    std::size_t unmeasured = 0;
     std::size_t over = 0;
     std::size_t loose = 0;
     for (const TradeEffect& effect : report.effects) {
-        if (!effect.measured_m && !effect.measured_px) continue;
-        ++known;
+        if (!is_predicted(effect.key)) continue;
+        if (!effect.measured_m && !effect.measured_px) {
+            ++unmeasured;
+            continue;
+        }
+        ++measured;
         if (bound_broken(effect)) ++over;
         if (bound_loose(effect)) ++loose;
     }
-    return json_object("measured", known, "over", over, "loose", loose, "unmeasured",
-                       report.effects.size() - known);
+    return json_object("measured", measured, "over", over, "loose", loose, "unmeasured", unmeasured);
 }
 
 // Source: PNG, 11.2.2: width and height are the 16th to 23rd byte. What is no PNG has no size and no bytes.

@@ -31,8 +31,8 @@ void add(EffectWorst& worst, const TradeEffect& effect) {
     worst.predicted_px = worse(worst.predicted_px, effect.predicted_px);
     widen(worst.measured_m, effect.measured_m);
     widen(worst.measured_px, effect.measured_px);
-    widen(worst.ratio_m, bound_ratio(effect.predicted_m, effect.measured_m));
-    widen(worst.ratio_px, bound_ratio(effect.predicted_px, effect.measured_px));
+    widen(worst.ratio_m, ratio_m(effect));
+    widen(worst.ratio_px, ratio_px(effect));
     worst.measured_by = effect.measured_by;
     if (bound_broken(effect)) worst.broken_in.push_back(effect.view);
     ++worst.views;
@@ -69,13 +69,14 @@ double worse(double a, double b) {
 }
 
 bool bound_broken(const TradeEffect& effect) {
+    if (!is_predicted(effect.key)) return false;
     // Not "measured > predicted": a bound that is no number holds nothing.
     return (effect.measured_m && !(*effect.measured_m <= effect.predicted_m)) ||
            (effect.measured_px && !(*effect.measured_px <= effect.predicted_px));
 }
 
 bool bound_loose(const TradeEffect& effect) {
-    const std::optional<double> ratio = bound_ratio(effect.predicted_px, effect.measured_px);
+    const std::optional<double> ratio = ratio_px(effect);
     return effect.predicted_px > negligible_px && ratio && *ratio > loose_ratio;
 }
 
@@ -95,6 +96,16 @@ const char* remark_on(EffectMeasure measured_by) {
 std::optional<double> bound_ratio(double predicted, const std::optional<double>& measured) {
     if (!measured || !(*measured > 0.0)) return std::nullopt;
     return predicted / *measured;
+}
+
+std::optional<double> ratio_m(const TradeEffect& effect) {
+    if (!is_predicted(effect.key)) return std::nullopt;
+    return bound_ratio(effect.predicted_m, effect.measured_m);
+}
+
+std::optional<double> ratio_px(const TradeEffect& effect) {
+    if (!is_predicted(effect.key)) return std::nullopt;
+    return bound_ratio(effect.predicted_px, effect.measured_px);
 }
 
 std::vector<EffectWorst> worst_effects(const TradeReport& report) {

@@ -35,7 +35,7 @@ inline constexpr double negligible_px = 0.1;
 // One effect over all views.
 struct EffectWorst {
     TradeKey key;
-    double predicted_m{}, predicted_px{};
+    double predicted_m{}, predicted_px{};           // nothing unless is_predicted()
     std::optional<double> measured_m, measured_px;  // of the views where it was measured
     std::optional<RatioRange> ratio_m, ratio_px;
     EffectMeasure measured_by{};
@@ -44,12 +44,15 @@ struct EffectWorst {
 };
 // In the order in which they first occur.
 std::vector<EffectWorst> worst_effects(const TradeReport& report);
-// More was measured than predicted, in m or in px.
+// More was measured than predicted, in m or in px. Not where nothing is predicted, nor is that loose.
 bool bound_broken(const TradeEffect& effect);
 // The bound in px is loose, and not negligible.
 bool bound_loose(const TradeEffect& effect);
 // predicted / measured; nothing where nothing, or nothing above 0, was measured.
 std::optional<double> bound_ratio(double predicted, const std::optional<double>& measured);
+// Of an effect; nothing where it is not predicted, either.
+std::optional<double> ratio_m(const TradeEffect& effect);
+std::optional<double> ratio_px(const TradeEffect& effect);
 
 // How an effect was measured, where that is not by drawing it; else "".
 const char* remark_on(EffectMeasure measured_by);

@@ -56,7 +56,7 @@ struct TradeSetting {
 struct TradeEffect {
     std::string view;
     TradeKey key;                                   // the setting, or a limit of the data
-    double predicted_m{}, predicted_px{};           // bounds
+    double predicted_m{}, predicted_px{};           // bounds; nothing unless is_predicted()
     std::optional<double> measured_m, measured_px;  // worst; nothing where it cannot be measured
     EffectMeasure measured_by{};                    // picture, thinned or stated
 };

@@ -193,14 +193,19 @@ std::string measured_text(const std::optional<double>& value) {
     return value ? coarse_figure(*value) : "n/a";
 }
 
+std::string predicted_text(const EffectWorst& effect, double value) {
+    return is_predicted(effect.key) ? coarse_figure(value) : "-";
+}
+
 std::string effects_text(const TradeReport& report) {
     Table table({{"setting", "predicted", "measured", "ratio", "predicted", "measured", "ratio", "remark"},
                  {"(worst of the views)", "m", "m", "", "px", "px", "", ""}},
                 true);
     for (const EffectWorst& effect : worst_effects(report))
-        table.add({name_of(effect.key), coarse_figure(effect.predicted_m), measured_text(effect.measured_m),
-                   ratio_text(effect.ratio_m), coarse_figure(effect.predicted_px),
-                   measured_text(effect.measured_px), ratio_text(effect.ratio_px), remark_of(effect)});
+        table.add({name_of(effect.key), predicted_text(effect, effect.predicted_m),
+                   measured_text(effect.measured_m), ratio_text(effect.ratio_m),
+                   predicted_text(effect, effect.predicted_px), measured_text(effect.measured_px),
+                   ratio_text(effect.ratio_px), remark_of(effect)});
     return table.text() +
            "predicted: a bound, worked out before anything is drawn; orograph plan tells it for one view\n"
            "ratio: predicted / measured, least and most of the views; below 1 a bound does not hold\n";

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "apps/report/base64.h"
+#include "apps/trade/trade_page.h"
 #include "apps/trade/trade_parts.h"
 #include "tests/commands/trade_page.h"
 
@@ -222,6 +225,35 @@ TEST(TradeReport, ABoundThatIsNoNumberHoldsNothing) {
     EXPECT_TRUE(std::isnan(effects[0].predicted_px)) << "a good view hid a bad one";
     const std::string text = trade_text(report);
     EXPECT_NE(text.find("MORE THAN PREDICTED in 1 of 2"), std::string::npos) << text;
+}
+
+// No bound, and so none that is broken, loose or counted.
+TEST(TradeReport, ClustersAreMeasuredAndNotPredicted) {
+    const TradeKey clusters{EffectKind::detail, 2.0, {}, true};
+    TradeReport report;
+    report.effects = {{"a", level(2), 100.0, 2.0, 50.0, 1.0}, {"a", clusters, 0.0, 0.0, 60.0, 1.5}};
+    EXPECT_FALSE(bound_broken(report.effects[1]));
+    const std::vector<EffectWorst> effects = worst_effects(report);
+    ASSERT_EQ(effects.size(), 2U);
+    EXPECT_TRUE(effects[1].broken_in.empty());
+    EXPECT_FALSE(effects[1].ratio_m);
+    EXPECT_FALSE(effects[1].ratio_px);
+    EXPECT_EQ(effects[1].measured_px, 1.5);
+    const std::string text = trade_text(report);
+    const std::size_t from = text.find("\nclusters, tau 2 ");
+    ASSERT_NE(from, std::string::npos) << text;
+    std::istringstream line(text.substr(from + 1, text.find('\n', from + 1) - from - 1));
+    const std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+    EXPECT_EQ(words, (std::vector<std::string>{"clusters,", "tau", "2", "-", "60.0", "-", "1.5"})) << text;
+    EXPECT_EQ(text.find("MORE THAN"), std::string::npos) << text;
+    const nlohmann::ordered_json page = trade_page_json(report);
+    for (const char* list : {"effects", "effects_of_views"}) {
+        const nlohmann::ordered_json& row = page[list][1];
+        for (const char* unknown : {"predicted_m", "predicted_px", "ratio_m", "ratio_px"})
+            EXPECT_TRUE(row[unknown].is_null()) << list << " " << unknown;
+        EXPECT_EQ(row["measured_m"], 60.0) << list;
+    }
+    EXPECT_EQ(page["bounds"].dump(), R"({"measured":1,"over":0,"loose":0,"unmeasured":0})");
 }
 
 // Figures of a column stand below each other by their points.

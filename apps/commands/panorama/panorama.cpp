@@ -209,7 +209,7 @@ Result<void> draw(const PanoramaOptions& options, const RegionGround& ground, co
     ORO_TRY(RegionScene whole,
             scene_of_region(*gpu, report.region, cuts, std::move(pages),
                             {view.exaggeration, memory_of_pages(view, options.memory), view.heights,
-                             asks_for_means(style.frame), view.mesh == "clusters"}));
+                             asks_for_means(style.frame), view.mesh == "clusters", view.mesh_level}));
     Scene& scene = whole.scene;
     if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);

@@ -72,6 +72,8 @@ ordered_json panorama_json(const PanoramaReport& report, const std::string& file
     json["models"] = models_json(view);
     json["light"] = light_json(view.model.air, view.camera.eye.h_m);
     json["tau_px"] = view.tau_px;
+    json["mesh_level"] = nullptr;
+    if (view.mesh_level) json["mesh_level"] = *view.mesh_level;
     json["pictures"] = report.scene.tiles;
     json["triangles"] = report.scene.report.triangles_drawn;
     json["pipeline"] = name_of(report.scene.report.path);

@@ -96,11 +96,14 @@ function effectTip(effect, what, px, m) {
 
 function effectRow(effect) {
   var measured = !isNaN(number(effect.measured_px));
+  // A bound that is no number is one, and broken.
+  var predicted = effect.predicted_px !== null || effect.over_in > 0;
   var data = {effect: effect.name};
   return {
-    name: effect.name, joined: measured, alarm: effect.over_in > 0, limit: null,
+    name: effect.name, joined: measured && predicted, alarm: effect.over_in > 0, limit: null,
     points: [
-      {data: data, tip: effectTip(effect, 'predicted bound', effect.predicted_px, effect.predicted_m),
+      {data: data, tip: predicted ? effectTip(effect, 'predicted bound', effect.predicted_px, effect.predicted_m) :
+         effect.name + '\nnot predicted',
        value: number(effect.predicted_px), mark: 0, lane: 0},
       {data: data,
        tip: measured ? effectTip(effect, 'measured worst', effect.measured_px, effect.measured_m) :

@@ -7,6 +7,7 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::bytes_of;
 using oro::test::ClustersDrawn;
 using oro::test::expect_refusal;
 using oro::test::joined;
@@ -83,6 +84,23 @@ TEST_F(ClustersDrawn, PanoramasToo) {
     expect_refusal(run_orograph({"panorama", without, "--at", "36.53,-84.35", "--mesh", "clusters", "--out",
                                  folder / "none.png"}),
                    2, {"--mesh clusters", "bake it with --mesh clusters"});
+}
+
+TEST_F(ClustersDrawn, PanoramasOfOneLevelToo) {
+    const fs::path fine = folder / "fine.png", level = folder / "level.png", again = folder / "again.png";
+    const auto draw = [&](const fs::path& to, const Words& more) {
+        return object_said_by(
+            joined(Words{"panorama", out_, "--at", "36.53,-84.35", "--above", "300", "--width", "400",
+                         "--elevation", "-20,5", "--out", to, "-q", "--json"},
+                   more));
+    };
+    const json by_tau = draw(fine, {}), by_level = draw(level, {"--mesh-level", "8"});
+    EXPECT_TRUE(by_tau["mesh_level"].is_null());
+    EXPECT_EQ(by_level["mesh_level"], 8);
+    EXPECT_EQ(json::parse(view_in(level))["mesh_level"], 8);
+    EXPECT_FALSE(pixels_of(level).rgb == pixels_of(fine).rgb) << "not the cut of tau 1";
+    ASSERT_EQ(run_orograph({"panorama", "--view", level, "--out", again, "-q"}).exit_code, 0);
+    EXPECT_TRUE(bytes_of(again) == bytes_of(level)) << "a view gives the same bytes";
 }
 
 TEST_F(ClustersDrawn, WhatDoesNotGoTogetherIsRefused) {

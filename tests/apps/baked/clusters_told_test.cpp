@@ -6,6 +6,7 @@
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
+using oro::test::expect_refusal;
 using oro::test::joined;
 using oro::test::object_said_by;
 using oro::test::Outcome;
@@ -46,8 +47,48 @@ TEST_F(ClustersTold, FiguresOfTheGraph) {
     }
     const Outcome told = run_orograph(joined({"plan", out_, "-q"}, eye()));
     EXPECT_NE(told.out.find("What is in view at --tau 1, by either mesh"), std::string::npos) << told.out;
+    EXPECT_NE(told.out.find("the sum, are of blocks"), std::string::npos) << told.out;
+    const Outcome by_blocks = run_orograph(joined({"plan", out_, "-q", "--mesh", "grid"}, eye()));
+    EXPECT_EQ(by_blocks.out.find("the sum, are of blocks"), std::string::npos) << by_blocks.out;
+    const Outcome checked = run_orograph({"info", out_, "--check"});
+    std::uint64_t groups = 0;
+    for (const json& level : levels) groups += level["groups"].get<std::uint64_t>();
+    EXPECT_NE(checked.out.find("check: every page was read, and is as it was written; so " +
+                               std::to_string(groups) + " groups of clusters\n"),
+              std::string::npos)
+        << groups << checked.out;
     const fs::path plain = baked();
     EXPECT_TRUE(object_said_by(joined({"plan", plain, "-q", "--json"}, eye()))["meshes"].is_null());
+}
+
+// As shot refuses it, and in its words; and one level, of which nothing is promised.
+TEST_F(ClustersTold, PlanRefusesWhatIsNotDrawn) {
+    const auto plan = [&](const fs::path& region, const Words& more) {
+        return run_orograph(joined(joined({"plan", region, "-q", "--json"}, eye()), more));
+    };
+    const fs::path plain = baked();
+    const std::string none =
+        "the region has no clusters: bake it with --mesh clusters, and draw the whole .oro file";
+    const Words plain_shot = joined({"shot", plain, "-q", "--out", folder / "x.png"}, eye());
+    for (const auto& [more, line] :
+         {std::pair{Words{"--mesh", "clusters"},
+                    "--mesh clusters: " + none + "; --mesh grid draws it by blocks"},
+          {Words{"--mesh-level", "3"}, "--mesh-level: " + none},
+          {Words{"--show", "groups"}, "--show groups: " + none}}) {
+        const Outcome refused_plan = plan(plain, more);
+        EXPECT_EQ(refused_plan.exit_code, 2);
+        EXPECT_EQ(refused_plan.out, "");
+        EXPECT_EQ(refused_plan.err, "orograph: " + line + "\n");
+        EXPECT_EQ(run_orograph(joined(plain_shot, more)).err, refused_plan.err);
+    }
+    expect_refusal(plan(out_, {"--mesh", "grid", "--show", "groups"}), 2, {"--show groups", "--mesh grid"});
+    expect_refusal(plan(out_, {"--mesh-level", "3"}), 2,
+                   {"--mesh-level 3: ", "plan tells what --tau promises"});
+    EXPECT_EQ(json::parse(plan(out_, {}).out)["view"]["mesh"], "clusters");
+    EXPECT_FALSE(json::parse(plan(out_, {"--mesh", "grid"}).out)["view"].contains("mesh"));
+    shot({"--mesh-level", "3"});
+    expect_refusal(run_orograph({"plan", "--view", picture_, "-q"}), 2, {"--mesh-level 3: "});
+    EXPECT_EQ(run_orograph({"plan", "--view", picture_, "--tau", "1", "-q"}).exit_code, 0);
 }
 
 // Each tau by blocks and by clusters, the others by blocks as where there are none.
@@ -57,7 +98,13 @@ TEST_F(ClustersTold, TradeHasARowForEachTau) {
     const Outcome traded = run_orograph(words);
     ASSERT_EQ(traded.exit_code, 0) << traded.err;
     for (const char* tau : {"0.5", "1", "2", "4"}) {
-        EXPECT_NE(traded.out.find("clusters, tau " + std::string(tau)), std::string::npos) << traded.out;
+        const std::string row = "clusters, tau " + std::string(tau);
+        EXPECT_NE(traded.out.find(" " + row), std::string::npos) << traded.out;
+        // Of what was predicted: nothing.
+        const std::size_t at = traded.out.find("\n" + row + " ");
+        ASSERT_NE(at, std::string::npos) << traded.out;
+        const std::size_t column = traded.out.find_first_not_of(' ', at + 1 + row.size());
+        EXPECT_EQ(traded.out.substr(column, 2), "- ") << traded.out;
     }
     EXPECT_EQ(traded.out.find("MORE THAN"), std::string::npos) << traded.out;
     EXPECT_EQ(traded.out.find("OVER"), std::string::npos) << traded.out;
