@@ -66,8 +66,10 @@ class ClusterFile {
     [[nodiscard]] const ClusterOutline& outline() const { return outline_; }
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
-    // A group's numbers, without first_member; number: below outline().groups. What the groups of one level
-    // say of each other is looked at in graph() alone.
+    // All groups' numbers, without first_member, held against each other, the levels, the header and the
+    // file.
+    [[nodiscard]] Result<std::vector<ClusterGroup>> groups() const;
+    // One's, by itself; number: below outline().groups.
     [[nodiscard]] Result<ClusterGroup> group(std::uint32_t number) const;
     // All of a group. Members are below what it made, its clusters' users on the next level.
     Result<void> part(std::uint32_t number, GroupPart& part) const;
@@ -80,10 +82,12 @@ class ClusterFile {
     Result<void> check(const OriginalSurface& surface, const GroundBounds& bounds,
                        const LeavesOneByOne& leaves, int threads = 1) const;
 
+    // That a group is no part of a graph. what: in words that follow "group N".
+    [[nodiscard]] Error unsound(std::uint32_t number, const std::string& what) const;
+
   private:
     ClusterFile(OpenFile file, ClusterOutline outline, std::uint64_t bytes);
     [[nodiscard]] std::uint32_t level_of(std::uint32_t number) const;
-    [[nodiscard]] Result<void> check_records() const;
     // graph: without its counts, which are those of the outline.
     [[nodiscard]] Result<void> check_sound(GraphByGroups graph, const OriginalSurface& surface,
                                            const GroundBounds& bounds, int threads) const;

@@ -198,8 +198,8 @@ void link_leaves(ClusterGraph& graph, std::uint32_t leaves) {
 
 }  // namespace
 
-// All records against each other, the levels, the header and the file, before anything is made room for.
-Result<void> ClusterFile::check_records() const {
+Result<std::vector<ClusterGroup>> ClusterFile::groups() const {
+    std::vector<ClusterGroup> groups;
     std::uint64_t next_payload = record_offset(outline_, outline_.groups);
     std::uint64_t next_made = outline_.leaves, members = 0;
     std::uint32_t number = 0;
@@ -223,6 +223,8 @@ Result<void> ClusterFile::check_records() const {
             triangles += stored.triangles;
             members += stored.group.members;
             largest_m = std::max(largest_m, stored.group.error_m);
+            groups.push_back(stored.group);
+            groups.back().level = static_cast<std::uint32_t>(level) + 1;
         }
         const GraphLevel& said = outline_.levels[level];
         if (made != said.clusters_out || triangles != said.triangles_out || largest_m != said.largest_error_m)
@@ -239,13 +241,17 @@ Result<void> ClusterFile::check_records() const {
     if (members != outline_.members)
         return file_.damaged(0, "the header says " + std::to_string(outline_.members) +
                                     " members, but the groups have " + std::to_string(members));
-    return {};
+    return groups;
+}
+
+Error ClusterFile::unsound(std::uint32_t number, const std::string& what) const {
+    return file_.damaged(record_offset(outline_, number), "group " + std::to_string(number) + " " + what);
 }
 
 Result<ClusterGraph> ClusterFile::graph(const OriginalSurface& surface, const GroundBounds& bounds,
                                         int threads) const {
     ORO_TRY(ClusterGraph graph, begin_graph(*this, surface));
-    ORO_CHECK(check_records());
+    ORO_CHECK(groups());
     for (std::uint32_t first = 0; first < outline_.groups; first += groups_at_a_time) {
         std::vector<GroupPart> parts(std::min(groups_at_a_time, outline_.groups - first));
         std::vector<Result<void>> read(parts.size());
@@ -280,8 +286,7 @@ Result<void> ClusterFile::check_sound(GraphByGroups graph, const OriginalSurface
     graph.levels = static_cast<std::uint32_t>(outline_.levels.size());
     ORO_TRY(const std::optional<UnsoundGroup> wrong, unsound_group(graph, surface, bounds, threads));
     if (!wrong) return {};
-    return file_.damaged(record_offset(outline_, wrong->group),
-                         "group " + std::to_string(wrong->group) + " " + wrong->what);
+    return unsound(wrong->group, wrong->what);
 }
 
 Result<void> ClusterFile::check(const OriginalSurface& surface, const GroundBounds& bounds,
@@ -289,7 +294,7 @@ Result<void> ClusterFile::check(const OriginalSurface& surface, const GroundBoun
     std::size_t triangles = 0;
     for (std::uint32_t leaf = 0; leaf < leaves.count; ++leaf) triangles += leaves.triangles(leaf).size();
     ORO_CHECK(check_surface(*this, surface, leaves.count, triangles));
-    ORO_CHECK(check_records());
+    ORO_CHECK(groups());
     return check_sound(
         {.leaf = leaves.triangles,
          .part = [this](std::uint32_t number, GroupPart& part) { return this->part(number, part); }},

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <sstream>
 #include <unordered_map>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/cluster_file/cluster_format.h"
 #include "core/cluster_file/group_borders.h"
+#include "core/cluster_file/group_growth.h"
 
 namespace oro {
 namespace {
@@ -18,19 +19,6 @@ std::string in_words(std::uint64_t value) {
 std::string group_name(std::uint32_t group) {
     return group == no_group ? "none" : in_words(group);
 }
-// All digits that a distance has.
-std::string metres(double value_m) {
-    std::ostringstream text;
-    text.precision(17);
-    text << value_m << " m";
-    return text.str();
-}
-
-UnsoundGroup too_small_sphere(std::uint32_t group, double reach_m, double radius_m) {
-    return {group, "has a sphere of " + metres(radius_m) + ", but what it holds reaches " + metres(reach_m) +
-                       " from its centre"};
-}
-
 // Goes through the groups once in their order, and twice more to those at a rim.
 class GraphCheck {
   public:
@@ -80,9 +68,6 @@ class GraphCheck {
     [[nodiscard]] std::optional<UnsoundGroup> wrong_users() const;
     void compare(const std::vector<GroupPart>& parts);
     [[nodiscard]] std::optional<UnsoundGroup> wrong_growth(const GroupPart& part) const;
-    [[nodiscard]] std::optional<UnsoundGroup> wrong_leaf_reach(const ClusterGroup& group,
-                                                               std::uint32_t number,
-                                                               std::uint32_t leaf) const;
     [[nodiscard]] bool same_border(const GroupPart& part) const;
     Result<void> compare_border(std::uint32_t number, Rim& rim) const;
     Result<std::optional<UnsoundGroup>> torn();
@@ -98,11 +83,7 @@ class GraphCheck {
 
     // The group that made a cluster; no_group: a leaf.
     [[nodiscard]] std::uint32_t maker(std::uint32_t cluster) const {
-        if (cluster < graph_.leaves) return no_group;
-        const auto after =
-            std::upper_bound(groups_.begin(), groups_.end(), cluster,
-                             [](std::uint32_t a, const ClusterGroup& b) { return a < b.first_made; });
-        return static_cast<std::uint32_t>(after - groups_.begin()) - 1;
+        return maker_among(groups_, graph_.leaves, cluster);
     }
     [[nodiscard]] std::uint32_t level_of(std::uint32_t cluster) const {
         const std::uint32_t made_by = maker(cluster);
@@ -153,9 +134,8 @@ std::optional<UnsoundGroup> GraphCheck::wrong_members(const GroupPart& part) {
             return uses(member, " after " + std::to_string(before) + ", expected rising numbers of " +
                                     in_words(graph_.clusters));
         before = member;
-        if (level_of(member) + 1 != part.group.level)
-            return uses(member, " of level " + in_words(level_of(member)) + ", expected level " +
-                                    in_words(part.group.level - 1));
+        if (auto wrong = wrong_level(part.group, member, groups_, graph_.leaves))
+            return UnsoundGroup{part.number, std::move(*wrong)};
         if (member < graph_.leaves && users_[member] == no_group) users_[member] = part.number;
         if (users_[member] != part.number)
             return uses(member, ", which says that it is used by " + group_name(users_[member]));
@@ -193,36 +173,15 @@ void GraphCheck::compare(const std::vector<GroupPart>& parts) {
     }
 }
 
-std::optional<UnsoundGroup> GraphCheck::wrong_leaf_reach(const ClusterGroup& group, std::uint32_t number,
-                                                         std::uint32_t leaf) const {
-    for (const VertexTriangle& triangle : graph_.leaf(leaf)) {
-        for (const VertexNumber vertex : triangle) {
-            const double reach_m = glm::distance(bounds_.ecef(surface_.vertex(vertex)).m, group.centre.m);
-            if (reach_m > group.radius_m) return too_small_sphere(number, reach_m, group.radius_m);
-        }
-    }
-    return std::nullopt;
-}
-
 std::optional<UnsoundGroup> GraphCheck::wrong_growth(const GroupPart& part) const {
-    const ClusterGroup& group = part.group;
-    double below_m = 0.0;
-    for (const std::uint32_t member : part.members)
-        if (member >= graph_.leaves) below_m = std::max(below_m, groups_[maker(member)].error_m);
-    if (below_m > group.error_m)
-        return UnsoundGroup{
-            part.number, "has error " + metres(group.error_m) + ", but one below it has " + metres(below_m)};
-    std::uint32_t last = no_group;
+    if (auto wrong = oro::wrong_growth(part, groups_, graph_.leaves))
+        return UnsoundGroup{part.number, std::move(*wrong)};
     for (const std::uint32_t member : part.members) {
-        const std::uint32_t made_by = maker(member);
-        if (made_by == no_group) {
-            if (auto wrong = wrong_leaf_reach(group, part.number, member)) return wrong;
-        } else if (made_by != last) {
-            last = made_by;
-            const ClusterGroup& below = groups_[last];
-            const double reach_m = glm::distance(below.centre.m, group.centre.m) + below.radius_m;
-            if (reach_m > group.radius_m) return too_small_sphere(part.number, reach_m, group.radius_m);
-        }
+        if (member >= graph_.leaves) break;
+        for (const VertexTriangle& triangle : graph_.leaf(member))
+            for (const VertexNumber vertex : triangle)
+                if (auto wrong = beyond_sphere(part.group, bounds_.ecef(surface_.vertex(vertex))))
+                    return UnsoundGroup{part.number, std::move(*wrong)};
     }
     return std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/cluster_file/group_growth.h"
 
 namespace oro {
 namespace {
@@ -22,6 +23,23 @@ std::vector<VertexNumber> vertices_of(std::span<const VertexTriangle> triangles)
     const auto rest = std::ranges::unique(vertices);
     vertices.erase(rest.begin(), rest.end());
     return vertices;
+}
+
+// What is said of the first vertex of which something is. Most triangles share two with that before.
+template <class WrongAt>
+std::optional<std::string> first_wrong_vertex(std::span<const VertexTriangle> triangles,
+                                              const WrongAt& wrong_at) {
+    VertexTriangle before{};
+    bool is_first = true;
+    for (const VertexTriangle& triangle : triangles) {
+        for (const VertexNumber vertex : triangle) {
+            if (!is_first && std::ranges::find(before, vertex) != before.end()) continue;
+            if (auto wrong = wrong_at(vertex)) return wrong;
+        }
+        before = triangle;
+        is_first = false;
+    }
+    return std::nullopt;
 }
 
 Error no_graph(const std::string& what) {
@@ -53,7 +71,8 @@ RegionClusters::RegionClusters(const HeightField& field, const HorizonOccluder& 
 Result<std::unique_ptr<RegionClusters>> RegionClusters::create(const HeightField& field,
                                                                const HorizonOccluder& occluder,
                                                                std::vector<ClusterGroup> groups,
-                                                               std::uint32_t leaves, ReadGroup read) {
+                                                               std::uint32_t leaves, ReadGroup read,
+                                                               UnsoundGroupError unsound) {
     std::unique_ptr<RegionClusters> region(new RegionClusters(field, occluder));
     if (region->leaf_nodes_.size() != leaves)
         return no_graph("are over " + std::to_string(leaves) + " leaves; the region has " +
@@ -78,14 +97,70 @@ Result<std::unique_ptr<RegionClusters>> RegionClusters::create(const HeightField
     region->reaches_.resize(region->makers_.size());
     region->groups_ = std::move(groups);
     region->read_ = std::move(read);
+    region->unsound_ = std::move(unsound);
     return region;
+}
+
+Result<void> RegionClusters::read_sound(std::uint32_t group, GroupPart& part) const {
+    ORO_CHECK(read_(group, part));
+    const std::optional<std::string> wrong = wrong_with(part);
+    if (!wrong) return {};
+    return unsound_ ? unsound_(group, *wrong)
+                    : no_graph("have group " + std::to_string(group) + ", which " + *wrong);
+}
+
+std::optional<std::string> RegionClusters::wrong_with(const GroupPart& part) const {
+    for (const std::uint32_t member : part.members)
+        if (auto wrong = wrong_level(part.group, member, groups_, leaves_count_)) return wrong;
+    if (auto wrong = wrong_growth(part, groups_, leaves_count_)) return wrong;
+    return wrong_places(part);
+}
+
+// What a group made lies in its sphere, and in one of those of the groups below it: that is known of groups
+// that nobody may have read. Those of the first level hold their leaves.
+std::optional<std::string> RegionClusters::wrong_places(const GroupPart& part) const {
+    std::vector<std::uint32_t> below;
+    for (const std::uint32_t member : part.members)
+        if (maker(member) != no_group && (below.empty() || below.back() != maker(member)))
+            below.push_back(maker(member));
+    std::size_t holds = 0;  // most vertices are in the same one as that before
+    const auto is_in = [&](std::uint32_t group, const Ecef& place) {
+        return glm::distance(place.m, groups_[group].centre.m) <= groups_[group].radius_m;
+    };
+    const auto wrong_at = [&](VertexNumber number) -> std::optional<std::string> {
+        const SurfaceVertex vertex = surface_.vertex(number);
+        if (vertex.steps == void_height_steps) return std::nullopt;  // fill_with() refuses it
+        const Ecef place = bounds_.ecef(vertex);
+        if (auto wrong = beyond_sphere(part.group, place)) return wrong;
+        if (below.empty() || is_in(below[holds], place)) return std::nullopt;
+        for (holds = 0; holds < below.size(); ++holds)
+            if (is_in(below[holds], place)) return std::nullopt;
+        return "has vertex " + std::to_string(number) + ", which no sphere of a group below it holds";
+    };
+    if (auto wrong = first_wrong_vertex(part.triangles, wrong_at)) return wrong;
+    for (const std::uint32_t member : part.members) {
+        if (maker(member) != no_group) break;
+        if (auto wrong = first_wrong_vertex(surface_.leaf(leaf_nodes_[member]), wrong_at)) return wrong;
+    }
+    return std::nullopt;
+}
+
+Result<void> RegionClusters::check_coarsest() const {
+    std::uint32_t last = no_group;
+    for (const std::uint32_t root : roots_) {
+        if (maker(root) == last) continue;
+        last = maker(root);
+        GroupPart part;
+        ORO_CHECK(read_sound(last, part));
+    }
+    return {};
 }
 
 Result<const GroupPart*> RegionClusters::part(std::uint32_t group) {
     std::unique_ptr<GroupPart>& kept = parts_[group];
     if (kept) return kept.get();
     auto read = std::make_unique<GroupPart>();
-    ORO_CHECK(read_(group, *read));
+    ORO_CHECK(read_sound(group, *read));
     kept = std::move(read);
     return kept.get();
 }
@@ -161,7 +236,7 @@ Result<void> RegionClusters::read(std::span<const std::uint32_t> groups) {
     in_parallel(static_cast<int>(missing.size()), thread_count(), [&](int i) {
         const auto at = static_cast<std::size_t>(i);
         auto part = std::make_unique<GroupPart>();
-        done[at] = read_(missing[at], *part);
+        done[at] = read_sound(missing[at], *part);
         if (done[at].ok()) parts_[missing[at]] = std::move(part);
     });
     for (const Result<void>& one : done) ORO_CHECK(one);
@@ -221,7 +296,7 @@ Result<std::uint32_t> RegionClusters::fill_with(std::span<const VertexTriangle> 
 Result<RegionClusters::LoadedGroup> RegionClusters::load_group(std::uint32_t group,
                                                                const SeenOfGroup* seen) const {
     LoadedGroup loaded{group, std::make_unique<GroupPart>(), {}, {}};
-    ORO_CHECK(read_(group, *loaded.part));
+    ORO_CHECK(read_sound(group, *loaded.part));
     std::vector<VertexTriangle> leaf;
     const auto add = [&](std::uint32_t cluster, const GroupPart* part, bool with_block) -> Result<void> {
         const std::span<const VertexTriangle> all = triangles_of(cluster, part, leaf);
@@ -275,15 +350,13 @@ Result<std::unique_ptr<RegionClusters>> clusters_of_file(std::shared_ptr<const C
     if (outline.fingerprint != surface_fingerprint(fingerprint, field.grid.split) ||
         outline.posts.rows != field.grid.rows() || outline.posts.columns != field.grid.columns())
         return Error{ErrorKind::failed, file->path(), "has clusters of another region's posts"};
-    std::vector<ClusterGroup> groups;
-    for (std::uint32_t i = 0; i < outline.groups; ++i) {
-        ORO_TRY(const ClusterGroup group, file->group(i));
-        groups.push_back(group);
-    }
+    ORO_TRY(std::vector<ClusterGroup> groups, file->groups());
     Result<std::unique_ptr<RegionClusters>> region = RegionClusters::create(
         field, occluder, std::move(groups), outline.leaves,
-        [file](std::uint32_t number, GroupPart& part) { return file->part(number, part); });
+        [file](std::uint32_t number, GroupPart& part) { return file->part(number, part); },
+        [file](std::uint32_t number, const std::string& what) { return file->unsound(number, what); });
     if (!region.ok()) return Error{ErrorKind::failed, file->path(), "its clusters " + region.error().what};
+    ORO_CHECK((*region)->check_coarsest());
     return region;
 }
 

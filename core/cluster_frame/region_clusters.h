@@ -6,7 +6,9 @@
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,8 @@ namespace oro {
 
 // Reads a group whole, by its number. Errors: as ClusterFile::part().
 using ReadGroup = std::function<Result<void>(std::uint32_t number, GroupPart& part)>;
+// Of a group that was read and is no part of a graph; what: in words that follow "group N".
+using UnsoundGroupError = std::function<Error(std::uint32_t number, const std::string& what)>;
 
 // Where a cluster's triangles are, all of them: for culling, and to find what covers it.
 struct ClusterReach {
@@ -34,16 +38,22 @@ struct ClusterReach {
     std::int32_t first_row, last_row, first_column, last_column;  // posts of the region
 };
 
+// Each group that is read is held against those below it and against what it covers, so that the rule of the
+// cut may trust its error and its sphere: that is damage, too. (Whether the ground is covered once is a
+// question to the whole graph: ClusterFile::check().)
+//
 // For one thread at a time, but for what says otherwise. Keeps 5 bytes a post, and what was asked for: up to
 // some 40 bytes a triangle of the graph above the leaves.
 class RegionClusters {
   public:
     // groups: of the whole graph, in its order; leaves: number of clusters before theirs, which `field` must
-    // have, too. occluder: of the region's horizon. Errors: groups that are no graph over these posts.
+    // have, too. occluder: of the region's horizon. unsound: names the place of what `read` gave. Errors:
+    // groups that are no graph over these posts.
     static Result<std::unique_ptr<RegionClusters>> create(const HeightField& field,
                                                           const HorizonOccluder& occluder,
                                                           std::vector<ClusterGroup> groups,
-                                                          std::uint32_t leaves, ReadGroup read);
+                                                          std::uint32_t leaves, ReadGroup read,
+                                                          UnsoundGroupError unsound = {});
 
     [[nodiscard]] std::span<const ClusterGroup> groups() const { return groups_; }
     [[nodiscard]] std::uint32_t leaves() const { return leaves_count_; }
@@ -59,6 +69,9 @@ class RegionClusters {
     // damage.
     Result<void> read(std::span<const std::uint32_t> groups);
     Result<void> reach_all(std::span<const std::uint32_t> clusters);
+    // Looks at the coarsest groups, which nothing above vouches for, whether or not they are seen. Errors:
+    // damage.
+    [[nodiscard]] Result<void> check_coarsest() const;
     // Clusters that a group uses. Errors: damage.
     Result<std::span<const std::uint32_t>> members(std::uint32_t group);
     Result<const ClusterReach*> reach(std::uint32_t cluster);
@@ -107,6 +120,10 @@ class RegionClusters {
   private:
     RegionClusters(const HeightField& field, const HorizonOccluder& occluder);
     Result<const GroupPart*> part(std::uint32_t group);
+    // A group that is sound as far as can be seen from it and from the groups below.
+    Result<void> read_sound(std::uint32_t group, GroupPart& part) const;
+    [[nodiscard]] std::optional<std::string> wrong_with(const GroupPart& part) const;
+    [[nodiscard]] std::optional<std::string> wrong_places(const GroupPart& part) const;
     // A leaf's are put into `leaf`.
     Result<std::span<const VertexTriangle>> triangles(std::uint32_t cluster,
                                                       std::vector<VertexTriangle>& leaf);
@@ -131,6 +148,7 @@ class RegionClusters {
     std::vector<std::uint32_t> makers_;  // of each cluster
     std::vector<std::uint32_t> roots_;
     ReadGroup read_;
+    UnsoundGroupError unsound_;
     std::vector<std::unique_ptr<GroupPart>> parts_;       // of each group, once it was asked for
     std::vector<std::unique_ptr<ClusterReach>> reaches_;  // of each cluster, likewise
 };

@@ -1,7 +1,8 @@
 // Any bytes as a cluster file over a small grid with a hole. The first byte says how they are taken: as the
 // whole file; as header, levels, records and payloads whose magic, size, places and checksums are then made
 // right; as the payload of a group; as changes of a true file, made right in the same way. What is read as a
-// graph must be sound, and every cut of it must be as many triangles as the original at most.
+// graph must be sound, and every cut of it must be as many triangles as the original at most. The same is
+// asked without the graph in memory, and what draws such a file reads it, too: sound ones are drawn.
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,13 +13,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/checksum.h"
 #include "core/base/little_endian.h"
 #include "core/cluster_file/cluster_file.h"
 #include "core/cluster_file/cluster_format.h"
+#include "core/cluster_frame/cluster_choice.h"
 #include "core/clusters/cluster_cut.h"
 #include "core/clusters/graph_builder.h"
 #include "core/surface/grid_surface.h"
@@ -36,6 +40,8 @@ struct Ground {
     DrawnHeights heights;
     GridSurface surface;
     GridBounds bounds;
+    HorizonOccluder occluder;
+    std::uint64_t fingerprint = surface_fingerprint(0, CellSplit::by_posts);
     std::vector<std::byte> file;
 
     static HeightField made() {
@@ -50,9 +56,12 @@ struct Ground {
         : field(made()),
           heights(drawn_heights(field, 1.0, 1)),
           surface(heights),
-          bounds(field.grid, heights.highest_steps) {
+          bounds(field.grid, heights.highest_steps),
+          occluder(region_shape(field, 1.0).occluder) {
         const std::string path = name() + "-true";
-        if (!write_cluster_graph(path, build_cluster_graph(surface, bounds), {rows, columns}, 0, true).ok())
+        if (!write_cluster_graph(path, build_cluster_graph(surface, bounds), {rows, columns}, fingerprint,
+                                 true)
+                 .ok())
             std::abort();
         std::ifstream in(path, std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -124,8 +133,36 @@ void check_payload(std::span<const std::byte> bytes) {
     if (!encode_group(part, {rows, columns}, 200).ok() && part.made.empty()) std::abort();
 }
 
+bool is_of(const Ground& ground, const ClusterOutline& outline) {
+    return outline.fingerprint == ground.fingerprint && outline.posts.rows == rows &&
+           outline.posts.columns == columns;
+}
+
+// As info --check reads the file.
+Result<void> checked(const Ground& ground, const ClusterFile& file) {
+    const std::vector<std::uint32_t> nodes = ground.surface.leaf_nodes();
+    return file.check(ground.surface, ground.bounds,
+                      {static_cast<std::uint32_t>(nodes.size()),
+                       [&](std::uint32_t leaf) { return ground.surface.leaf(nodes[leaf]); }});
+}
+
+// As a picture reads it, from above; tau_px: 0 for all of the original.
+Result<void> drawn(const Ground& ground, const std::shared_ptr<const ClusterFile>& file, double tau_px) {
+    ORO_TRY(const std::unique_ptr<RegionClusters> region,
+            clusters_of_file(file, 0, ground.field, ground.occluder));
+    Camera camera;
+    camera.width_px = camera.height_px = 100;
+    camera.eye = {46.988, 8.011, 20000.0};
+    camera.attitude.pitch_deg = -90.0;
+    ORO_TRY(const ClusterChoice choice,
+            choose_clusters(*region, camera, {0, 0, 100, 100, {0.5, 0.5}}, tau_px, {}, ground.occluder, {}));
+    gpu::ClusterBlock block{};
+    for (const std::uint32_t cluster : choice.clusters) ORO_CHECK(region->fill(cluster, {}, block));
+    return {};
+}
+
 void read_all(const Ground& ground, const std::string& path) {
-    const auto file = ClusterFile::open(path);
+    auto file = ClusterFile::open(path);
     if (!file.ok()) return check_line(file.error());
     GroupPart part;
     for (std::uint32_t i = 0; i < std::min(file->outline().groups, 3U); ++i) {
@@ -133,6 +170,15 @@ void read_all(const Ground& ground, const std::string& path) {
         if (!read.ok()) check_line(read.error());
     }
     const auto graph = file->graph(ground.surface, ground.bounds);
+    const auto check = checked(ground, *file);
+    if (check.ok() != graph.ok()) std::abort();
+    const auto shared = std::make_shared<const ClusterFile>(std::move(*file));
+    for (const double tau_px : {0.0, 1.0, 100.0}) {
+        // A graph of another region's posts is refused for that.
+        const auto picture = drawn(ground, shared, tau_px);
+        if (!picture.ok()) check_line(picture.error());
+        if (!picture.ok() && graph.ok() && is_of(ground, shared->outline())) std::abort();
+    }
     if (!graph.ok()) return check_line(graph.error());
     std::size_t whole = 0;
     for (const auto& leaf : ground.surface.leaves()) whole += leaf.size();
