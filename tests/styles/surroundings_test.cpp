@@ -161,8 +161,8 @@ struct HatchCount {
 // Over a void that reaches beyond the horizon, from `above_m`: in the picture's middle the sight is level.
 class HatchToTheHorizon : public SurroundingsTest {
   protected:
-    HatchCount below_the_horizon(double post_m, int posts, double above_m) {
-        const HeightField field = test::square_field(46.5, 8.0, post_m, posts, [](int row, int column) {
+    HatchCount below_the_horizon(double apart_m, int posts, double above_m) {
+        const HeightField field = test::square_field(46.5, 8.0, apart_m, posts, [](int row, int column) {
             return row < 2 && column < 2 ? 1.0 : double{void_height_m};
         });
         Camera camera;
