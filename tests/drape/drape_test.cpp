@@ -13,7 +13,7 @@
 #include "geo/drape/images_over_ground.h"
 #include "render/frame/picture_renderer.h"
 #include "tests/drape/written_image.h"
-#include "tests/support/drawn_scene.h"
+#include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/net_terrain.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"

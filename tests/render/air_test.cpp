@@ -12,7 +12,7 @@
 
 #include "core/terrain/ground.h"
 #include "tests/support/air_reference.h"
-#include "tests/support/drawn_scene.h"
+#include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

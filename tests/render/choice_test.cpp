@@ -9,7 +9,7 @@
 
 #include "core/lod/levels.h"
 #include "tests/core/lod/pyramid_region.h"
-#include "tests/support/drawn_scene.h"
+#include "tests/support/drawn/drawn_scene.h"
 
 namespace oro {
 namespace {

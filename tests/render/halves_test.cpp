@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "core/terrain/ground.h"
-#include "tests/support/made_renderer.h"
-#include "tests/support/occlusion_pairs.h"
+#include "tests/support/drawn/made_renderer.h"
+#include "tests/support/drawn/occlusion_pairs.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

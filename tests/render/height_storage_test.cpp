@@ -9,8 +9,8 @@
 
 #include "core/frame/casters.h"
 #include "core/terrain/height_quantization.h"
-#include "tests/support/drawn_scene.h"
-#include "tests/support/made_renderer.h"
+#include "tests/support/drawn/drawn_scene.h"
+#include "tests/support/drawn/made_renderer.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

@@ -11,8 +11,8 @@
 #include "core/terrain/ground.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
+#include "tests/support/drawn/made_renderer.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/made_renderer.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

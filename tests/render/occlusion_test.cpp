@@ -2,7 +2,7 @@
 // those of frames that draw all, on both paths.
 #include "core/terrain/ground.h"
 #include "render/frame/picture_renderer.h"
-#include "tests/support/occlusion_pairs.h"
+#include "tests/support/drawn/occlusion_pairs.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

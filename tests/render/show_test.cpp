@@ -8,7 +8,7 @@
 #include "core/terrain/ground.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
-#include "tests/support/cluster_scene.h"
+#include "tests/support/drawn/cluster_scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/rough_terrain.h"
 

@@ -11,11 +11,11 @@
 #include "geo/region/region.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/asked_count.h"
-#include "tests/support/cluster_scene.h"
-#include "tests/support/cracks.h"
-#include "tests/support/drawn_scene.h"
+#include "tests/support/drawn/cluster_scene.h"
+#include "tests/support/drawn/cracks.h"
+#include "tests/support/drawn/drawn_scene.h"
+#include "tests/support/drawn/streamed_frames.h"
 #include "tests/support/real_views.h"
-#include "tests/support/streamed_frames.h"
 #include "tests/support/test_data.h"
 
 namespace oro {

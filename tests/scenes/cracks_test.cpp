@@ -6,8 +6,8 @@
 
 #include "geo/region/region.h"
 #include "tests/support/asked_count.h"
-#include "tests/support/cracks.h"
-#include "tests/support/drawn_scene.h"
+#include "tests/support/drawn/cracks.h"
+#include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/net_terrain.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"

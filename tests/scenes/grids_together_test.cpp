@@ -20,8 +20,8 @@
 #include "tests/scenes/scene_of_grids.h"
 #include "tests/support/asked_count.h"
 #include "tests/support/brute_depths.h"
+#include "tests/support/drawn/made_renderer.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/made_renderer.h"
 #include "tests/support/three_grids.h"
 
 namespace oro {

@@ -13,7 +13,7 @@
 #include "core/cluster_frame/region_clusters.h"
 #include "core/terrain/ground.h"
 #include "geo/region/region.h"
-#include "tests/support/streamed_frames.h"
+#include "tests/support/drawn/streamed_frames.h"
 #include "tests/support/test_data.h"
 
 namespace oro {

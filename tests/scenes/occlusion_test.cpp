@@ -3,8 +3,8 @@
 #include "core/seam/seam_pages.h"
 #include "core/terrain/ground.h"
 #include "geo/together/cut_regions.h"
+#include "tests/support/drawn/occlusion_pairs.h"
 #include "tests/support/height_storage.h"
-#include "tests/support/occlusion_pairs.h"
 #include "tests/support/test_data.h"
 #include "tests/support/three_grids.h"
 

@@ -11,8 +11,8 @@
 #include "apps/view/style.h"
 #include "geo/region/region.h"
 #include "render/frame/picture_renderer.h"
+#include "tests/support/drawn/made_renderer.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/made_renderer.h"
 #include "tests/support/test_data.h"
 
 namespace oro {

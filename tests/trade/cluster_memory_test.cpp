@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/drawing/region_scene.h"
-#include "tests/support/cluster_scene.h"
+#include "tests/support/drawn/cluster_scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/rough_terrain.h"
 

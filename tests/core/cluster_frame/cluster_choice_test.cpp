@@ -9,7 +9,7 @@
 #include "core/cluster_frame/group_rule.h"
 #include "core/lod/levels.h"
 #include "tests/core/clusters/cluster_terrain.h"
-#include "tests/support/cracks.h"
+#include "tests/support/drawn/cracks.h"
 
 namespace oro {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/cluster_frame/streamed_choice.h"
 #include "tests/core/clusters/cut_cover.h"
-#include "tests/support/cracks.h"
+#include "tests/support/drawn/cracks.h"
 
 namespace oro::test {
 

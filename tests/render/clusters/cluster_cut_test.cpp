@@ -10,10 +10,10 @@
 
 #include "core/cluster_frame/cluster_choice.h"
 #include "tests/support/asked_count.h"
-#include "tests/support/cluster_scene.h"
-#include "tests/support/cracks.h"
+#include "tests/support/drawn/cluster_scene.h"
+#include "tests/support/drawn/cracks.h"
+#include "tests/support/drawn/streamed_frames.h"
 #include "tests/support/rough_terrain.h"
-#include "tests/support/streamed_frames.h"
 
 namespace oro {
 namespace {

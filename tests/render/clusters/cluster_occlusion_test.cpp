@@ -3,8 +3,8 @@
 #include <chrono>
 #include <thread>
 
-#include "tests/support/cluster_scene.h"
-#include "tests/support/occlusion_pairs.h"
+#include "tests/support/drawn/cluster_scene.h"
+#include "tests/support/drawn/occlusion_pairs.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

@@ -10,7 +10,7 @@
 
 #include "core/cluster_frame/streamed_choice.h"
 #include "tests/core/clusters/cluster_terrain.h"
-#include "tests/support/cracks.h"
+#include "tests/support/drawn/cracks.h"
 
 namespace oro {
 namespace {

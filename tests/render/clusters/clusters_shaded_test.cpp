@@ -8,7 +8,7 @@
 #include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
 #include "render/frame/picture_renderer.h"
-#include "tests/support/cluster_scene.h"
+#include "tests/support/drawn/cluster_scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/rough_terrain.h"
 

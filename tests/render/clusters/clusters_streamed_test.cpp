@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <random>
 
-#include "tests/support/cluster_scene.h"
-#include "tests/support/cracks.h"
+#include "tests/support/drawn/cluster_scene.h"
+#include "tests/support/drawn/cracks.h"
+#include "tests/support/drawn/streamed_frames.h"
 #include "tests/support/rough_terrain.h"
-#include "tests/support/streamed_frames.h"
 
 namespace oro {
 namespace {
@@ -18,7 +18,8 @@ class StreamedClusters : public test::GpuTest, public ::testing::WithParamInterf
     test::ClusterTerrain terrain_{test::rough_field(47.0, 8.0, 260, 310)};
 
     test::DrawnScene scene(std::uint64_t bytes) {
-        test::DrawnScene drawn(*gpu_, pages_in_memory(terrain_.field, 1.0, 2), GetParam(), streamed_px, streamed_px);
+        test::DrawnScene drawn(*gpu_, pages_in_memory(terrain_.field, 1.0, 2), GetParam(), streamed_px,
+                               streamed_px);
         test::draw_by_clusters(*gpu_, terrain_, drawn.scene(), bytes);
         return drawn;
     }

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <random>
 
-#include "tests/support/cluster_scene.h"
-#include "tests/support/cracks.h"
-#include "tests/support/drawn_scene.h"
+#include "tests/support/drawn/cluster_scene.h"
+#include "tests/support/drawn/cracks.h"
+#include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

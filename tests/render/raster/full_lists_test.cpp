@@ -3,9 +3,9 @@
 #include <map>
 #include <optional>
 
-#include "tests/support/cluster_scene.h"
-#include "tests/support/made_renderer.h"
-#include "tests/support/occlusion_pairs.h"
+#include "tests/support/drawn/cluster_scene.h"
+#include "tests/support/drawn/made_renderer.h"
+#include "tests/support/drawn/occlusion_pairs.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {

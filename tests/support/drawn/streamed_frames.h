@@ -7,7 +7,7 @@
 #include <functional>
 #include <thread>
 
-#include "tests/support/drawn_scene.h"
+#include "tests/support/drawn/drawn_scene.h"
 
 namespace oro::test {
 

@@ -14,8 +14,8 @@
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
 #include "tests/support/asked_count.h"
+#include "tests/support/drawn/made_renderer.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/made_renderer.h"
 
 namespace oro::test {
 

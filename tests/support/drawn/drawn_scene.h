@@ -7,9 +7,9 @@
 
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"
+#include "tests/support/drawn/made_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/height_storage.h"
-#include "tests/support/made_renderer.h"
 
 namespace oro::test {
 
