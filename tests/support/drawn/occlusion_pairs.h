@@ -71,13 +71,13 @@ class OcclusionPair {
         options.shades = false;
         options.keep_triangles = true;  // ids are read
         options.occlusion = OcclusionUse::off;
-        plain_.emplace(made(gpu, options));
+        plain_.emplace(made_renderer(gpu, options));
         options.occlusion = OcclusionUse::on;
         options.leave_out_small = true;
         options.shares_triangles = true;
         options.nearest_pyramid = wrong;
         options.split = split;
-        with_.emplace(made(gpu, options));
+        with_.emplace(made_renderer(gpu, options));
     }
 
     // Draws a plan by both; the pixels in which they differ.
@@ -103,9 +103,6 @@ class OcclusionPair {
     std::uint64_t drawn_without{}, drawn_with{}, later{}, hidden{};
 
   private:
-    static FrameRenderer made(const Gpu& gpu, const FrameRendererOptions& options) {
-        return test::made_renderer(gpu, options);
-    }
     std::vector<std::uint32_t> ids(FrameRenderer& renderer, const FramePlan& plan) {
         auto report = renderer.draw(plan, {});
         EXPECT_TRUE(report.ok()) << report.error().line();
