@@ -104,12 +104,12 @@ PagesOfGrids pointers_to(const GridPages& pages) {
 
 namespace {
 
-// What takes the place of a scene's nodes.
-Result<void> add_clusters(const Gpu& gpu, const Region& region, std::uint64_t bytes,
+// What takes the place of a scene's nodes. bytes: on the GPU.
+Result<void> add_clusters(const Gpu& gpu, const Region& region, std::uint64_t bytes, std::uint64_t main_bytes,
                           const std::optional<int>& level, Scene& scene) {
     ORO_TRY(std::unique_ptr<RegionClusters> clusters,
             clusters_of_region(region, scene.pages().facts().shape.occluder));
-    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(clusters), bytes));
+    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(clusters), bytes, main_bytes));
     if (level) made.keep_to_level(static_cast<std::uint32_t>(*level));
     scene.draw_clusters(std::move(made));
     return {};
@@ -136,11 +136,11 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     std::optional<Scene> scene;
     std::uint64_t triangles = 0;
     SceneMemory memory;
-    memory.main = bytes_of(request.memory.memory_mb);
+    // Clusters have half of either.
+    const std::uint64_t parts = request.clusters ? 2 : 1;
+    memory.main = main_bytes(bytes_of(request.memory.memory_mb)) / parts;
     memory.shares = static_cast<unsigned>(pages.size());
-    // Clusters have half of it.
-    const std::uint64_t bytes =
-        gpu_bytes(gpu, bytes_of(request.memory.gpu_memory_mb)) / (request.clusters ? 2 : 1);
+    const std::uint64_t bytes = gpu_bytes(gpu, bytes_of(request.memory.gpu_memory_mb)) / parts;
     memory.shared = page_budget(gpu, bytes);
     for (std::unique_ptr<RegionPages>& one : pages) {
         triangles += one->facts().triangles;
@@ -150,7 +150,8 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
         else
             scene.emplace(std::move(made));
     }
-    if (request.clusters) ORO_CHECK(add_clusters(gpu, region, bytes, request.mesh_level, *scene));
+    if (request.clusters)
+        ORO_CHECK(add_clusters(gpu, region, bytes, memory.main, request.mesh_level, *scene));
     if (pages.size() > 1) {
         ORO_TRY(const std::uint64_t between, draw_between(gpu, region, cuts, request.exaggeration, *scene));
         triangles += between;

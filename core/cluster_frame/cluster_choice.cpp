@@ -66,8 +66,8 @@ class Cut {
     }
 
     Result<void> draw(std::uint32_t cluster, std::uint32_t group) {
-        ORO_TRY(const ClusterReach* const reach, clusters_.reach(cluster));
-        const ClusterView::Look look = view_.look_at(*reach);
+        ORO_TRY(const ClusterReach reach, clusters_.reach(cluster));
+        const ClusterView::Look look = view_.look_at(reach);
         choice_.beyond_frustum += look.seen == ClusterView::Seen::beyond_frustum ? 1U : 0U;
         choice_.beyond_horizon += look.seen == ClusterView::Seen::beyond_horizon ? 1U : 0U;
         if (look.seen == ClusterView::Seen::yes) found_.emplace_back(look.distance_m, cluster, group);

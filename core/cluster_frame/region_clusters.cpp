@@ -93,8 +93,7 @@ Result<std::unique_ptr<RegionClusters>> RegionClusters::create(const HeightField
         for (std::uint32_t j = 0; j < groups[i].made; ++j) region->roots_.push_back(groups[i].first_made + j);
     }
     for (std::uint32_t i = 0; groups.empty() && i < leaves; ++i) region->roots_.push_back(i);
-    region->parts_.resize(groups.size());
-    region->reaches_.resize(region->makers_.size());
+    region->held_.make_places(groups.size(), region->makers_.size(), leaves);
     region->groups_ = std::move(groups);
     region->read_ = std::move(read);
     region->unsound_ = std::move(unsound);
@@ -104,6 +103,10 @@ Result<std::unique_ptr<RegionClusters>> RegionClusters::create(const HeightField
 Result<void> RegionClusters::read_sound(std::uint32_t group, GroupPart& part) const {
     ORO_CHECK(read_(group, part));
     const std::optional<std::string> wrong = wrong_with(part);
+    // Read number by number, its lists have room for more.
+    part.members.shrink_to_fit();
+    part.made.shrink_to_fit();
+    part.triangles.shrink_to_fit();
     if (!wrong) return {};
     return unsound_ ? unsound_(group, *wrong)
                     : no_graph("have group " + std::to_string(group) + ", which " + *wrong);
@@ -157,12 +160,10 @@ Result<void> RegionClusters::check_coarsest() const {
 }
 
 Result<const GroupPart*> RegionClusters::part(std::uint32_t group) {
-    std::unique_ptr<GroupPart>& kept = parts_[group];
-    if (kept) return kept.get();
+    if (const GroupPart* const here = held_.use(group)) return here;
     auto read = std::make_unique<GroupPart>();
     ORO_CHECK(read_sound(group, *read));
-    kept = std::move(read);
-    return kept.get();
+    return held_.put(group, std::move(read));
 }
 
 Result<std::span<const std::uint32_t>> RegionClusters::members(std::uint32_t group) {
@@ -220,25 +221,30 @@ ClusterReach RegionClusters::reach_of(std::span<const VertexTriangle> all) const
     return reach;
 }
 
-Result<const ClusterReach*> RegionClusters::reach(std::uint32_t cluster) {
-    if (reaches_[cluster]) return reaches_[cluster].get();
+Result<ClusterReach> RegionClusters::reach(std::uint32_t cluster) {
+    if (const ClusterReach* const known = known_reach(cluster)) return *known;
     std::vector<VertexTriangle> leaf;
     ORO_TRY(const std::span<const VertexTriangle> all, triangles(cluster, leaf));
-    reaches_[cluster] = std::make_unique<ClusterReach>(reach_of(all));
-    return reaches_[cluster].get();
+    const ClusterReach found = reach_of(all);
+    held_.put_reach(cluster, maker(cluster), found);
+    return found;
 }
 
+// What is here comes first: it must not give way to the rest.
 Result<void> RegionClusters::read(std::span<const std::uint32_t> groups) {
     std::vector<std::uint32_t> missing;
     std::ranges::copy_if(groups, std::back_inserter(missing),
-                         [&](std::uint32_t group) { return !parts_[group]; });
+                         [&](std::uint32_t group) { return held_.use(group) == nullptr; });
     std::vector<Result<void>> done(missing.size());
+    std::vector<std::unique_ptr<GroupPart>> parts(missing.size());
     in_parallel(static_cast<int>(missing.size()), thread_count(), [&](int i) {
         const auto at = static_cast<std::size_t>(i);
         auto part = std::make_unique<GroupPart>();
         done[at] = read_sound(missing[at], *part);
-        if (done[at].ok()) parts_[missing[at]] = std::move(part);
+        if (done[at].ok()) parts[at] = std::move(part);
     });
+    for (std::size_t i = 0; i < missing.size(); ++i)
+        if (parts[i]) held_.put(missing[i], std::move(parts[i]));
     for (const Result<void>& one : done) ORO_CHECK(one);
     return {};
 }
@@ -246,20 +252,22 @@ Result<void> RegionClusters::read(std::span<const std::uint32_t> groups) {
 Result<void> RegionClusters::reach_all(std::span<const std::uint32_t> clusters) {
     std::vector<std::uint32_t> missing, groups;
     for (const std::uint32_t cluster : clusters) {
-        if (reaches_[cluster]) continue;
-        missing.push_back(cluster);
-        if (makers_[cluster] != no_group) groups.push_back(makers_[cluster]);
+        const std::uint32_t group = held_.keeper(cluster, maker(cluster));
+        if (known_reach(cluster) == nullptr) missing.push_back(cluster);
+        if (group != no_group) groups.push_back(group);
     }
     std::ranges::sort(groups);
     const auto rest = std::ranges::unique(groups);
     groups.erase(rest.begin(), rest.end());
     ORO_CHECK(read(groups));
+    std::vector<ClusterReach> found(missing.size());
     in_parallel(static_cast<int>(missing.size()), thread_count(), [&](int i) {
-        const std::uint32_t cluster = missing[static_cast<std::size_t>(i)];
+        const auto at = static_cast<std::size_t>(i);
+        const std::uint32_t group = maker(missing[at]);
         std::vector<VertexTriangle> leaf;
-        const auto all = triangles(cluster, leaf);
-        if (all.ok()) reaches_[cluster] = std::make_unique<ClusterReach>(reach_of(*all));
+        found[at] = reach_of(triangles_of(missing[at], group == no_group ? nullptr : read_part(group), leaf));
     });
+    for (std::size_t i = 0; i < missing.size(); ++i) held_.put_reach(missing[i], maker(missing[i]), found[i]);
     return {};
 }
 
@@ -325,22 +333,27 @@ Result<RegionClusters::LoadedCluster> RegionClusters::loaded_cluster(std::uint32
 
 Result<RegionClusters::LoadedCluster> RegionClusters::load_cluster(std::uint32_t cluster,
                                                                    const HeightQuantization& coding) const {
-    const GroupPart* const part = maker(cluster) == no_group ? nullptr : read_part(maker(cluster));
+    const std::uint32_t group = maker(cluster);
+    std::shared_ptr<const GroupPart> part = group == no_group ? nullptr : held_.share(group);
+    if (group != no_group && !part) {
+        const auto read = std::make_shared<GroupPart>();
+        ORO_CHECK(read_sound(group, *read));
+        part = read;
+    }
     std::vector<VertexTriangle> leaf;
-    const std::span<const VertexTriangle> all = triangles_of(cluster, part, leaf);
+    const std::span<const VertexTriangle> all = triangles_of(cluster, part.get(), leaf);
     ORO_TRY(LoadedCluster loaded, loaded_cluster(cluster, all, coding));
     loaded.reach = reach_of(all);
     return loaded;
 }
 
-// What is known stays where it is: threads may be reading it.
 void RegionClusters::keep(LoadedGroup& group) {
+    held_.put(group.number, std::move(group.part));
     for (const auto& [cluster, reach] : group.reaches) keep(cluster, reach);
-    if (!parts_[group.number]) parts_[group.number] = std::move(group.part);
 }
 
 void RegionClusters::keep(std::uint32_t cluster, const ClusterReach& reach) {
-    if (!reaches_[cluster]) reaches_[cluster] = std::make_unique<ClusterReach>(reach);
+    held_.put_reach(cluster, maker(cluster), reach);
 }
 
 Result<std::unique_ptr<RegionClusters>> clusters_of_file(std::shared_ptr<const ClusterFile> file,

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <glm/mat3x3.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +13,7 @@
 
 #include "core/base/result.h"
 #include "core/cluster_file/cluster_file.h"
+#include "core/cluster_frame/held_groups.h"
 #include "core/clusters/cluster_graph.h"
 #include "core/frame/culling.h"
 #include "core/surface/grid_surface.h"
@@ -28,22 +28,13 @@ using ReadGroup = std::function<Result<void>(std::uint32_t number, GroupPart& pa
 // Of a group that was read and is no part of a graph; what: in words that follow "group N".
 using UnsoundGroupError = std::function<Error(std::uint32_t number, const std::string& what)>;
 
-// Where a cluster's triangles are, all of them: for culling, and to find what covers it.
-struct ClusterReach {
-    Ecef centre;
-    double radius_m;
-    HorizonCone horizon;
-    // A box around `centre` that holds the same: its half axes along ECEF, east, north and up there.
-    glm::mat3 half_axes_m;
-    std::int32_t first_row, last_row, first_column, last_column;  // posts of the region
-};
-
 // Each group that is read is held against those below it and against what it covers, so that the rule of the
 // cut may trust its error and its sphere: that is damage, too. (Whether the ground is covered once is a
 // question to the whole graph: ClusterFile::check().)
 //
-// For one thread at a time, but for what says otherwise. Keeps 5 bytes a post, and what was asked for: up to
-// some 40 bytes a triangle of the graph above the leaves.
+// For one thread at a time, but for what says otherwise. Keeps 5 bytes a post, and what was asked for: some
+// 40 bytes a triangle of the graph above the leaves, as much of it as may be held (HeldGroups). What gave way
+// is read again when it is asked for.
 class RegionClusters {
   public:
     // groups: of the whole graph, in its order; leaves: number of clusters before theirs, which `field` must
@@ -65,16 +56,21 @@ class RegionClusters {
     [[nodiscard]] std::uint32_t level_of(std::uint32_t cluster) const {
         return maker(cluster) == no_group ? 0 : groups_[maker(cluster)].level;
     }
-    // Reads groups, and the reach of clusters, that nobody has asked for yet, by several threads. Errors:
-    // damage.
+    // What groups and reaches may take, bytes: those least recently asked for give way, but none that was
+    // asked for since the frame began. Without this, or without frames, nothing gives way.
+    void hold_at_most(std::uint64_t bytes) { held_.hold_at_most(bytes); }
+    void begin_frame() { held_.begin_frame(); }
+    void end_frame() { held_.end_frame(); }
+    [[nodiscard]] const HeldGroups& held() const { return held_; }
+    // Reads groups, and the reach of clusters, that are not here, by several threads. Errors: damage.
     Result<void> read(std::span<const std::uint32_t> groups);
     Result<void> reach_all(std::span<const std::uint32_t> clusters);
     // Looks at the coarsest groups, which nothing above vouches for, whether or not they are seen. Errors:
     // damage.
     [[nodiscard]] Result<void> check_coarsest() const;
-    // Clusters that a group uses. Errors: damage.
+    // Clusters that a group uses, good as long as the frame. Errors: damage.
     Result<std::span<const std::uint32_t>> members(std::uint32_t group);
-    Result<const ClusterReach*> reach(std::uint32_t cluster);
+    Result<ClusterReach> reach(std::uint32_t cluster);
     // Errors: damage.
     Result<std::uint32_t> triangle_count(std::uint32_t cluster);
     // What the GPU gets of a cluster, with heights coded so; gives DrawnCluster::counts. Errors: damage.
@@ -82,11 +78,13 @@ class RegionClusters {
                                gpu::ClusterBlock& block);
     [[nodiscard]] const PostGrid& grid() const { return grid_; }
 
-    // For those who do not wait: what was read, and where a cluster is, null where nobody has asked yet.
-    [[nodiscard]] const GroupPart* read_part(std::uint32_t group) const { return parts_[group].get(); }
+    // For those who do not wait: what is here, and where a cluster is, null where that is not known here.
+    [[nodiscard]] const GroupPart* read_part(std::uint32_t group) const { return held_.find(group); }
     [[nodiscard]] const ClusterReach* known_reach(std::uint32_t cluster) const {
-        return reaches_[cluster].get();
+        return held_.reach(cluster);
     }
+    // The same of a group that the frame needs: it stays while that lasts.
+    const GroupPart* use_part(std::uint32_t group) { return held_.use(group); }
     struct LoadedCluster {
         std::uint32_t number{};
         std::uint32_t counts{};  // DrawnCluster::counts
@@ -107,13 +105,14 @@ class RegionClusters {
         bool leaves{};
         const HeightQuantization& coding;
     };
-    // Any number of threads may load, beside the one that uses the rest. A cluster's maker must have been
-    // read (read_part) before a thread is told of it. Errors: damage.
+    // Any number of threads may load, and ask whether a group is here, beside the one that uses the rest. A
+    // cluster's maker is read again where it gave way. Errors: damage.
+    [[nodiscard]] bool is_held(std::uint32_t group) const { return held_.share(group) != nullptr; }
     [[nodiscard]] Result<LoadedGroup> load_group(std::uint32_t group,
                                                  const SeenOfGroup* seen = nullptr) const;
     [[nodiscard]] Result<LoadedCluster> load_cluster(std::uint32_t cluster,
                                                      const HeightQuantization& coding) const;
-    // What a thread has loaded is known from now on. Takes the group's part.
+    // What a thread has loaded is here from now on; a reach, where its group is. Takes the group's part.
     void keep(LoadedGroup& group);
     void keep(std::uint32_t cluster, const ClusterReach& reach);
 
@@ -149,8 +148,7 @@ class RegionClusters {
     std::vector<std::uint32_t> roots_;
     ReadGroup read_;
     UnsoundGroupError unsound_;
-    std::vector<std::unique_ptr<GroupPart>> parts_;       // of each group, once it was asked for
-    std::vector<std::unique_ptr<ClusterReach>> reaches_;  // of each cluster, likewise
+    HeldGroups held_;
 };
 
 // Of a cluster file over the posts of a region. Errors: a file of other posts (told by `fingerprint`),

@@ -32,7 +32,7 @@ class Places {
 
 class StreamedCut {
   public:
-    StreamedCut(const RegionClusters& clusters, const ClusterView& view, const IsClusterHere& is_here)
+    StreamedCut(RegionClusters& clusters, const ClusterView& view, const IsClusterHere& is_here)
         : clusters_(clusters), view_(view), is_here_(is_here), asked_(clusters.groups().size(), Answer::no) {}
 
     // Finds what the rule says of all that is known.
@@ -80,7 +80,7 @@ class StreamedCut {
         }
     }
 
-    Result<StreamedChoice> take(RegionClusters& clusters, std::size_t room) {
+    Result<StreamedChoice> take(std::size_t room) {
         want(room);
         OfferedCut offered(clusters_, view_);
         for (const Met& met : met_) {
@@ -94,8 +94,8 @@ class StreamedCut {
             }
             ClusterView::Look look = met.look;
             if (!met.is_known && is_here_(met.cluster)) {
-                ORO_TRY(const ClusterReach* const reach, clusters.reach(met.cluster));
-                look = view_.look_at(*reach);
+                ORO_TRY(const ClusterReach reach, clusters_.reach(met.cluster));
+                look = view_.look_at(reach);
             }
             ClusterChoice& drawn = choice_.drawn;
             drawn.beyond_frustum += look.seen == ClusterView::Seen::beyond_frustum ? 1U : 0U;
@@ -142,12 +142,12 @@ class StreamedCut {
 
     void ask(std::uint32_t number) {
         const ClusterGroup& group = clusters_.groups()[number];
-        const bool is_read = clusters_.read_part(number) != nullptr;
         if (view_.is_beyond_frustum(group)) {
             ++choice_.drawn.beyond_frustum;
             asked_[number] = Answer::hidden;
             return;
         }
+        const bool is_read = clusters_.use_part(number) != nullptr;
         if (!is_read) choice_.groups_wanted.push_back(number);
         if (view_.stands(group)) {
             asked_[number] = Answer::stands;
@@ -202,7 +202,7 @@ class StreamedCut {
             choice_.missing += asked == Answer::unread || asked == Answer::closed ? 1U : 0U;
     }
 
-    const RegionClusters& clusters_;
+    RegionClusters& clusters_;
     const ClusterView& view_;
     const IsClusterHere& is_here_;
     std::vector<Answer> asked_;  // of each group
@@ -225,14 +225,14 @@ Result<StreamedChoice> choose_clusters_here(RegionClusters& clusters, const Clus
     StreamedCut cut = cut_for(view);
     if (cut.in_cut() <= room) {
         cut.close_what_lacks();
-        return cut.take(clusters, room);
+        return cut.take(room);
     }
     const std::size_t without_room = cut.in_cut() - room;
     const ClusterView coarser = view.coarser(
         coarser_steps_until([&](unsigned steps) { return cut_for(view.coarser(steps)).in_cut() <= room; }));
     StreamedCut fitting = cut_for(coarser);
     fitting.close_what_lacks();
-    ORO_TRY(StreamedChoice choice, fitting.take(clusters, room));
+    ORO_TRY(StreamedChoice choice, fitting.take(room));
     choice.without_room = without_room;
     choice.missing = std::max(choice.missing, without_room);
     return choice;

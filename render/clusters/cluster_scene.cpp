@@ -13,28 +13,39 @@
 namespace oro {
 namespace {
 
-// Of groups and clusters between two frames: 2 MB of clusters at most, which are sent in a millisecond.
-constexpr std::size_t most_on_the_way = 1024;
+// Of groups and clusters between two frames, where there is room: 2 MB of clusters at most, which are sent in
+// a millisecond. Most of what a group takes is its triangles; some 20 KB.
+constexpr std::size_t most_between_frames = 1024;
+constexpr std::uint64_t bytes_on_the_way = 20'000;
+
+// What is on its way has a quarter of a memory, what is held the rest.
+std::size_t most_on_the_way(std::uint64_t bytes) {
+    return static_cast<std::size_t>(
+        std::clamp<std::uint64_t>(bytes / 4 / bytes_on_the_way, 1, most_between_frames));
+}
 
 }  // namespace
 
-ClusterScene::ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store)
-    : clusters_(std::move(clusters)), store_(std::move(store)) {}
+ClusterScene::ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store,
+                           std::size_t most_on_the_way)
+    : clusters_(std::move(clusters)), store_(std::move(store)), most_on_the_way_(most_on_the_way) {}
 ClusterScene::ClusterScene(ClusterScene&&) noexcept = default;
 ClusterScene::~ClusterScene() = default;
 
 Result<ClusterScene> ClusterScene::create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
-                                          std::uint64_t bytes) {
+                                          std::uint64_t bytes, std::uint64_t main_bytes) {
     ORO_TRY(ClusterStore store,
             ClusterStore::create(
                 gpu, std::max<std::uint64_t>(bytes, clusters->roots().size() * sizeof(gpu::ClusterBlock))));
-    return ClusterScene(std::move(clusters), std::move(store));
+    if (main_bytes != HeldGroups::no_limit) clusters->hold_at_most(main_bytes - main_bytes / 4);
+    return ClusterScene(std::move(clusters), std::move(store), most_on_the_way(main_bytes));
 }
 
 Result<void> ClusterScene::add_to(FramePlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                                   const WorldModel& model, const HorizonOccluder& occluder,
                                   const HeightQuantization& coding) {
     const ClusterView view(camera, tile, tau_px, model, occluder, coding, level_);
+    clusters_->begin_frame();
     ORO_TRY(ClusterChoice choice, choose_clusters(*clusters_, view));
     std::size_t without_room = 0;
     if (choice.clusters.size() > store_.capacity()) {
@@ -54,7 +65,9 @@ Result<void> ClusterScene::add_to(FramePlan& plan, const Camera& camera, const T
     view_.reset();
     plan.clusters.missing = plan.clusters.without_room = without_room;
     most_without_room_ = std::max(most_without_room_, without_room);
-    return draw(choice, offer_of(choice), camera, plan);
+    ORO_CHECK(draw(choice, offer_of(choice), camera, plan));
+    clusters_->end_frame();
+    return {};
 }
 
 Result<void> ClusterScene::add_what_is_here(FramePlan& plan, const Camera& camera, const Tile& tile,
@@ -62,7 +75,8 @@ Result<void> ClusterScene::add_what_is_here(FramePlan& plan, const Camera& camer
                                             const HorizonOccluder& occluder,
                                             const HeightQuantization& coding) {
     if (!stream_)
-        stream_ = std::make_unique<ClusterStream>(*clusters_, coding, thread_count(), most_on_the_way);
+        stream_ = std::make_unique<ClusterStream>(*clusters_, coding, thread_count(), most_on_the_way_);
+    clusters_->begin_frame();
     store_.begin_frame();
     // Everything else may be missing.
     ORO_CHECK(store_.hold(clusters_->roots(), [&](std::uint32_t cluster, gpu::ClusterBlock& block) {
@@ -77,15 +91,23 @@ Result<void> ClusterScene::add_what_is_here(FramePlan& plan, const Camera& camer
     plan.clusters.without_room = choice.without_room;
     is_whole_ = choice.missing == 0;
     has_room_ = choice.without_room == 0;
+    clusters_->end_frame();
     most_without_room_ = std::max(most_without_room_, choice.without_room);
     return {};
+}
+
+// Of one whose group has given way nobody knows where it is: it waits for that, as if it were not here. The
+// coarsest do not.
+bool ClusterScene::is_here(std::uint32_t cluster) const {
+    return store_.is_here(cluster) && (clusters_->known_reach(cluster) != nullptr ||
+                                       std::ranges::binary_search(clusters_->roots(), cluster));
 }
 
 // What is wanted and here is to stay.
 Result<StreamedChoice> ClusterScene::choose_here() {
     ORO_TRY(StreamedChoice choice,
             choose_clusters_here(*clusters_, *view_, store_.capacity() - clusters_->roots().size(),
-                                 [&](std::uint32_t cluster) { return store_.is_here(cluster); }));
+                                 [&](std::uint32_t cluster) { return is_here(cluster); }));
     for (const std::uint32_t cluster : choice.clusters_wanted)
         if (store_.is_here(cluster)) store_.use(cluster);
     return choice;
@@ -94,7 +116,7 @@ Result<StreamedChoice> ClusterScene::choose_here() {
 void ClusterScene::want(const StreamedChoice& choice) {
     std::vector<std::uint32_t> to_come;
     std::ranges::copy_if(choice.clusters_wanted, std::back_inserter(to_come),
-                         [&](std::uint32_t cluster) { return !store_.is_here(cluster); });
+                         [&](std::uint32_t cluster) { return !is_here(cluster); });
     stream_->want(*view_, choice.groups_wanted, to_come);
 }
 
@@ -134,9 +156,9 @@ Result<void> ClusterScene::draw(const ClusterChoice& choice, const ClusterOffer&
     resident.reserve(offer.clusters.size());
     for (const OfferedCluster& offered : offer.clusters) {
         const ClusterStore::Held held = store_.use(offered.cluster);
-        ORO_TRY(const ClusterReach* const reach, clusters_->reach(offered.cluster));
-        resident.push_back({held.address, held.counts, offered, reach->first_row, reach->last_row,
-                            reach->first_column, reach->last_column, reach->centre, reach->half_axes_m});
+        ORO_TRY(const ClusterReach reach, clusters_->reach(offered.cluster));
+        resident.push_back({held.address, held.counts, offered, reach.first_row, reach.last_row,
+                            reach.first_column, reach.last_column, reach.centre, reach.half_axes_m});
     }
     draw_clusters(clusters_->grid(), resident, offer, camera, plan);
     plan.clusters.groups_opened = choice.groups_opened;

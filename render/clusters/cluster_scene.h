@@ -18,9 +18,11 @@ class ClusterScene {
     ClusterScene(ClusterScene&&) noexcept;
     ClusterScene& operator=(ClusterScene&&) = delete;  // a stream ends before what it reads
     ~ClusterScene();
-    // Clusters may take `bytes` on the GPU, and at least what the coarsest take. Errors: out of memory.
+    // Clusters may take `bytes` on the GPU, and at least what the coarsest take; groups that were read, and
+    // those on their way, `main_bytes` of the processor's memory, or what a frame needs of them. Errors: out
+    // of memory.
     static Result<ClusterScene> create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
-                                       std::uint64_t bytes);
+                                       std::uint64_t bytes, std::uint64_t main_bytes = HeldGroups::no_limit);
 
     // From now on the cut is that of a level of the graph, the same from everywhere; tau is for shading
     // alone.
@@ -43,11 +45,14 @@ class ClusterScene {
     Result<bool> advance();
 
     [[nodiscard]] const ClusterStore& store() const { return store_; }
+    // What groups take of the processor's memory: those that were read, without those on their way.
+    [[nodiscard]] const HeldGroups& groups() const { return clusters_->held(); }
     // The most clusters of a plan that there was no room for, of all plans so far.
     [[nodiscard]] std::size_t most_without_room() const { return most_without_room_; }
 
   private:
-    ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store);
+    ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store, std::size_t most_on_the_way);
+    [[nodiscard]] bool is_here(std::uint32_t cluster) const;
     Result<void> draw(const ClusterChoice& choice, const ClusterOffer& offer, const Camera& camera,
                       FramePlan& plan);
     Result<StreamedChoice> choose_here();
@@ -56,6 +61,7 @@ class ClusterScene {
 
     std::unique_ptr<RegionClusters> clusters_;
     ClusterStore store_;
+    std::size_t most_on_the_way_;  // ClusterStream
     std::optional<std::uint32_t> level_;
     std::unique_ptr<ClusterStream> stream_;  // after clusters_: it ends before; null: nothing was streamed
     // Of the last plan that did not wait: its eye, what it draws, and whether that is all of the cut.

@@ -13,7 +13,7 @@ ClusterStream::ClusterStream(const RegionClusters& clusters, const HeightQuantiz
       coding_(coding),
       most_threads_(std::max(1, threads)),
       capacity_(std::max<std::size_t>(1, capacity)),
-      begun_(clusters.groups().size(), false) {}
+      ways_(clusters.groups().size(), Way::none) {}
 
 ClusterStream::~ClusterStream() {
     for (std::jthread& thread : threads_) thread.request_stop();
@@ -27,13 +27,15 @@ void ClusterStream::want(const ClusterView& view, std::span<const std::uint32_t>
                       [this](const std::stop_token& stop) { work(stop); });
     const std::scoped_lock lock(mutex_);
     view_ = view;
+    for (const std::uint32_t group : taken_) ways_[group] = Way::given;
+    taken_.clear();
     std::set<std::uint32_t> here;
     for (const Item& item : under_way_)
         if (!item.is_group) here.insert(item.number);
     for (const auto& loaded : ready_.clusters) here.insert(loaded.number);
     wanted_.clear();
     for (const std::uint32_t group : groups)
-        if (!begun_[group]) wanted_.push_back({true, group});
+        if (may_begin(group)) wanted_.push_back({true, group});
     for (const std::uint32_t cluster : clusters)
         if (!here.contains(cluster)) wanted_.push_back({false, cluster});
     changed_.notify_all();
@@ -52,6 +54,7 @@ Result<ClusterStream::Ready> ClusterStream::take() {
     if (failed_) return *std::exchange(failed_, std::nullopt);
     Ready ready = std::exchange(ready_, {});
     ready_count_ = 0;
+    for (const RegionClusters::LoadedGroup& group : ready.groups) taken_.push_back(group.number);
     changed_.notify_all();
     return ready;
 }
@@ -68,11 +71,11 @@ void ClusterStream::work(const std::stop_token& stop) {
 void ClusterStream::load_next(std::unique_lock<std::mutex>& lock) {
     const Item item = wanted_.front();
     wanted_.pop_front();
-    if (item.is_group && begun_[item.number]) return;  // two groups may lead to it
+    if (item.is_group && !may_begin(item.number)) return;  // two groups may lead to it
     try {
         under_way_.insert(item);
         if (item.is_group) {
-            begun_[item.number] = true;
+            ways_[item.number] = Way::begun;
             load_group(item.number, lock);
         } else {
             load_cluster(item.number, lock);
@@ -100,10 +103,14 @@ void ClusterStream::load_group(std::uint32_t group, std::unique_lock<std::mutex>
     ready_.groups.push_back(std::move(loaded).value());
 }
 
+bool ClusterStream::may_begin(std::uint32_t group) const {
+    return ways_[group] == Way::none || (ways_[group] == Way::given && !clusters_.is_held(group));
+}
+
 void ClusterStream::want_below(const RegionClusters::LoadedGroup& loaded) {
     for (const std::uint32_t member : loaded.part->members) {
         const std::uint32_t maker = clusters_.maker(member);
-        if (maker != no_group && !begun_[maker] && !view_->is_beyond_frustum(clusters_.groups()[maker]))
+        if (maker != no_group && may_begin(maker) && !view_->is_beyond_frustum(clusters_.groups()[maker]))
             wanted_.push_back({true, maker});
     }
 }

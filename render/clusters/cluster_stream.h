@@ -31,9 +31,9 @@ class ClusterStream {
     ClusterStream(const ClusterStream&) = delete;
     ClusterStream& operator=(const ClusterStream&) = delete;
 
-    // What an eye needs now, each most wanted first, groups before clusters; makers of clusters were read.
-    // What was wanted before and is not any more is dropped. With a group come its clusters that can be seen,
-    // and what made those that it uses, where it gives way.
+    // What an eye needs now and is not here, each most wanted first, groups before clusters. What was taken
+    // before is kept by now, or has given way. What was wanted before and is not any more is dropped. With a
+    // group come its clusters that can be seen, and what made those that it uses, where it gives way.
     void want(const ClusterView& view, std::span<const std::uint32_t> groups,
               std::span<const std::uint32_t> clusters);
     void want_nothing();
@@ -58,6 +58,8 @@ class ClusterStream {
     void load_group(std::uint32_t group, std::unique_lock<std::mutex>& lock);
     void load_cluster(std::uint32_t cluster, std::unique_lock<std::mutex>& lock);
     void fail(const Error& error);
+    // It is neither on its way nor here.
+    [[nodiscard]] bool may_begin(std::uint32_t group) const;
     // Groups that made what a loaded one uses, of those that can be seen.
     void want_below(const RegionClusters::LoadedGroup& loaded);
 
@@ -70,7 +72,11 @@ class ClusterStream {
     std::condition_variable_any changed_;
     std::deque<Item> wanted_;
     std::set<Item> under_way_;
-    std::vector<bool> begun_;  // of each group: it was loaded, or is under way
+    // Of each group. begun: it is under way, ready, or could not be loaded. given: it was taken; it is here
+    // as long as it is held.
+    enum class Way : char { none, begun, given };
+    std::vector<Way> ways_;
+    std::vector<std::uint32_t> taken_;  // groups, since something was wanted
     Ready ready_;
     std::size_t ready_count_{};  // groups and clusters, those of groups, too
     std::optional<Error> failed_;

@@ -10,8 +10,6 @@
 namespace oro {
 namespace {
 
-constexpr std::uint64_t default_main_bytes = 64'000'000;
-
 Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
     const std::size_t size = field.N_m.size() * sizeof(float);
     ORO_TRY(Buffer buffer,
@@ -34,6 +32,10 @@ std::uint64_t gpu_bytes(const Gpu& gpu, std::uint64_t bytes) {
     return bytes > 0 ? bytes : std::min(gpu.report().memory_bytes / 2, most);
 }
 
+std::uint64_t main_bytes(std::uint64_t bytes) {
+    return bytes > 0 ? bytes : 64'000'000;
+}
+
 std::shared_ptr<PageBudget> page_budget(const Gpu& gpu, std::uint64_t bytes) {
     return std::make_shared<PageBudget>(gpu_bytes(gpu, bytes));
 }
@@ -48,7 +50,7 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, 
     Scene scene(std::move(pages), std::move(store));
     static std::atomic<std::uint64_t> scenes{0};
     scene.number_ = ++scenes;
-    const std::uint64_t under_way = (memory.main > 0 ? memory.main : default_main_bytes) / memory.shares;
+    const std::uint64_t under_way = main_bytes(memory.main) / memory.shares;
     const std::size_t page_size = page_bytes({}, parts);
     scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, parts,
                                                  coding.packed);

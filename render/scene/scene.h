@@ -34,7 +34,9 @@ struct SceneMemory {
 };
 // What `gpu` stands for on a device, bytes, where 0 is as much as is reasonable there;
 std::uint64_t gpu_bytes(const Gpu& gpu, std::uint64_t bytes);
-// ... to be shared.
+// The same of `main`.
+std::uint64_t main_bytes(std::uint64_t bytes);
+// gpu_bytes() to be shared.
 std::shared_ptr<PageBudget> page_budget(const Gpu& gpu, std::uint64_t bytes);
 
 // Keeps on the GPU what a camera needs of a region, as fine as tau asks for, within a budget of memory.

@@ -30,6 +30,7 @@ Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion&
         gpu_bytes(gpu, static_cast<std::uint64_t>(options.gpu_memory_mb) * 1000000U) / (clusters ? 2 : 1);
     SceneMemory memory;
     memory.gpu = bytes;
+    memory.main = main_bytes(0) / (clusters ? 2 : 1);
     ORO_TRY(Scene scene, Scene::create(gpu, std::move(region.pages), memory, options.heights,
                                        asks_for_means(options.style)));
     if (!clusters) return scene;
@@ -37,7 +38,7 @@ Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion&
     ORO_TRY(std::unique_ptr<RegionClusters> graph,
             clusters_of_file(region.file.clusters, region.file.region->fingerprint(), field,
                              scene.pages().facts().shape.occluder));
-    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(graph), bytes));
+    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(graph), bytes, memory.main));
     scene.draw_clusters(std::move(made));
     return scene;
 }

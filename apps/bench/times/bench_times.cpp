@@ -81,6 +81,7 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
         times.clusters_in_cut = plan.clusters.in_cut;
         times.clusters_coarser = plan.clusters.drawn.size() - plan.clusters.in_cut;
         times.bytes_on_gpu += scene.clusters()->store().bytes();
+        times.bytes_of_groups = scene.clusters()->groups().bytes();
     }
     return times;
 }
@@ -167,6 +168,7 @@ ordered_json times_json(const BenchTimes& times) {
     json["bytes_on_gpu"] = times.bytes_on_gpu;
     if (times.clusters_on_gpu > 0) {
         json["clusters_on_gpu"] = times.clusters_on_gpu;
+        json["bytes_of_groups"] = times.bytes_of_groups;
         json["clusters_in_cut"] = times.clusters_in_cut;
         json["clusters_coarser"] = times.clusters_coarser;
     }

@@ -25,8 +25,9 @@ struct BenchTimes {
     std::size_t pages_on_gpu{};
     std::uint64_t bytes_on_gpu{};
     std::size_t clusters_on_gpu{};
-    std::size_t clusters_in_cut{};   // that the frame is offered: those of the processor's cut,
-    std::size_t clusters_coarser{};  // and those above them, of which the GPU makes its own
+    std::uint64_t bytes_of_groups{};  // of the processor's memory
+    std::size_t clusters_in_cut{};    // that the frame is offered: those of the processor's cut,
+    std::size_t clusters_coarser{};   // and those above them, of which the GPU makes its own
 };
 
 Result<FrameRenderer> renderer_for(const Gpu& gpu, RasterPath path, const BenchOptions& options);

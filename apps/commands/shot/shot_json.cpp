@@ -59,6 +59,11 @@ void put_counts(const ShotResult& shot, ordered_json& json) {
     pages["culled_by_horizon"] = counts.pages_beyond_horizon;
     pages["on_gpu"] = shot.pages_on_gpu;
     pages["bytes_on_gpu"] = shot.page_bytes;
+    ordered_json& clusters = json["clusters"] = nullptr;
+    if (!shot.clusters) return;
+    clusters =
+        json_object("on_gpu", shot.clusters->on_gpu, "bytes_on_gpu", shot.clusters->bytes_on_gpu,
+                    "groups_in_memory", shot.clusters->groups, "bytes_in_memory", shot.clusters->group_bytes);
 }
 
 // Of the picture, from the top down.

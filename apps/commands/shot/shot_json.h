@@ -33,6 +33,14 @@ struct LayersReport {
     std::uint64_t beside_px{};  // whose rays pass beside what was drawn there
 };
 
+// Of a picture that is drawn by clusters.
+struct ClustersHeld {
+    std::uint64_t on_gpu{};
+    std::uint64_t bytes_on_gpu{};
+    std::uint64_t groups{};       // in the processor's memory
+    std::uint64_t group_bytes{};  // there
+};
+
 struct ShotResult {
     View view;
     Region region;
@@ -44,6 +52,7 @@ struct ShotResult {
     std::uint64_t pages{};
     std::uint64_t pages_on_gpu{};
     std::uint64_t page_bytes{};
+    std::optional<ClustersHeld> clusters;
     double height_step_m{};
     bool has_means{};  // pixels have the colour of the mean of the ground that they cover
     std::uint64_t triangles_at_full_resolution{};

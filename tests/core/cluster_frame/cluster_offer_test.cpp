@@ -43,7 +43,7 @@ class ClusterOffers : public test::StreamedChoices {
         for (std::uint32_t made = group.first_made; made < group.first_made + group.made; ++made) {
             const std::uint32_t user = graph_.clusters[made].used_by;
             if (user != no_group && !gave_way.contains(user)) continue;
-            if (!here.contains(made) && view.look_at(**region.reach(made)).seen == Seen::yes) return true;
+            if (!here.contains(made) && view.look_at(*region.reach(made)).seen == Seen::yes) return true;
         }
         return false;
     }

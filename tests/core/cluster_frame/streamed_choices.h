@@ -92,7 +92,7 @@ class StreamedChoices : public ::testing::Test {
         for (const std::uint32_t cluster : cut) {
             const std::uint32_t maker = graph_.clusters[cluster].made_by;
             if (maker != no_group && view.is_beyond_frustum(graph_.groups[maker])) continue;
-            if (view.look_at(**region.reach(cluster)).seen == ClusterView::Seen::yes)
+            if (view.look_at(*region.reach(cluster)).seen == ClusterView::Seen::yes)
                 can_be_seen.insert(cluster);
         }
         EXPECT_EQ(chosen, can_be_seen);

@@ -124,6 +124,49 @@ TEST_F(ClusterStreams, GoOnWhileOthersChoose) {
     }
 }
 
+// Under a budget what gave way is loaded again, by threads, for eyes that come back.
+TEST_F(ClusterStreams, BringAgainWhatGaveWay) {
+    constexpr std::uint64_t budget = 150'000;
+    std::mt19937_64 random(353);
+    const auto region = clusters();
+    region->hold_at_most(budget);
+    ClusterStream stream(*region, {}, 3, 32);
+    std::vector<Camera> cameras;
+    for (int i = 0; i < 4; ++i) cameras.push_back(test::random_camera(random, terrain_.field));
+    std::vector<int> brought(region->groups().size(), 0);
+    std::set<std::uint32_t> on_gpu(region->roots().begin(), region->roots().end());
+    const std::set<std::uint32_t> roots = on_gpu;
+    const auto is_here = [&](std::uint32_t cluster) {
+        return on_gpu.contains(cluster) &&
+               (roots.contains(cluster) || region->known_reach(cluster) != nullptr);
+    };
+    for (int i = 0; i < 12; ++i) {
+        SCOPED_TRACE(i);
+        const ClusterView eye = view(cameras[static_cast<std::size_t>(i) % cameras.size()]);
+        region->begin_frame();
+        const auto done = take_until(stream, [&](ClusterStream::Ready& ready) {
+            for (auto& group : ready.groups) {
+                region->keep(group);
+                ++brought[group.number];
+                for (const auto& seen : group.seen) on_gpu.insert(seen.number);
+            }
+            for (const auto& cluster : ready.clusters) {
+                region->keep(cluster.number, cluster.reach);
+                on_gpu.insert(cluster.number);
+            }
+            const auto choice = choose_clusters_here(*region, eye, 100'000, is_here);
+            std::vector<std::uint32_t> to_come;
+            std::ranges::copy_if(choice->clusters_wanted, std::back_inserter(to_come),
+                                 [&](std::uint32_t cluster) { return !is_here(cluster); });
+            stream.want(eye, choice->groups_wanted, to_come);
+            return choice->missing == 0;
+        });
+        EXPECT_TRUE(done.ok());
+        region->end_frame();
+    }
+    EXPECT_GT(*std::ranges::max_element(brought), 1) << "the budget binds";
+}
+
 TEST_F(ClusterStreams, TellOfDamageOnce) {
     const std::uint32_t top = terrain_.graph.clusters.back().made_by;
     Camera camera;

@@ -17,10 +17,10 @@ class StreamedClusters : public test::GpuTest, public ::testing::WithParamInterf
   protected:
     test::ClusterTerrain terrain_{test::rough_field(47.0, 8.0, 260, 310)};
 
-    test::DrawnScene scene(std::uint64_t bytes) {
+    test::DrawnScene scene(std::uint64_t bytes, std::uint64_t main_bytes = HeldGroups::no_limit) {
         test::DrawnScene drawn(*gpu_, pages_in_memory(terrain_.field, 1.0, 2), GetParam(), streamed_px,
                                streamed_px);
-        test::draw_by_clusters(*gpu_, terrain_, drawn.scene(), bytes);
+        test::draw_by_clusters(*gpu_, terrain_, drawn.scene(), bytes, {}, main_bytes);
         return drawn;
     }
     static std::size_t ground_in(const std::vector<std::uint32_t>& ids) {
@@ -91,6 +91,43 @@ TEST_P(StreamedClusters, NeedNoMoreMemoryThanTheirCut) {
         EXPECT_EQ(waits.draw(camera, 1.0).ids, streamed.last.ids) << "seed " << seed;
         EXPECT_LE(streams.scene().clusters()->store().bytes(), bytes);
     }
+}
+
+// With little room for groups that were read these are read again, and the pictures are the same, to the
+// byte: streamed or waited for. What is held is no more than that room, or than a frame of that eye needs.
+TEST_P(StreamedClusters, HoldNoMoreGroupsThanTheyMayOrAFrameNeeds) {
+    constexpr unsigned seed = 344;
+    constexpr std::uint64_t main_bytes = 400'000, held_bytes = 300'000, gpu_bytes = std::uint64_t{64} << 20U;
+    std::mt19937_64 random(seed);
+    test::DrawnScene free = scene(gpu_bytes), waits = scene(gpu_bytes, main_bytes),
+                     streams = scene(gpu_bytes, main_bytes);
+    const auto held = [](test::DrawnScene& drawn) { return drawn.scene().clusters()->groups().bytes(); };
+    EXPECT_EQ(waits.scene().clusters()->groups().most_bytes(), held_bytes);
+    std::vector<Camera> cameras;
+    for (int i = 0; i < 8; ++i) cameras.push_back(test::random_camera(random, terrain_.field));
+    for (int i = 0; i < 24; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+        const Camera& camera = cameras[static_cast<std::size_t>(i) % cameras.size()];
+        test::DrawnScene once = scene(gpu_bytes);
+        const test::StreamedFrames alone = test::stream_frames(once, camera, 1.0, [](const auto&) {});
+        EXPECT_TRUE(alone.last.plan.is_settled());
+        const std::uint64_t needed = held(once);
+        const test::DrawnFrame whole = free.draw(camera, 1.0);
+        const auto picture = *free.renderer().read_picture(streamed_px, streamed_px);
+        const test::DrawnFrame waited = waits.draw(camera, 1.0);
+        EXPECT_EQ(waited.ids, whole.ids);
+        EXPECT_EQ(*waits.renderer().read_picture(streamed_px, streamed_px), picture);
+        EXPECT_LE(held(waits), held_bytes + needed);
+        const test::StreamedFrames streamed =
+            test::stream_frames(streams, camera, 1.0, [&](const test::DrawnFrame& frame) {
+                expect_whole(camera, frame);
+                EXPECT_LE(held(streams), held_bytes + needed);
+            });
+        EXPECT_TRUE(streamed.last.plan.is_settled());
+        EXPECT_EQ(streamed.last.ids, whole.ids);
+        EXPECT_EQ(*streams.renderer().read_picture(streamed_px, streamed_px), picture);
+    }
+    EXPECT_GT(held(free), 2 * held_bytes) << "the room binds";
 }
 
 // With less a coarser cut is drawn, whole, and the plan says so: streamed or waited for.

@@ -17,13 +17,14 @@
 
 namespace oro::test {
 
-// terrain: outlives what is drawn.
+// terrain: outlives what is drawn. bytes, main_bytes: as ClusterScene::create().
 inline void draw_by_clusters(const Gpu& gpu, const ClusterTerrain& terrain, Scene& scene,
                              std::uint64_t bytes = std::uint64_t{64} << 20U,
-                             std::optional<std::uint32_t> level = {}) {
+                             std::optional<std::uint32_t> level = {},
+                             std::uint64_t main_bytes = HeldGroups::no_limit) {
     auto clusters = clusters_of_graph(terrain.graph, terrain.field, scene.pages().facts().shape.occluder);
     ASSERT_TRUE(clusters.ok()) << clusters.error().line();
-    auto made = ClusterScene::create(gpu, std::move(clusters).value(), bytes);
+    auto made = ClusterScene::create(gpu, std::move(clusters).value(), bytes, main_bytes);
     ASSERT_TRUE(made.ok()) << made.error().line();
     if (level) made->keep_to_level(*level);
     scene.draw_clusters(std::move(made).value());

@@ -1,0 +1,99 @@
+// Groups of a cluster graph that were read, and where their clusters are: as many as a budget of memory
+// allows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <limits>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/cluster_file/group_code.h"
+#include "core/earth/ellipsoid.h"
+#include "core/frame/culling.h"
+
+namespace oro {
+
+// Where a cluster's triangles are, all of them: for culling, and to find what covers it.
+struct ClusterReach {
+    Ecef centre;
+    double radius_m;
+    HorizonCone horizon;
+    // A box around `centre` that holds the same: its half axes along ECEF, east, north and up there.
+    glm::mat3 half_axes_m;
+    std::int32_t first_row, last_row, first_column, last_column;  // posts of the region
+};
+
+// The one owner of what was read. What the frame has used stays. Of the rest those least recently used give
+// way as soon as all together take more than they may. So what is here takes no more than that, or than what
+// one frame uses. Where no frame is ever begun, nothing gives way.
+//
+// For one thread, but for what says otherwise. What it points to is good until the next frame begins, if the
+// frame has used it.
+class HeldGroups {
+  public:
+    static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+
+    // Once, before anything else. Numbers of the whole graph; leaves: of its clusters.
+    void make_places(std::size_t groups, std::size_t clusters, std::uint32_t leaves);
+    void hold_at_most(std::uint64_t bytes) { most_bytes_ = bytes; }
+    // From here on groups count as used by another frame: those of earlier ones may give way.
+    void begin_frame() { ++frame_; }
+    // Lets go of what the frame has not used, as far as there is too much of it.
+    void end_frame() { make_room(0); }
+
+    // Null where it is not here. The second is used by the frame.
+    [[nodiscard]] const GroupPart* find(std::uint32_t group) const {
+        return held_[group] ? held_[group]->part.get() : nullptr;
+    }
+    const GroupPart* use(std::uint32_t group);
+    // The same for any thread, beside the one that uses the rest: whatever gives way, this stays.
+    [[nodiscard]] std::shared_ptr<const GroupPart> share(std::uint32_t group) const;
+    // A group that was read is used by the frame. One that is here already stays as it is.
+    const GroupPart* put(std::uint32_t group, std::unique_ptr<GroupPart> part);
+
+    // Null where nobody has found out, or it gave way with its group.
+    [[nodiscard]] const ClusterReach* reach(std::uint32_t cluster) const { return reaches_[cluster].get(); }
+    // The group that a cluster's reach is kept with: its maker, and of a leaf the group that uses it.
+    // no_group: none that was read.
+    [[nodiscard]] std::uint32_t keeper(std::uint32_t cluster, std::uint32_t maker) const {
+        return maker == no_group ? users_[cluster] : maker;
+    }
+    // Where that group is here, it is used by the frame, and the reach is kept with it. (A graph without
+    // groups keeps those of its leaves.)
+    void put_reach(std::uint32_t cluster, std::uint32_t maker, const ClusterReach& reach);
+
+    [[nodiscard]] std::size_t size() const { return order_.size(); }
+    // Of all that is here. (The graph's own tables are not counted: they are there whatever is read.)
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    [[nodiscard]] std::uint64_t most_bytes() const { return most_bytes_; }
+
+  private:
+    struct Held {
+        std::shared_ptr<const GroupPart> part;
+        std::uint64_t used;  // frame
+        std::list<std::uint32_t>::iterator place;
+    };
+    // Lets others give way until there is room for so much more, or no other can.
+    void make_room(std::uint64_t more);
+    void drop(std::uint32_t group);
+    void drop_reach(std::uint32_t cluster);
+
+    mutable std::mutex mutex_;                            // of what held_ points to: other threads share it
+    std::vector<std::unique_ptr<Held>> held_;             // of each group; null: it is not here
+    std::vector<std::unique_ptr<ClusterReach>> reaches_;  // of each cluster, likewise
+    std::vector<std::uint32_t> users_;  // of each leaf: the group that uses it, once that was read
+    std::list<std::uint32_t> order_;    // of groups that are here: least recently used first
+    std::uint64_t frame_{};
+    std::uint64_t bytes_{};
+    std::uint64_t most_bytes_{no_limit};
+};
+
+// What a group takes while it is held, without the reach of its clusters; and what one reach takes.
+[[nodiscard]] std::uint64_t held_bytes(const GroupPart& part);
+inline constexpr std::uint64_t held_reach_bytes = sizeof(ClusterReach) + 16;  // beside it: the allocator's
+
+}  // namespace oro
