@@ -48,9 +48,12 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     picture.number("--resolution", options.resolution, "UNITS",
                    "A side of the map's pixels in the unit of its CRS: metres of UTM, degrees of EPSG:4326. "
                    "Default: about the data's. Not with --size. Needs --ortho.");
-    picture.flag(
+    CLI::Option& legend = picture.flag(
         "--legend", options.view.legend,
-        "Add a strip below the picture: north, scale, colours, eye, sun and where the data come from.");
+        "Add a strip below the picture: north, scale, colours, eye, sun and where the data come from. "
+        "Pictures of --show have it by themselves.");
+    picture.flag("--no-legend", options.no_legend, "Leave this strip out. Not with --legend.")
+        .excludes(&legend);
     add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
     add_no_paths(command, "The picture", options.no_paths);
     add_data_changed(command, options.data_changed);

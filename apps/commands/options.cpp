@@ -83,7 +83,7 @@ void add_show(OptionGroup& looks, ViewOptions& options) {
         "Show how the picture was made, in the place of colours: visible, whether the last round drew it "
         "or one before; levels, how coarse; meshlets or triangles, each in a colour of its own; overdraw, "
         "how many triangles cover a pixel; clusters or groups of them, each in a colour of its own, of a "
-        "file that was baked with clusters. For pictures of one sample.");
+        "file that was baked with clusters. A legend says which colour is what. For pictures of one sample.");
 }
 
 void add_look_options(CLI::App& command, ViewOptions& options) {
@@ -317,7 +317,8 @@ void add_memory_options(CLI::App& command, MemoryOptions& options) {
     detail.whole_number(
         "--memory", options.memory_mb, least_mb, most_mb, "MB",
         "How much main memory terrain may take on its way to the GPU, in megabytes, 16 to 1000000 (default "
-        "64). Files other than .oro need more: all their heights are read at once.");
+        "64). Clusters have half of it. Files other than .oro need more: all their heights are read at once; "
+        "so are those of what is drawn by clusters.");
 }
 
 }  // namespace oro

@@ -43,7 +43,7 @@ struct ViewOptions {
     std::optional<std::string> sky_openness;
     std::optional<std::string> labels;
     std::optional<std::string> edges;  // smooth, steps
-    std::optional<std::string> show;   // visible, levels, meshlets, triangles, clusters, groups
+    std::optional<std::string> show;   // visible, levels, meshlets, triangles, overdraw, clusters, groups
     bool legend{false};                // a strip below the picture
     bool takes_maps{false};            // not an option: whether a view that is a map may be opened
     std::optional<double> exaggeration;
@@ -93,6 +93,7 @@ struct ShotOptions {
     bool ortho{false};
     std::optional<std::string> crs;    // of a map; as GDAL takes it
     std::optional<double> resolution;  // of a map: a pixel, in the unit of its CRS
+    bool no_legend{false};             // not even where --show has one by itself
     bool data_changed{false};
     bool no_paths{false};  // the picture tells no paths
     bool overwrite{false};

@@ -29,9 +29,14 @@ bool measures_long(const Region& region) {
            region.field.grid.post_count() > 4 * posts_in_a_moment;
 }
 
-HeightField coarse_field(const HeightField& field) {
+int coarse_step(const HeightField& field) {
     int step = 1;
     while (field.grid.post_count() / static_cast<std::size_t>(step * step) > posts_in_a_moment) step *= 2;
+    return step;
+}
+
+HeightField coarse_field(const HeightField& field) {
+    const int step = coarse_step(field);
     HeightField coarse;
     coarse.grid = {every(field.grid.lat, step), every(field.grid.lon, step)};
     coarse.undulation = field.undulation;

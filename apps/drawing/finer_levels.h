@@ -19,6 +19,8 @@ bool measures_long(const Region& region);
 // Every n-th post of a field that is in memory, n as large as is needed for a picture in a moment. Its posts
 // are those of the field; it may end up to n - 1 posts before the field does.
 HeightField coarse_field(const HeightField& field);
+// That n.
+int coarse_step(const HeightField& field);
 
 class FinerLevels {
   public:

@@ -35,7 +35,7 @@ StripColour coded(const gpu::vec3& colour) {
 }
 
 // What a picture shows of its own making.
-ColourKey key_of_show(Show show, bool clusters, const Region& region) {
+ColourKey key_of_show(Show show, bool clusters, const Region& region, int every) {
     ColourKey key;
     key.shape = KeyShape::names;
     if (show == Show::levels && clusters) {
@@ -43,7 +43,7 @@ ColourKey key_of_show(Show show, bool clusters, const Region& region) {
         const std::size_t levels = 1 + region.clusters->outline().levels.size();
         for (std::size_t level = 0; level < levels; ++level)
             key.names.push_back(
-                {coded(colour_of_cluster_level(static_cast<gpu::uint>(level))), std::to_string(level)});
+                {coded(colour_of_level(static_cast<gpu::uint>(level))), std::to_string(level)});
     } else if (show == Show::visible) {
         key.title = "Drawn by";
         key.names = {{coded(colour_of_round(true)), "a round before the last"},
@@ -52,9 +52,9 @@ ColourKey key_of_show(Show show, bool clusters, const Region& region) {
         key.title = "Levels: one post of so many, along rows and columns";
         int levels = level_count(region.field.grid);
         for (const Region& other : region.beside) levels = std::max(levels, level_count(other.field.grid));
-        for (int level = 0; level < std::min(levels, 8); ++level)
-            key.names.push_back(
-                {coded(colour_of_level(static_cast<gpu::uint>(level))), std::to_string(1 << level)});
+        for (int level = 0; level < levels; ++level)
+            key.names.push_back({coded(colour_of_level(static_cast<gpu::uint>(level))),
+                                 std::to_string(static_cast<std::int64_t>(every) << level)});
     } else if (show == Show::overdraw) {
         key.title = "Triangles that cover a pixel, hidden ones too";
         for (const auto& [triangles, name] :
@@ -93,8 +93,8 @@ StripColour ColourKey::colour(double value) const {
     return mixed;
 }
 
-ColourKey colour_key(const View& view, const Region& region, const Style& style) {
-    if (view.show) return key_of_show(*view.show, view.mesh == "clusters", region);
+ColourKey colour_key(const View& view, const Region& region, const Style& style, int every) {
+    if (view.show) return key_of_show(*view.show, view.mesh == "clusters", region, every);
     const gpu::FrameStyle& frame = style.frame;
     ColourKey key;
     key.stops.assign(frame.tints, frame.tints + frame.tint_count);

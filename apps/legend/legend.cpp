@@ -4,40 +4,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <sstream>
 
 #include "apps/command_line/refusals.h"
 #include "apps/legend/colour_key.h"
+#include "apps/legend/key_names.h"
 #include "apps/legend/strip.h"
 #include "apps/report/figures.h"
 
 namespace oro {
 namespace {
 
-constexpr int least_width_px = 200;
-constexpr StripColour paper{250, 248, 242}, ink{38, 40, 44}, quiet{110, 112, 116}, rule{206, 202, 192};
-
-// Words on lines of so many pixels at most; what does not fit on one goes on, indented by nothing.
-Result<std::vector<std::string>> wrapped(const TextFace& face, const std::vector<std::string>& lines,
-                                         double size_px, double width_px) {
-    std::vector<std::string> all;
-    for (const std::string& line : lines) {
-        std::istringstream words(line);
-        std::string now;
-        for (std::string word; words >> word;) {
-            const std::string longer = now.empty() ? word : now + " " + word;
-            ORO_TRY(const double length_px, face.width_px(longer, size_px));
-            if (length_px > width_px && !now.empty()) {
-                all.push_back(now);
-                now = word;
-            } else {
-                now = longer;
-            }
-        }
-        all.push_back(now);
-    }
-    return all;
-}
+constexpr StripColour paper = legend_paper, ink = legend_ink, quiet = legend_quiet, rule{206, 202, 192};
 
 // Draws the parts one below the other, or beside each other, where the picture is wide.
 class LegendPage {
@@ -54,17 +31,23 @@ class LegendPage {
         ORO_TRY(const std::vector<std::string> text, wrapped(face_, lines, em_, width_px_ - 2.0 * margin_));
         const double figure_px = 4.6 * em_, line_px = 1.5 * em_;
         const bool beside = width_px_ >= 52.0 * em_;
-        const bool has_key = key_.shape != KeyShape::none;
-        const double figures_px = figure_px + (has_key && !beside ? figure_px : 0.0);
+        const glm::dvec2 key_at =
+            beside ? glm::dvec2(margin_ + 28.0 * em_, margin_) : glm::dvec2(margin_, margin_ + figure_px);
+        double key_px = key_.shape == KeyShape::none ? 0.0 : figure_px;
+        PlacedNames names;
+        if (key_.shape == KeyShape::names) {
+            ORO_TRY(names, place_names(face_, key_, key_at, width_px_ - margin_, em_));
+            key_px = std::max(key_px, names.bottom_px - key_at.y + 0.3 * em_);
+        }
+        const double figures_px = beside ? std::max(figure_px, key_px) : figure_px + key_px;
         const double height =
             2.0 * margin_ + figures_px + 0.9 * em_ + line_px * static_cast<double>(text.size()) - 0.5 * em_;
         Strip strip(width_px_, static_cast<int>(std::ceil(height)), paper);
         strip.fill({0.0, 0.0}, {static_cast<double>(width_px_), std::max(1.0, std::round(em_ / 12.0))}, rule);
         ORO_CHECK(draw_north(strip, {margin_, margin_}));
         ORO_CHECK(draw_scale(strip, {margin_ + 7.0 * em_, margin_}));
-        if (has_key)
-            ORO_CHECK(draw_key(strip, beside ? glm::dvec2(margin_ + 28.0 * em_, margin_)
-                                             : glm::dvec2(margin_, margin_ + figure_px)));
+        ORO_CHECK(key_.shape == KeyShape::names ? draw_names(strip, face_, key_, names)
+                                                : draw_key(strip, key_at));
         double base = margin_ + figures_px + 0.9 * em_ + 0.8 * em_;
         for (const std::string& line : text) {
             ORO_CHECK(strip.write(face_, line, {margin_, base}, em_, ink));
@@ -118,9 +101,10 @@ class LegendPage {
         return strip.write(face_, where + away, {at.x, top + tall + 1.3 * em_}, 0.9 * em_, quiet);
     }
 
+    // A bar or a wheel.
     Result<void> draw_key(Strip& strip, glm::dvec2 at) const {
+        if (key_.shape == KeyShape::none) return {};
         if (key_.shape == KeyShape::wheel) return draw_wheel(strip, at);
-        if (key_.shape == KeyShape::names) return draw_names(strip, at);
         const double wide = std::min(22.0 * em_, width_px_ - margin_ - at.x - em_), tall = 1.1 * em_;
         const double top = at.y + 1.55 * em_;
         ORO_CHECK(strip.write(face_, key_.title, {at.x, at.y + 0.85 * em_}, 0.9 * em_, quiet));
@@ -137,26 +121,6 @@ class LegendPage {
                                      key_.unit;
             ORO_CHECK(
                 strip.write(face_, text, {x, top + tall + 1.35 * em_}, 0.9 * em_, ink, Strip::From::middle));
-        }
-        return {};
-    }
-
-    // Squares of the colours, each with its name; on a second line where there are many.
-    Result<void> draw_names(Strip& strip, glm::dvec2 at) const {
-        const double side = 1.1 * em_;
-        double top = at.y + 1.55 * em_;
-        ORO_CHECK(strip.write(face_, key_.title, {at.x, at.y + 0.85 * em_}, 0.9 * em_, quiet));
-        double x = at.x;
-        for (const ColourKey::Named& named : key_.names) {
-            ORO_TRY(const double wide, face_.width_px(named.name, 0.9 * em_));
-            if (x > at.x && x + 1.4 * em_ + wide > width_px_ - margin_) {
-                x = at.x;
-                top += 1.6 * em_;
-            }
-            strip.fill({x - 1.0, top - 1.0}, {side + 2.0, side + 2.0}, quiet);
-            strip.fill({x, top}, {side, side}, named.colour);
-            ORO_CHECK(strip.write(face_, named.name, {x + 1.4 * em_, top + 0.85 * em_}, 0.9 * em_, ink));
-            x += 2.2 * em_ + wide;
         }
         return {};
     }
@@ -203,17 +167,27 @@ class LegendPage {
 
 }  // namespace
 
-int rows_of_strip(const std::vector<std::uint8_t>& strip, int width_px) {
-    return static_cast<int>(strip.size() / (3 * static_cast<std::size_t>(width_px)));
+bool has_own_legend(const View& view) {
+    return view.show && !view.map && view.camera.width_px >= least_legend_px;
 }
 
 Result<std::vector<std::uint8_t>> legend_strip(const View& view, const Region& region, const Style& style,
                                                const std::optional<SeenPlace>& middle) {
-    if (view.camera.width_px < least_width_px)
+    if (view.camera.width_px < least_legend_px)
         return refused("--legend", "", "needs a picture at least 200 px wide");
     ORO_TRY(const TextFace face, TextFace::open());
     LegendPage page(view, region, style, middle, face);
     return page.draw(legend_lines(view, region, style));
+}
+
+Result<std::vector<std::uint8_t>> strip_of(View& view, const Region& region, const Style& style,
+                                           const std::optional<SeenPlace>& middle) {
+    view.legend_px = 0;
+    std::vector<std::uint8_t> strip;
+    if (!view.legend) return strip;
+    ORO_TRY(strip, legend_strip(view, region, style, middle));
+    view.legend_px = static_cast<int>(strip.size() / (3 * static_cast<std::size_t>(view.camera.width_px)));
+    return strip;
 }
 
 }  // namespace oro

@@ -13,12 +13,20 @@
 
 namespace oro {
 
+// A narrower picture has no room for one.
+inline constexpr int least_legend_px = 200;
+
+// Pictures that explain a frame (--show) have one by themselves, if they are not too narrow.
+bool has_own_legend(const View& view);
+
 // A strip of the picture's width, rows of sRGB from the top; `middle` is what the picture sees there. Follows
 // from the view, the data and the style alone: the same view, the same bytes. Errors (usage): a picture that
 // is less than 200 px wide; those of text and of the map's CRS.
 Result<std::vector<std::uint8_t>> legend_strip(const View& view, const Region& region, const Style& style,
                                                const std::optional<SeenPlace>& middle);
-int rows_of_strip(const std::vector<std::uint8_t>& strip, int width_px);
+// The same where the view has a legend, and nothing where it has none; the view is told how high it is.
+Result<std::vector<std::uint8_t>> strip_of(View& view, const Region& region, const Style& style,
+                                           const std::optional<SeenPlace>& middle);
 
 // What it says, in lines: eye or map, sun, data, detail. English, without line ends.
 std::vector<std::string> legend_lines(const View& view, const Region& region, const Style& style);

@@ -49,6 +49,7 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
                                     const Region& region, const RegionGround& ground,
                                     const std::optional<SeenPlace>& middle, const Gpu& gpu, Scene& scene,
-                                    const Style& style, const RenderProgress& progress);
+                                    const Style& style, std::span<const std::uint8_t> strip,
+                                    const RenderProgress& progress);
 
 }  // namespace oro

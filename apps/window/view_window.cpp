@@ -12,6 +12,7 @@
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/eye/standpoint.h"
+#include "apps/legend/legend.h"
 #include "apps/output/picture_file.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -19,6 +20,7 @@
 #include "apps/view/style.h"
 #include "apps/view/view_changes.h"
 #include "apps/window/picking.h"
+#include "apps/window/show_legend.h"
 #include "apps/window/steering.h"
 #include "apps/window/window_start.h"
 #include "apps/window/written_frame.h"
@@ -56,6 +58,7 @@ struct Viewer {
     bool is_shown{};            // once something is
     Clock::time_point moved{};  // when the eye last did
     bool follows_eye{};         // what is fitted to a view is that of an eye that moved, until it rests
+    ShowLegend legend{};
 };
 
 // How long the user has waited for it.
@@ -179,8 +182,10 @@ Result<void> take_picture(Viewer& viewer) {
     ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field));
     ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    viewer.view.legend = has_own_legend(viewer.view);
+    ORO_TRY(const auto strip, strip_of(viewer.view, viewer.region, viewer.style, middle));
     const auto written = write_picture(files, false, viewer.view, viewer.region, *ground, middle, viewer.gpu,
-                                       *viewer.scene, viewer.style, {});
+                                       *viewer.scene, viewer.style, strip, {});
     viewer.message = written.ok() ? "wrote " + files.picture : written.error().line();
     say(viewer.options.quiet && written.ok(), viewer.message);
     if (!written.ok() || viewer.options.quiet) return {};
@@ -294,6 +299,8 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
             viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
     viewer.scene->saw(drawn.sights);
     ORO_CHECK(write_over(viewer, drawn));
+    const int every = viewer.finer ? coarse_step(viewer.region.field) : 1;
+    ORO_CHECK(viewer.legend.lay_over(viewer.view, viewer.region, viewer.style, every, viewer.renderer));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown || !drawn.images_settled;
     if (shown && !viewer.is_shown) {
@@ -319,24 +326,6 @@ Result<void> run_loop(Viewer& viewer) {
     }
 }
 
-// The data, and the view that the flight begins with.
-Result<void> open_flight(const WindowOptions& options, ProgressBar& bar, View& view, Region& region) {
-    ORO_CHECK(open_view(
-        options.view_file, options.view, options.region,
-        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
-    if (options.no_paths) view.tells_paths = false;
-    // Its pictures are those of the window.
-    view.legend = false;
-    view.legend_px = 0;
-    // Each of two levels is within tau of the full resolution: where one takes the other's place nothing
-    // moves by more than twice that.
-    if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
-    const Geodetic& eye = view.camera.eye;
-    view.camera =
-        above_ground(view.camera, region_at(region, eye.lat_deg, eye.lon_deg).field, view.exaggeration);
-    return region.health();
-}
-
 }  // namespace
 
 Result<void> run_view(const WindowOptions& options) {
@@ -347,7 +336,9 @@ Result<void> run_view(const WindowOptions& options) {
     ProgressBar bar(options.quiet);
     View view;
     Region region;
-    ORO_CHECK(open_flight(options, bar, view, region));
+    ORO_CHECK(open_flight(
+        options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
+        region));
     ORO_TRY(RegionCuts cuts, cut_regions(region));
     ORO_TRY(const Style style, load_style(view, region.field));
     GpuOptions gpu_options = gpu_options_from_environment();

@@ -6,10 +6,26 @@
 #include "apps/command_line/refusals.h"
 #include "apps/drawing/finer_levels.h"
 #include "apps/report/json_text.h"
+#include "apps/window/flight.h"
 #include "core/base/parallel.h"
 #include "core/lod/pyramid.h"
 
 namespace oro {
+
+Result<void> open_flight(const WindowOptions& options, const Progress& progress, View& view, Region& region) {
+    ORO_CHECK(open_view(options.view_file, options.view, options.region, progress, view, region));
+    if (options.no_paths) view.tells_paths = false;
+    // Its pictures are those of the window.
+    view.legend = false;
+    view.legend_px = 0;
+    // Each of two levels is within tau of the full resolution: where one takes the other's place nothing
+    // moves by more than twice that.
+    if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
+    const Geodetic& eye = view.camera.eye;
+    view.camera =
+        above_ground(view.camera, region_at(region, eye.lat_deg, eye.lon_deg).field, view.exaggeration);
+    return region.health();
+}
 
 std::string free_picture_name(std::int64_t time_utc_s) {
     std::string stem = "orograph-" + time_text(time_utc_s);

@@ -10,6 +10,9 @@
 
 namespace oro {
 
+// The data, and the view that the flight begins with. Errors: those of open_view().
+Result<void> open_flight(const WindowOptions& options, const Progress& progress, View& view, Region& region);
+
 // All levels of a region, or where measuring them takes long, those of every n-th post. cuts: of all grids.
 Result<std::unique_ptr<RegionPages>> first_pages(const Region& region, const RegionCuts& cuts,
                                                  const View& view, const RenderProgress& progress);

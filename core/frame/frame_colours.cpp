@@ -13,10 +13,6 @@ gpu::vec3 colour_of_level(gpu::uint level) {
     return gpu::shown_level(level);
 }
 
-gpu::vec3 colour_of_cluster_level(gpu::uint level) {
-    return gpu::shown_cluster_level(level);
-}
-
 gpu::vec3 colour_of_round(bool before_last) {
     return gpu::shown_round(before_last);
 }

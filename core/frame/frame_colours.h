@@ -5,10 +5,8 @@
 
 namespace oro {
 
-// sRGB, 0 to 1.
+// sRGB, 0 to 1. Of a level of pages, or of a cluster graph.
 gpu::vec3 colour_of_level(gpu::uint level);
-// Of a level of a cluster graph.
-gpu::vec3 colour_of_cluster_level(gpu::uint level);
 // Of a meshlet that the frame's last round drew, or one before it.
 gpu::vec3 colour_of_round(bool before_last);
 // Of a pixel that so many triangles cover.

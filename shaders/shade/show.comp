@@ -27,7 +27,7 @@ vec3 colour_on_pages(uint triangle, uint node) {
 vec3 colour_on_clusters(uint triangle, uint node) {
     DrawnCluster drawn = drawn_cluster(node);
     float light = 0.85 + 0.15 * shown_by_hash(drawn.number).x;
-    if (FRAME.show == show_levels) return light * shown_cluster_level(level_of_cluster(drawn));
+    if (FRAME.show == show_levels) return light * shown_level(level_of_cluster(drawn));
     if (FRAME.show == show_visible) return light * shown_round(FRAME.occlusion == 0u || (state_of_cluster(node) & cluster_drawn) != 0u);
     if (FRAME.show == show_groups) return light * shown_by_hash(drawn.group);
     uint number = drawn.number;

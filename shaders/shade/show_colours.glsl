@@ -1,8 +1,6 @@
 // The colours of a frame's parts, sRGB. Compiled as GLSL for the GPU and as C++ for legends (core/frame/frame_colours.cpp).
 
-// By level: the finest blue, each next one apart from the one before; they come again after eight.
-ORO_FUNCTION vec3 shown_level(uint level) {
-    uint which = level % 8u;
+ORO_FUNCTION vec3 one_of_eight(uint which) {
     if (which == 0u) return vec3(0.16f, 0.38f, 0.78f);
     if (which == 1u) return vec3(0.20f, 0.71f, 0.65f);
     if (which == 2u) return vec3(0.47f, 0.77f, 0.26f);
@@ -13,10 +11,11 @@ ORO_FUNCTION vec3 shown_level(uint level) {
     return vec3(0.60f, 0.60f, 0.62f);
 }
 
-// Of a cluster graph, which has some 25 of them: those eight, then the same darker, and darker again.
-ORO_FUNCTION vec3 shown_cluster_level(uint level) {
+// By level: the finest blue, each next one apart from the one before; after eight the same darker, and darker again. No two below 32
+// look alike. A cluster graph has some 25.
+ORO_FUNCTION vec3 shown_level(uint level) {
     uint turn = level < 24u ? level / 8u : 3u;
-    return (1.0f - 0.24f * float(turn)) * shown_level(level);
+    return (1.0f - 0.24f * float(turn)) * one_of_eight(level % 8u);
 }
 
 // Whether the rounds before the last one had drawn it.

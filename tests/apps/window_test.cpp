@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -193,6 +194,60 @@ TEST(Window, ShowsACoarsePictureWhileLevelsAreMeasured) {
     ASSERT_NE(first, std::string::npos) << outcome.out << outcome.err;
     ASSERT_NE(full, std::string::npos) << outcome.out << outcome.err;
     EXPECT_LT(first, full);
+}
+
+// Pixels of a screen that look like a colour, give or take a code. dump: an X window dump of 32 bits a pixel:
+// 25 words of 4 bytes, the highest first, of which word 0 is the header's size, 4 and 5 the picture's, 7 the
+// order of a pixel's bytes, 12 the bytes of a row, 19 the colours of 12 bytes that follow (X11/XWDFile.h).
+std::size_t pixels_like(const std::string& dump, const std::array<int, 3>& rgb) {
+    const auto byte = [&](std::size_t at) { return std::size_t{static_cast<unsigned char>(dump.at(at))}; };
+    const auto word = [&](std::size_t i) {
+        return byte(4 * i) << 24U | byte(4 * i + 1) << 16U | byte(4 * i + 2) << 8U | byte(4 * i + 3);
+    };
+    const std::size_t first = word(0) + 12 * word(19), row_bytes = word(12);
+    const bool blue_first = word(7) == 0;
+    std::size_t count = 0;
+    for (std::size_t y = 0; y < word(5); ++y)
+        for (std::size_t x = 0; x < word(4); ++x) {
+            const std::size_t at = first + y * row_bytes + 4 * x;
+            bool alike = true;
+            for (std::size_t c = 0; c < 3; ++c)
+                alike = alike &&
+                        std::abs(static_cast<int>(byte(at + (blue_first ? 2 - c : c + 1))) - rgb[c]) <= 1;
+            count += alike ? 1U : 0U;
+        }
+    return count;
+}
+
+// In the window, in its corner; of a picture by P, below it.
+TEST(Window, FramesThatAreExplainedHaveALegend) {
+    const fs::path folder = oro::test::scratch_folder();
+    oro::test::Circumstances there;
+    there.environment = {"WAYLAND_DISPLAY", "SOURCE_DATE_EPOCH=1767225600"};
+    const std::string session =
+        "\"$1\" view \"$3\" --style default --size 320x240 --at 36.53,-84.35 --above 900 --show overdraw "
+        "2>said.txt & viewer=$!; "
+        "for try in $(seq 600); do grep -q 'first picture' said.txt && break; sleep 0.1; done; "
+        "sleep 1; cp \"$SCREEN_FILE\" screen.xwd; "
+        "window=$(xdotool search --onlyvisible --pid $viewer | head -n 1); "
+        "xdotool windowfocus --sync $window; xdotool key p; "
+        "for try in $(seq 300); do grep -q 'wrote ' said.txt && break; sleep 0.1; done; "
+        "kill $viewer; wait $viewer; cat said.txt";
+    const auto outcome = oro::test::run_program({OROGRAPH_ON_DISPLAY, "sh", "-c", "cd \"$2\"; " + session,
+                                                 "sh", OROGRAPH_PROGRAM, folder, oro::test::bundled()},
+                                                there);
+    const std::string screen = oro::test::bytes_of(folder / "screen.xwd");
+    ASSERT_GT(screen.size(), 640U * 480U * 4U) << outcome.out << outcome.err;
+    EXPECT_GT(pixels_like(screen, {250, 248, 242}), 2000U) << "paper";
+    // Squares of 12 px, of one triangle in a pixel, of two, ... and of more than 16.
+    const std::array<std::array<int, 3>, 6> squares{
+        {{46, 77, 133}, {51, 143, 153}, {115, 186, 107}, {237, 209, 84}, {237, 133, 51}, {199, 46, 56}}};
+    for (const auto& square : squares) EXPECT_GE(pixels_like(screen, square), 144U) << square[0];
+    const fs::path picture = folder / "orograph-2026-01-01T000000Z.png";
+    ASSERT_TRUE(fs::exists(picture)) << outcome.out;
+    const json view = json::parse(oro::test::view_in(picture), nullptr, false);
+    EXPECT_EQ(view.value("show", ""), "overdraw");
+    EXPECT_GT(view.value("legend_px", 0), 100) << view;
 }
 
 TEST(Window, SaysWhatChangedSinceThePicture) {

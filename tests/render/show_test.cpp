@@ -90,7 +90,7 @@ gpu::vec3 expected_on_clusters(gpu::uint show, std::uint32_t id, const FramePlan
     const std::uint32_t triangle = (id - 1) % gpu::cluster_triangles;
     const gpu::DrawnCluster& drawn = plan.clusters.drawn[(id - 1) / gpu::cluster_triangles];
     const float light = 0.85F + 0.15F * colour_of_number(drawn.number).x;
-    if (show == gpu::show_levels) return light * colour_of_cluster_level(drawn.counts >> 16U);
+    if (show == gpu::show_levels) return light * colour_of_level(drawn.counts >> 16U);
     if (show == gpu::show_groups) return light * colour_of_number(drawn.group);
     if (show == gpu::show_triangles)
         return colour_of_number(drawn.number * gpu::cluster_triangles + triangle);

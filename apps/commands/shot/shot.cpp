@@ -143,11 +143,7 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
         if (!first.wants_pages() && !nothing.ok()) return nothing.error();
     }
     ORO_TRY(shot.middle, place_in_middle(shot.view, ground));
-    std::vector<std::uint8_t> strip;
-    if (shot.view.legend) {
-        ORO_TRY(strip, legend_strip(shot.view, shot.region, style, shot.middle));
-        shot.view.legend_px = rows_of_strip(strip, camera.width_px);
-    }
+    ORO_TRY(const std::vector<std::uint8_t> strip, strip_of(shot.view, shot.region, style, shot.middle));
     const bool checks = is_check(options, files);
     BesidePicture beside(checks ? files.picture : "", shot.view);
     ORO_TRY(DrawnPicture picture,
@@ -167,8 +163,22 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
     shot.pages_on_gpu = scene.store().size();
     shot.page_bytes = scene.store().bytes();
+    if (const auto& drawn = scene.clusters())
+        shot.clusters = ClustersHeld{drawn->store().size(), drawn->store().bytes(), drawn->groups().size(),
+                                     drawn->groups().bytes()};
     shot.height_step_m = scene.height_step_m();
     return picture;
+}
+
+// A picture that explains a frame has a legend, if nobody wants it without, and it is not too narrow for one.
+// A view that was written without one is drawn again without.
+void choose_legend(const ShotOptions& options, View& view) {
+    if (options.no_legend) view.legend = false;
+    if (options.no_legend || options.view.legend || !options.view.show) return;
+    view.legend = has_own_legend(view);
+    if (!view.legend)
+        say(options.quiet, "note: a picture less than " + std::to_string(least_legend_px) +
+                               " px wide has no room for the legend of --show");
 }
 
 // All that can be refused before a GPU is asked for: options, data, files to be written. Gives the style.
@@ -186,6 +196,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
         shot.region));
     if (options.ortho && options.view_file.empty()) ORO_CHECK(make_map(shot.view, options, shot.region));
+    choose_legend(options, shot.view);
     ORO_CHECK(check_unchanged(shot.view, shot.region, options.data_changed, options.quiet));
     if (options.no_paths) shot.view.tells_paths = false;
     if (!is_check(options, files)) say_edited(shot.view, options.quiet);

@@ -103,6 +103,23 @@ TEST_F(ClustersDrawn, PanoramasOfOneLevelToo) {
     EXPECT_TRUE(bytes_of(again) == bytes_of(level)) << "a view gives the same bytes";
 }
 
+// The same picture, and what groups take of the processor's memory is told.
+TEST_F(ClustersDrawn, WithLittleMemoryForTheirGroups) {
+    const json much = shot({"--memory", "1000"});
+    const Pixels picture = pixels_of(picture_);
+    const json little = shot({"--memory", "16"});
+    EXPECT_TRUE(pixels_of(picture_).rgb == picture.rgb);
+    EXPECT_EQ(little["triangles"]["drawn"], much["triangles"]["drawn"]);
+    for (const json& said : {much, little}) {
+        EXPECT_GT(said["clusters"]["on_gpu"], 0);
+        EXPECT_GT(said["clusters"]["bytes_on_gpu"], 0);
+        EXPECT_GT(said["clusters"]["groups_in_memory"], 0);
+        EXPECT_GT(said["clusters"]["bytes_in_memory"], 10'000);
+    }
+    EXPECT_LE(little["clusters"]["bytes_in_memory"], 6'000'000) << "what this eye needs is less";
+    EXPECT_TRUE(shot({"--mesh", "grid"})["clusters"].is_null());
+}
+
 TEST_F(ClustersDrawn, WhatDoesNotGoTogetherIsRefused) {
     expect_refusal(refused({"--mesh-level", "3", "--tau", "1"}), 2, {"--mesh-level", "--tau"});
     expect_refusal(refused({"--mesh-level", "3", "--accuracy", "survey"}), 2, {"--mesh-level", "--accuracy"});
@@ -120,7 +137,8 @@ TEST_F(ClustersDrawn, WhatDoesNotGoTogetherIsRefused) {
 // In a legend each kind says what it is.
 TEST_F(ClustersDrawn, PicturesExplainTheGraph) {
     for (const char* show : {"clusters", "groups", "levels", "triangles", "meshlets", "visible"}) {
-        const json said = shot({"--show", show, "--legend"});
+        const json said = shot({"--show", show});
+        EXPECT_GT(said["view"]["legend_px"].get<int>(), 0) << show;
         EXPECT_EQ(json::parse(view_in(picture_))["mesh"], "clusters") << show;
         EXPECT_GT(said["triangles"]["drawn"], 0);
     }

@@ -78,6 +78,47 @@ TEST(ShotLegend, OfAMapIsOpaqueBelowIt) {
     EXPECT_EQ(bytes_of(folder / "n.tfw"), bytes_of(folder / "m.tfw"));
 }
 
+// What explains a frame has a legend without being asked, and needs nothing but a word to have none.
+TEST(ShotLegend, OfShowIsThereByItself) {
+    const fs::path folder = oro::test::scratch_folder();
+    const auto told = object_said_by(shot_with_legend(folder / "with.png", {"--show", "levels", "--json"}));
+    const auto none =
+        object_said_by(shot_with_legend(folder / "bare.png", {"--show", "levels", "--no-legend", "--json"}));
+    ASSERT_TRUE(told["view"].contains("legend_px"));
+    EXPECT_FALSE(none["view"].contains("legend_px"));
+    const auto bare = pixels_of(folder / "bare.png"), with = pixels_of(folder / "with.png");
+    EXPECT_EQ(bare.height, 120U);
+    EXPECT_EQ(with.height, 120U + told["view"]["legend_px"].get<unsigned>());
+    EXPECT_TRUE(std::equal(bare.rgb.begin(), bare.rgb.end(), with.rgb.begin()));
+    for (const char* name : {"with.png", "bare.png"}) {
+        const fs::path again = folder / ("again-" + std::string(name));
+        ASSERT_EQ(run_orograph({"shot", "--view", (folder / name).string(), "-q", "--out", again}).exit_code,
+                  0);
+        EXPECT_TRUE(bytes_of(again) == bytes_of(folder / name)) << name;
+    }
+    const fs::path without = folder / "without.png";
+    ASSERT_EQ(run_orograph(
+                  {"shot", "--view", (folder / "with.png").string(), "--no-legend", "-q", "--out", without})
+                  .exit_code,
+              0);
+    EXPECT_TRUE(pixels_of(without).rgb == bare.rgb);
+}
+
+TEST(ShotLegend, OfShowIsLeftOutOfNarrowPictures) {
+    const fs::path folder = oro::test::scratch_folder();
+    Words words = shot_with_legend(folder / "p.png", {"--show", "levels"});
+    words[11] = "199x100";
+    std::erase(words, "-q");
+    const auto outcome = run_orograph(words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("note: a picture less than 200 px wide has no room for the legend of --show"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(pixels_of(folder / "p.png").height, 100U);
+    expect_refusal(run_orograph(shot_with_legend(folder / "q.png", {"--legend", "--no-legend"})), 2,
+                   {"--legend", "--no-legend"});
+}
+
 TEST(ShotLegend, NeedsAPictureThatIsWideEnough) {
     const fs::path folder = oro::test::scratch_folder();
     Words words = shot_with_legend(folder / "p.png", {"--legend"});
