@@ -33,7 +33,7 @@ struct Casters {
     uvec2 nodes;        // CasterNode, 256 a page
     uvec2 openness;  // float[open_corners^2] for each page of the frame: the share of the sky that its nodes'
                      // corners see
-    uvec2 sun_shares;  // float for each pixel, row by row: what it sees of the sun
+    uvec2 sun_shares;  // float for each pixel, row by row: what it sees of the sun (casters.glsl, share_step)
 };
 ORO_CONST float no_node_m = 1.0e30f;
 // A node of such a page.

@@ -10,9 +10,14 @@ namespace oro {
 namespace {
 
 constexpr int preferred_tile_px = 4096;
-// Around a tile: what its edges depend on (shaders/shade/edges.comp) is 1 px; a multiple of 4, so that
-// shadows are looked for in the same pixels first (shaders/cast/shares.comp).
-constexpr int edge_margin_px = 4;
+// Around a tile of a picture of one sample: an edge depends on the next pixel (shaders/shade/edges.comp). Light
+// depends on the shadows in the next pixel (shaders/cast/cast_on.glsl), and those on shadows 3 px away
+// (shaders/cast/shares.comp). Multiples of 4, so that shadows are looked for in the same pixels first.
+int margin_of(const gpu::FrameStyle& style) {
+    constexpr int edges_px = 4, shadows_px = 8;
+    if (style.shadows != 0) return shadows_px;
+    return style.smooth_edges != 0 ? edges_px : 0;
+}
 
 // What a tile draws: counted once, not for each sample.
 void add_counts(PictureReport& sum, const FrameReport& part) {
@@ -186,9 +191,10 @@ Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, 
                                             const RowSink& sink, const RenderProgress& progress) {
     int tile_width = static_cast<int>(renderer_.extent().width);
     int tile_height = static_cast<int>(renderer_.extent().height);
-    const int margin_px = options_.samples == 1 && style.smooth_edges != 0 ? edge_margin_px : 0;
-    if (tile_width < camera.width_px) tile_width = std::max(1, tile_width - 2 * margin_px);
-    if (tile_height < camera.height_px) tile_height = std::max(1, tile_height - 2 * margin_px);
+    const int margin_px = options_.samples == 1 ? margin_of(style) : 0;
+    if (tile_width < camera.width_px) tile_width -= 2 * margin_px;
+    if (tile_height < camera.height_px) tile_height -= 2 * margin_px;
+    assert(tile_width > 0 && tile_height > 0);
 
     scene.cast(cast_request(style));
     PictureReport report;

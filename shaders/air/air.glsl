@@ -6,6 +6,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer AirTable { 
 const float pi = 3.14159265;
 const float air_top_m = 100000.0;
 const float sun_radius_rad = 0.00465;
+// Share of the sun's disc above a straight edge, `above_rad` from its middle.
+float disc_share(float above_rad) {
+    float x = clamp(above_rad / sun_radius_rad, -1.0, 1.0);
+    return 0.5 + (x * sqrt(max(1.0 - x * x, 0.0)) + asin(x)) / pi;
+}
 
 // The plane of `--earth flat` has the sky of a round Earth.
 float air_radius_m() { return FRAME.earth_radius_m < 1.0e9 ? FRAME.earth_radius_m : 6371000.0; }

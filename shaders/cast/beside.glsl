@@ -77,7 +77,7 @@ float sun_from(CastStart start, bool is_own) {
     CastSearch search = search_from(start);
     uint level = start.level;
     SunLine line = sun_line(start.at);
-    float from_m = 0.0, end_m = line.length_m;
+    float from_m = 0.0, end_m = line.length_m, light = 0.0;
     // Ground of another grid is as high as that grid's casters have it; this grid's may be off from it by a tenth of a pixel's way of the
     // line, and would hide the sun from what lies along its rim. And the first look at this grid's terrain is no step from what was before.
     if (!is_own) {
@@ -90,6 +90,7 @@ float sun_from(CastStart start, bool is_own) {
         if (is_own && i == 0) {
             CastPiece first = piece;
             first.per_m = line.a1.xy * line.per_m;
+            light = min(light_on_start(line, first, start), 0.0);
             search.lift_m += smooth_lift_m(line, first, start.cell, level, start.point, start.west);
         }
         from_m = piece.to_m;
@@ -98,7 +99,7 @@ float sun_from(CastStart start, bool is_own) {
         bool goes_on = look_along(line, piece, start.error_m, level, search);
         if (search.least <= -sun_radius_rad || (is_own && !goes_on)) break;
     }
-    return disc_share(search.least);
+    return kept_share(search, light);
 }
 
 // On the ground of another grid.

@@ -8,6 +8,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CastPlaces 
 #define CASTERS CasterList(FRAME.casters).at.own
 
 const float no_sun_share = -1.0;  // of a pixel without ground
+const float turned_share = -2.0;  // ... on a triangle that is turned away from the sun: none, but none was lost
+// To the share of others are added so many of these as light falls on their triangle.
+const float share_step = 2.0;
+vec4 without_light(vec4 shares) { return shares - share_step * floor(max(shares, vec4(0.0)) / share_step); }
 
 // The number of the page of a level that holds a post of the region, or no_page.
 uint caster_page(uint level, ivec2 post) {

@@ -304,12 +304,6 @@ bool look_along(SunLine line, CastPiece piece, float error_m, inout uint level, 
     return true;
 }
 
-// Share of the sun's disc above a straight edge, `above_rad` from its middle.
-float disc_share(float above_rad) {
-    float x = clamp(above_rad / sun_radius_rad, -1.0, 1.0);
-    return 0.5 + (x * sqrt(max(1.0 - x * x, 0.0)) + asin(x)) / pi;
-}
-
 // How much faster a cell's triangle rises towards the sun than the line does, metres a metre.
 float rise_over(SunLine line, CastPiece piece, CasterCell cell, bool west) {
     ivec4 h = cell.heights;
@@ -320,13 +314,16 @@ float rise_over(SunLine line, CastPiece piece, CasterCell cell, bool west) {
     return dot(rise, piece.per_m) - line.a1.z * line.per_m;
 }
 
+float side_px(CasterCell cell, float distance_m) { return float(cell.to.x - cell.from.x) * CASTERS.row_rad * 6371000.0 * FRAME.pixels_per_tangent / distance_m; }
+const float smooth_from_px = 8.0;
+
 // Metres by which a line begins above its triangle where that, or the next towards the sun, is turned away from the sun, but posts are so
 // large that the ground is shaded smoothly: there the shaded slope tells how much light it gets, and an edge of triangles must not.
 // Nothing where slopes are not shaded at all.
 float smooth_lift_m(SunLine line, CastPiece piece, CasterCell cell, uint level, CastPoint point, bool west) {
     vec2 size = as_floats(cell.to - cell.from), low = vec2(cell.from - point.post);
-    float cell_m = size.x * CASTERS.row_rad * 6371000.0, cell_px = cell_m * FRAME.pixels_per_tangent / point.distance_m;
-    if (FRAME.style.relief < 0.5 || cell_px <= 8.0) return 0.0;
+    float cell_px = side_px(cell, point.distance_m), cell_m = cell_px * point.distance_m / FRAME.pixels_per_tangent;
+    if (FRAME.style.relief < 0.5 || cell_px <= smooth_from_px) return 0.0;
     float over = rise_over(line, piece, cell, west), out_m = max(way_out_of(piece, low, low + size), 0.0);
     vec2 next = piece.at + (out_m + 0.05 * cell_m) * piece.per_m;
     ivec2 post = clamp(point.post + ivec2(floor(next)), ivec2(0), ivec2(FRAME.last_row, FRAME.last_column) - 1);
@@ -336,7 +333,7 @@ float smooth_lift_m(SunLine line, CastPiece piece, CasterCell cell, uint level, 
         vec2 share = (next - vec2(beyond.from - point.post)) / vec2(beyond.to - beyond.from);
         over = max(over, rise_over(line, piece, beyond, west_of_diagonal(beyond, share) >= 0.0));
     }
-    float smoothly = smoothstep(8.0, 24.0, cell_px) * (1.0 - smoothstep(0.25, 0.5, over));
+    float smoothly = smoothstep(smooth_from_px, 24.0, cell_px) * (1.0 - smoothstep(0.25, 0.5, over));
     return smoothly * 2.0 * max(over, 0.0) * (out_m + 0.7 * cell_m);
 }
 
@@ -375,26 +372,15 @@ CastSearch search_from(CastStart start) {
     return CastSearch(start.point.post, int(round(start.at.h_m / height_step_m)), 0.02, 1.1 * sun_radius_rad, 0.0, 0.0, start.level, 0.0, 0.0, 1.0);
 }
 
-#ifndef BESIDE
-float sun_over_terrain(CastPoint point) {
-    CastStart start;
-    if (!starts_on_ground(point, start)) return 1.0;
-    CastSearch search = search_from(start);
-    uint level = start.level;
-    SunLine line = sun_line(start.at);
-    CastPiece piece;
-    piece.from_m = 0.0;
-    piece.at = point.beyond;
-    piece.per_m = line.a1.xy * line.per_m;
-    search.lift_m += smooth_lift_m(line, piece, start.cell, level, point, start.west);
-    for (int i = 0; i < 500 && piece.from_m < line.length_m; ++i) {
-        piece.to_m = min(piece.from_m + cast_piece_m, line.length_m);
-        vec2 end = point.beyond + along(line, piece.to_m).xy;
-        piece.per_m = (end - piece.at) / (piece.to_m - piece.from_m);
-        if (!look_along(line, piece, start.error_m, level, search)) break;
-        piece.from_m = piece.to_m;
-        piece.at = end;
-    }
-    return disc_share(search.least);
+// The sun's light on the triangle that a line begins on, 0 to 63; below 0 where it is turned away; 0 where it is shaded smoothly.
+float light_on_start(SunLine line, CastPiece piece, CastStart start) {
+    if (side_px(start.cell, start.point.distance_m) > smooth_from_px) return 0.0;
+    return floor(63.0 * clamp(-rise_over(line, piece, start.cell, start.west), -1.0, 1.0));
 }
-#endif
+
+// As shares.comp keeps it. A part of the sun stays one, whatever is added to it.
+float kept_share(CastSearch search, float light) {
+    if (light < 0.0 && search.least <= -sun_radius_rad) return turned_share;
+    bool is_part = abs(search.least) < sun_radius_rad;
+    return (is_part ? clamp(disc_share(search.least), 1.0e-4, 0.9999) : step(0.0, search.least)) + max(light, 0.0) * share_step;
+}

@@ -22,6 +22,8 @@ const bool opens = false;
 #include "shaders/cast/shown.glsl"
 #ifdef BESIDE
 #include "shaders/cast/beside.glsl"
+#else
+#include "shaders/cast/over_terrain.glsl"
 #endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -58,7 +60,8 @@ float share_at(ivec2 pixel) {
     return sun_from(start, is_own);
 #else
     if (!is_of_grid(id)) return no_sun_share;
-    return sun_over_terrain(own_point(id, pixel));
+    CastStart start;
+    return starts_on_ground(own_point(id, pixel), start) ? sun_over_terrain(start) : 1.0;
 #endif
 }
 
@@ -76,9 +79,11 @@ float share_around(ivec2 pixel) {
     vec4 b = vec4(shares.at[rows.y + at.x], shares.at[rows.y + at.y], shares.at[rows.y + at.z], shares.at[rows.y + at.w]);
     vec4 c = vec4(shares.at[rows.z + at.x], shares.at[rows.z + at.y], shares.at[rows.z + at.z], shares.at[rows.z + at.w]);
     vec4 d = vec4(shares.at[rows.w + at.x], shares.at[rows.w + at.y], shares.at[rows.w + at.z], shares.at[rows.w + at.w]);
-    float share = a.x;
-    bool is_whole = share == 0.0 || share == 1.0;
-    return is_whole && a == vec4(share) && b == a && c == a && d == a ? share : no_sun_share;
+    float share = without_light(a).x;
+    bool is_whole = share == 0.0 || share == 1.0 || share == turned_share;
+    vec4 all = vec4(share);
+    bool is_one = without_light(a) == all && without_light(b) == all && without_light(c) == all && without_light(d) == all;
+    return is_whole && is_one ? a.x : no_sun_share;
 }
 
 // Behind the shares: how many pixels the second turn lists (none before it), and the workgroups of its dispatch; then the pixels.

@@ -285,6 +285,7 @@ void average_over_pixel(uint number, vec2 region, float undulation_m, inout Surf
     point.page = number;
     point.region = region;
     point.post_m = post_m.x;
+    point.column_m = post_m.y;
     MeansPage near_page = means_page(number);
     if (FRAME.style.footprint == footprint_finest) {
         point.normal = finest_normal(near_page, region, origin_m);

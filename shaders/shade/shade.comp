@@ -38,7 +38,6 @@ layout(constant_id = 7) const bool parts_alone = false;
 #include "shaders/shade/outside.glsl"
 #include "shaders/shade/drape.glsl"
 #include "shaders/shade/ground.glsl"
-#include "shaders/cast/cast_on.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 5) const bool edges_follow = false;  // edges.comp mixes what is in `sum`
@@ -52,6 +51,11 @@ layout(binding = 2, rgba8) uniform writeonly image2D picture;  // sRGB-encoded; 
 void keep_depth(ivec2 pixel, float depth) {
     if (FRAME.depths != uvec2(0u)) Depths(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)] = depth;
 }
+
+uint id_in(ivec2 pixel) {
+    return from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]) : imageLoad(ids, pixel).x;
+}
+#include "shaders/cast/cast_on.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer TilesInParts { uint at[]; };
 uint tile_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
@@ -75,8 +79,7 @@ bool shade(ivec2 pixel) {
     if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return true;
     vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
-    uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
-                           : imageLoad(ids, pixel).x;
+    uint id = id_in(pixel);
     if (FRAME.grids_beside != 0u && is_left_to_others(id)) return true;
     if (id == 0u && parts_alone) return false;
     float depth = 0.0;
@@ -95,7 +98,7 @@ bool shade(ivec2 pixel) {
         SurfacePoint point = surface_at(triangle_of_id(id), ray);
         if (point.is_left) return false;
         depth = FRAME.near_m / -point.view.z;
-        cast_on(point, pixel);
+        cast_on(point, id, pixel);
         look_for_snow(point);
 #ifdef IN_AIR
         place = ground_place(point);

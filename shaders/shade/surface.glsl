@@ -13,7 +13,8 @@ struct SurfacePoint {
     vec2 shaded_post;  // ... and where in it: (row, column), fractional
     uint page;         // of the triangle,
     vec2 region;       // the place in the region,
-    float post_m;      // and metres from its row to the next: where the pixel has means
+    float post_m;      // and metres from its row to the next: where the pixel has means,
+    float column_m;    // ... and from its column to the next
     float mean_H_m; // as H_m, of a part of the pixel's footprint
     int parts;      // of the footprint (footprint.glsl, pixel_ground); 0: the place alone colours the pixel
     bool is_left;   // to the other program of the two that share the pixels (footprint.glsl, one_place_will_do)
@@ -262,6 +263,15 @@ float H_change_per_px(vec3 at[3], vec2 shares, float scale, float heights_m[3]) 
     return length(vec2(dot(along_x, rise_m), dot(along_y, rise_m))) / FRAME.exaggeration;
 }
 
+#ifdef IN_AIR
+float water_of_pixel(FramePage page, vec2 post, SurfacePoint point) {
+    if (!by_means || point.parts == 0) return water_share(page, post);
+    vec2 post_m = power_of_two(page.level) * vec2(point.post_m, point.column_m);
+    mat2 to_next = pixel_ground.to_next;
+    return mean_water_share(page, post, mat2(posts_along(to_next[0], post_m), posts_along(to_next[1], post_m)));
+}
+#endif
+
 SurfacePoint surface_at(uint id, vec3 ray) {
     uvec2 posts[3];
     vec3 at[3];
@@ -307,7 +317,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     }
     point.water = 0.0;
 #ifdef IN_AIR
-    if (FRAME.style.water.on == 1u && !(HAS_NET && FRAME.is_seam != 0u)) point.water = water_share(page, post);
+    if (FRAME.style.water.on == 1u && !(HAS_NET && FRAME.is_seam != 0u)) point.water = water_of_pixel(page, post, point);
 #endif
     if (draped) {
         PageBlocks block = PageBlocks(page.block);

@@ -65,3 +65,13 @@ float water_share(FramePage page, vec2 post) {
     }
     return max(low, smoothstep(0.2, 0.3, between_corners(level, in_cell)));
 }
+
+// Of what a pixel covers: the mean of its four quarters. to_next: posts of the page to what the next pixels show, to the right and below.
+float mean_water_share(FramePage page, vec2 post, mat2 to_next) {
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec2 quarter = post + to_next * (0.5 * vec2(i & 1, i >> 1) - 0.25);
+        sum += water_share(page, clamp(quarter, vec2(0.0), vec2(float(page_quads))));
+    }
+    return 0.25 * sum;
+}

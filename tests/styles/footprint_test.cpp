@@ -9,6 +9,7 @@
 
 #include "apps/drawing/region_scene.h"
 #include "apps/view/style.h"
+#include "core/frame/casters.h"
 #include "geo/region/region.h"
 #include "render/frame/picture_renderer.h"
 #include "tests/support/drawn/made_renderer.h"
@@ -93,6 +94,20 @@ class Footprint : public test::GpuTest {
         return sum / count;
     }
 
+    // Pixels, all ground, with a channel that differs by more than this; and how many there are in all.
+    static std::pair<int, int> far_off(const std::vector<std::uint8_t>& one,
+                                       const std::vector<std::uint8_t>& truth, int codes) {
+        int off = 0, all = 0;
+        for (std::size_t i = 0; i < truth.size(); i += 4) {
+            if (truth[i + 3] != 255 || one[i + 3] != 255) continue;
+            int most = 0;
+            for (std::size_t k = i; k < i + 3; ++k) most = std::max(most, std::abs(one[k] - truth[k]));
+            off += most > codes ? 1 : 0;
+            ++all;
+        }
+        return {off, all};
+    }
+
     // At tau 1 and 0, with smooth edges as pictures have them; beside them what the ground in each pixel's
     // middle gives.
     double hold(const char* what, const Camera& camera, const gpu::FrameStyle& style, double bound) {
@@ -135,6 +150,30 @@ TEST_F(Footprint, IsTheMeanOfSixtyFourSamples) {
     hold("natural, low", over(46.1, 7.5, 4500.0, 0.0, -6.0, 30.0), natural, 2.0);
     hold("natural, low sun", middle_of(over(46.4, 7.5, 40000.0, 0.0, -70.0, 45.0)),
          style("natural", 270.0, 15.0), 2.0);
+}
+
+// One line towards the sun tells of one place; of the many posts in a far pixel most may see it otherwise.
+TEST_F(Footprint, ShadowsOfFarGroundAreNoSpeckle) {
+    const Camera far = over(45.8, 7.5, 60000.0, 0.0, -38.0, 40.0);
+    for (const auto& [azimuth_deg, elevation_deg, most_off, most_codes] :
+         {std::array{315.0, 38.0, 0.02, 2.4}, std::array{250.0, 25.0, 0.04, 3.0}}) {
+        gpu::FrameStyle natural = style("natural", azimuth_deg, elevation_deg);
+        ASSERT_EQ(natural.shadows, 1U);
+        scene_->cast(cast_request(natural));
+        const auto truth = picture(far, natural, gpu::footprint_finest, 0.0, samples);
+        const auto one = picture(far, natural, gpu::footprint_mean, 1.0, 1);
+        natural.shadows = 0;
+        const auto unshadowed = picture(far, natural, gpu::footprint_mean, 1.0, 1);
+        const auto [off, all] = far_off(one, truth, 20);
+        const double mean = difference(one, truth);
+        std::printf(
+            "sun at %.0f deg: %d of %d pixels more than 20 codes off, %.2f in the mean (without "
+            "shadows %d, %.2f)\n",
+            elevation_deg, off, all, mean, far_off(unshadowed, truth, 20).first,
+            difference(unshadowed, truth));
+        EXPECT_LE(off, most_off * all);
+        EXPECT_LE(mean, most_codes);
+    }
 }
 
 TEST_F(Footprint, HoldsForMaps) {
