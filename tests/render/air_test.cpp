@@ -149,6 +149,65 @@ TEST_F(AirTables, SkyIsWhatBruteForceGives) {
     EXPECT_GT(worst, 1e-5) << "a reference that shares nothing is never the same";
 }
 
+// What a pixel shows of light from outside: exposure, the curve of shaders/shade/daylight.glsl, sRGB, in
+// codes.
+double code_of(double radiance, double exposure) {
+    double light = 0.22 * std::pow(std::max(radiance * exposure, 0.0) / 0.22, 1.15);
+    if (light > 0.35) light = 0.35 + 0.65 * (1.0 - std::exp(-(light - 0.35) / 0.65));
+    light = std::clamp(light, 0.0, 1.0);
+    return 255.0 * (light > 0.0031308 ? 1.055 * std::pow(light, 1.0 / 2.4) - 0.055 : 12.92 * light);
+}
+
+// Towards which a pixel looks, of an eye that looks north: east, north, up.
+glm::dvec3 direction_of(int x, int y, double pitch_deg, double fov_deg, int side_px) {
+    const double half = std::tan(fov_deg * pi / 360.0), pitch = pitch_deg * pi / 180.0;
+    const double right = (2.0 * (x + 0.5) / side_px - 1.0) * half,
+                 up = (1.0 - 2.0 * (y + 0.5) / side_px) * half;
+    return glm::normalize(glm::dvec3(0.0, std::cos(pitch), std::sin(pitch)) +
+                          right * glm::dvec3(1.0, 0.0, 0.0) +
+                          up * glm::dvec3(0.0, -std::sin(pitch), std::cos(pitch)));
+}
+
+// Pixels themselves, from the horizon to beyond the zenith: the codes of what the reference integrates,
+// within 2 % of the brightest channel's light (1e-6 of the sun's where all is dark) and one code for dither
+// and rounding. The sun's disc and a degree around it are left out.
+TEST_F(AirTables, PixelsOfTheSkyAreWhatBruteForceGives) {
+    constexpr int side_px = 16;
+    constexpr double fov_deg = 50.0, eye_h_m = 11000.0;
+    std::optional<test::AirReference> reference;
+    int looked_at = 0;
+    for (const double sun_deg : {60.0, 20.0, 5.0, 0.0, -5.0}) {
+        double worst = 0.0;
+        for (const double pitch_deg : {25.0, 70.0}) {
+            Camera camera{{46.85, 8.15, eye_h_m}, {0.0, pitch_deg, 0.0}, fov_deg, side_px, side_px};
+            const test::DrawnFrame frame = scene_->draw(camera, 1.0, lit_style(sun_deg));
+            const auto air = scene_->renderer().read_air();
+            const auto rgba = scene_->renderer().read_picture(side_px, side_px);
+            ASSERT_TRUE(air.ok() && rgba.ok());
+            if (!reference)
+                reference.emplace(clear_air(), static_cast<double>(frame.plan.constants.earth_radius_m));
+            const double exposure = (*air)[3 * std::size_t{gpu::air_exposure_at}], sun = sun_deg * pi / 180.0;
+            const glm::dvec3 to_sun(0.0, std::cos(sun), std::sin(sun));
+            for (int i = 0; i < side_px * side_px; i += 17) {
+                const glm::dvec3 to = direction_of(i % side_px, i / side_px, pitch_deg, fov_deg, side_px);
+                if (glm::dot(to, to_sun) > std::cos(1.3 * pi / 180.0)) continue;
+                const glm::dvec3 truth =
+                    reference->radiance(eye_h_m, std::asin(to.z), std::abs(std::atan2(to.x, to.y)), sun);
+                const double slack = 0.02 * std::max({truth.x, truth.y, truth.z, 1e-6});
+                for (int c = 0; c < 3; ++c) {
+                    const double drawn = (*rgba)[static_cast<std::size_t>(4 * i + c)];
+                    EXPECT_GE(drawn, code_of(truth[c] - slack, exposure) - 1.0) << sun_deg << ", pixel " << i;
+                    EXPECT_LE(drawn, code_of(truth[c] + slack, exposure) + 1.0) << sun_deg << ", pixel " << i;
+                    worst = std::max(worst, std::abs(drawn - code_of(truth[c], exposure)));
+                }
+                ++looked_at;
+            }
+        }
+        std::printf("sun at %.0f deg: within %.2f codes\n", sun_deg, worst);
+    }
+    EXPECT_GE(looked_at, 150);
+}
+
 // A line of sight to the ground by its place in the aerial table (shaders/air/aerial.glsl) that ends between
 // its entries, too.
 struct GroundLine {
