@@ -318,8 +318,8 @@ void Drape::expect_where_proj_puts_it(const Board& board, std::mt19937& random, 
     EXPECT_LE(all.worst_clear_px, 0.5) << board.name;
     // Pixels near the middle between both colours, by blur; seen were 0 to 1.2e-4 of all.
     EXPECT_LE(static_cast<double>(all.far), 3e-4 * static_cast<double>(all.looked_at)) << board.name;
-    EXPECT_GT(static_cast<double>(moved.far), 1e-3 * static_cast<double>(moved.looked_at))
-        << "the measure sees nothing";
+    // How many lie near an edge of the board is a matter of the eyes: from far off it has few.
+    EXPECT_GT(moved.far, 20 * std::max<std::size_t>(all.far, 1)) << "the measure sees nothing";
 }
 
 TEST_F(Drape, IsTheSameByBothWaysOfDrawingAndTwice) {
