@@ -13,6 +13,7 @@
 #include "core/cluster_frame/region_clusters.h"
 #include "core/terrain/ground.h"
 #include "geo/region/region.h"
+#include "tests/support/drawn/cracks.h"
 #include "tests/support/drawn/streamed_frames.h"
 #include "tests/support/test_data.h"
 
@@ -88,6 +89,33 @@ Camera on_the_way(const HeightField& field, int step, int steps, int width_px, i
 
 // A file that is baked beforehand, for that takes long: OROGRAPH_TEST_CLUSTERS names it
 // (orograph bake --mesh clusters). Frames that wait and, in the end, frames that do not.
+std::uint64_t bytes_of(test::DrawnScene& drawn) {
+    return drawn.scene().store().bytes() + drawn.scene().clusters()->store().bytes();
+}
+
+// Frames that do not wait.
+struct FlownWay {
+    int frames{}, coarser{}, looked_at{}, holes{};
+};
+
+// From where the flight came to the next eye. settled: ids of what is to be seen there.
+void fly_on(test::DrawnScene& flown, const Camera& camera, const std::vector<std::uint32_t>& settled,
+            std::uint64_t budget, FlownWay& way) {
+    // Where the data end there is background below ground.
+    const bool is_whole = test::pixel_of_a_hole(camera, settled) < 0;
+    const test::StreamedFrames streamed =
+        test::stream_frames(flown, camera, 1.0, [&](const test::DrawnFrame& frame) {
+            EXPECT_EQ(frame.plan.clusters.without_room, 0U);
+            EXPECT_LE(bytes_of(flown), budget);
+            way.looked_at += is_whole ? 1 : 0;
+            way.holes += is_whole && test::pixel_of_a_hole(camera, frame.ids) >= 0 ? 1 : 0;
+        });
+    ASSERT_TRUE(streamed.last.plan.is_settled()) << "eye at " << camera.eye.h_m << " m";
+    ASSERT_EQ(settled, streamed.last.ids) << "eye at " << camera.eye.h_m << " m";
+    way.frames += streamed.frames;
+    way.coarser += streamed.coarser;
+}
+
 TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
     const char* const path = std::getenv("OROGRAPH_TEST_CLUSTERS");
     if (!path) GTEST_SKIP() << "needs a baked file with clusters";
@@ -110,12 +138,9 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
         return drawn;
     };
     const auto all = scene_of(std::uint64_t{1} << 30U), few = scene_of(budget), flown = scene_of(budget);
-    const auto bytes_of = [](test::DrawnScene& drawn) {
-        return drawn.scene().store().bytes() + drawn.scene().clusters()->store().bytes();
-    };
     constexpr int steps = 24;
     std::size_t ground = 0;
-    int frames = 0, coarser = 0;
+    FlownWay way;
     for (int i = 0; i <= steps; ++i) {
         const Camera camera = on_the_way(*field, i, steps, width_px, height_px);
         const test::DrawnFrame free = all->draw(camera, 1.0), bound = few->draw(camera, 1.0);
@@ -123,15 +148,8 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
         ASSERT_TRUE(bound.plan.missing.empty()) << "frame " << i << " is not settled";
         ASSERT_EQ(free.ids, bound.ids) << "frame " << i;
         ASSERT_LE(bytes_of(*few), budget);
-        const test::StreamedFrames streamed =
-            test::stream_frames(*flown, camera, 1.0, [&](const test::DrawnFrame& frame) {
-                EXPECT_EQ(frame.plan.clusters.without_room, 0U);
-                EXPECT_LE(bytes_of(*flown), budget);
-            });
-        ASSERT_TRUE(streamed.last.plan.is_settled()) << "frame " << i;
-        ASSERT_EQ(free.ids, streamed.last.ids) << "frame " << i;
-        frames += streamed.frames;
-        coarser += streamed.coarser;
+        fly_on(*flown, camera, free.ids, budget, way);
+        if (HasFatalFailure()) return;
         ground += bound.ids.size() - static_cast<std::size_t>(std::ranges::count(bound.ids, 0U));
     }
     std::printf(
@@ -144,9 +162,13 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
                                  all->scene().clusters()->store().bytes_sent()) /
             sizeof(gpu::ClusterBlock),
         static_cast<std::size_t>(all->scene().clusters()->store().bytes_sent()) / sizeof(gpu::ClusterBlock));
-    std::printf("without waiting: %d frames, %d of them coarser, %.1f MB on the GPU\n", frames, coarser,
-                static_cast<double>(bytes_of(*flown)) * 1e-6);
+    std::printf(
+        "without waiting: %d frames, %d of them coarser, %.1f MB on the GPU; %d holes in the %d that were "
+        "looked at\n",
+        way.frames, way.coarser, static_cast<double>(bytes_of(*flown)) * 1e-6, way.holes, way.looked_at);
     EXPECT_GT(ground, 100'000U);
+    EXPECT_EQ(way.holes, 0);
+    EXPECT_GT(way.looked_at, steps);
 }
 
 }  // namespace

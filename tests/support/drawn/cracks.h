@@ -46,20 +46,21 @@ inline Camera random_camera(std::mt19937_64& random, const HeightField& field) {
 inline int pixel_of_a_hole(const Camera& camera, const std::vector<std::uint32_t>& ids) {
     const glm::dvec3 up = camera.view_from_ecef() * ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg)[2];
     const glm::dvec2 tangent = camera.half_fov_tangent();
+    const int width_px = camera.width_px, height_px = camera.height_px;
     const auto is_ground = [&](int x, int y) {
-        if (x < 1 || y < 1 || x > crack_side_px - 2 || y > crack_side_px - 2) return false;
+        if (x < 1 || y < 1 || x > width_px - 2 || y > height_px - 2) return false;
         for (int dy = -1; dy <= 1; ++dy) {
             for (int dx = -1; dx <= 1; ++dx) {
-                if (ids[static_cast<std::size_t>((y + dy) * crack_side_px + x + dx)] == 0) return false;
+                if (ids[static_cast<std::size_t>((y + dy) * width_px + x + dx)] == 0) return false;
             }
         }
         return true;
     };
-    for (int at = 0; at < crack_side_px * crack_side_px; ++at) {
+    for (int at = 0; at < width_px * height_px; ++at) {
         if (ids[static_cast<std::size_t>(at)] != 0) continue;
-        const glm::dvec2 pixel(at % crack_side_px + 0.5, at / crack_side_px + 0.5);
-        const glm::dvec3 ray((2.0 * pixel.x / crack_side_px - 1.0) * tangent.x,
-                             (1.0 - 2.0 * pixel.y / crack_side_px) * tangent.y, -1.0);
+        const glm::dvec2 pixel(at % width_px + 0.5, at / width_px + 0.5);
+        const glm::dvec3 ray((2.0 * pixel.x / width_px - 1.0) * tangent.x,
+                             (1.0 - 2.0 * pixel.y / height_px) * tangent.y, -1.0);
         // The picture's movement when the ray turns towards the zenith.
         const glm::dvec3 turn = up - ray * (glm::dot(up, ray) / glm::dot(ray, ray));
         const glm::dvec2 step(turn.x + ray.x * turn.z, -(turn.y + ray.y * turn.z));
