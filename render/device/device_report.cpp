@@ -30,13 +30,20 @@ void describe_properties(VkPhysicalDevice physical, DeviceReport& report) {
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     vulkan11.pNext = &vulkan12;
     properties.pNext = &vulkan11;
-    if (report.mesh_shader) vulkan12.pNext = &mesh;
+    VkPhysicalDeviceVulkan13Properties vulkan13{};
+    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES;
+    vulkan12.pNext = &vulkan13;
+    if (report.mesh_shader) vulkan13.pNext = &mesh;
     vkGetPhysicalDeviceProperties2(physical, &properties);
     const VkPhysicalDeviceLimits& limits = properties.properties.limits;
     report.name = properties.properties.deviceName;
     report.driver = std::string(vulkan12.driverName) + " " + vulkan12.driverInfo;
     report.vulkan_version = properties.properties.apiVersion;
     report.subgroup_size = vulkan11.subgroupSize;
+    report.mesh_ballots = vulkan13.minSubgroupSize == vulkan13.maxSubgroupSize &&
+                          (vulkan11.subgroupSupportedStages & VK_SHADER_STAGE_MESH_BIT_EXT) != 0 &&
+                          (vulkan11.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0 &&
+                          vulkan11.subgroupSize <= mesh.maxMeshWorkGroupInvocations;
     report.max_picture_side_px =
         std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight,
                   limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]});
@@ -68,6 +75,7 @@ Result<void> describe_lacks(VkPhysicalDevice physical, const GpuOptions& options
     if (!vulkan13.dynamicRendering) report.lacks.push_back(DeviceLack::dynamic_rendering);
     if (!vulkan13.maintenance4) report.lacks.push_back(DeviceLack::maintenance4);
     report.mesh_shader = report.mesh_shader && mesh.meshShader && mesh.taskShader;
+    report.mesh_ballots = report.mesh_ballots && report.mesh_shader && vulkan13.computeFullSubgroups;
     report.compute_raster =
         !options.without_compute_raster && features.features.shaderInt64 && vulkan12.shaderBufferInt64Atomics;
     report.fragment_stores = features.features.fragmentStoresAndAtomics == VK_TRUE;
@@ -129,7 +137,8 @@ Result<DeviceReport> describe_device(VkPhysicalDevice physical, const GpuOptions
 }
 
 MeshletSplit meshlet_split_for(MeshletSplit request, const DeviceReport& device) {
-    if (request != MeshletSplit::by_device) return request;
+    if (request == MeshletSplit::whole || !device.mesh_ballots) return MeshletSplit::whole;
+    if (request == MeshletSplit::halves) return MeshletSplit::halves;
     // Measured on a card whose subgroups have so many (docs/BENCHMARKS.md, L).
     constexpr std::uint32_t of_halves = 32;
     return device.subgroup_size == of_halves ? MeshletSplit::halves : MeshletSplit::whole;

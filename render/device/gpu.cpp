@@ -191,6 +191,7 @@ Result<void> Gpu::create_device(const GpuOptions& options) {
     VkPhysicalDeviceVulkan13Features vulkan13{};
     vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     vulkan13.synchronization2 = vulkan13.dynamicRendering = vulkan13.maintenance4 = VK_TRUE;
+    vulkan13.computeFullSubgroups = report_.mesh_ballots ? VK_TRUE : VK_FALSE;
     if (report_.mesh_shader) vulkan13.pNext = &mesh;
     VkPhysicalDeviceVulkan12Features vulkan12{};
     vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;

@@ -49,6 +49,7 @@ struct DeviceReport {
     bool compute_raster{};           // 64-bit integers and atomics in buffers: the compute path runs
     MeshShaderLimits mesh;
     std::uint32_t subgroup_size{};
+    bool mesh_ballots{};                  // mesh shaders vote, in whole subgroups of that one size
     std::uint32_t max_picture_side_px{};  // largest image and framebuffer side
     std::uint64_t memory_bytes{};         // of the largest device-local heap
     std::vector<DeviceLack> lacks;
@@ -81,7 +82,8 @@ std::string name_of(RasterPath path);
 // What a mesh workgroup draws at a time: as many whole meshlets as it has room for, or half of one. The
 // triangle ids are the same.
 enum class MeshletSplit { by_device, whole, halves };
-// What by_device means on a device; the others are themselves. Never by_device.
+// What a device draws where so much is asked: halves only where it has mesh_ballots, of itself where its
+// subgroups have 32 besides. Never by_device.
 MeshletSplit meshlet_split_for(MeshletSplit request, const DeviceReport& device);
 
 struct Pipelines;  // render/frame/pipelines.h

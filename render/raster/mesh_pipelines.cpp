@@ -109,6 +109,7 @@ Result<OwnedPipeline> create_raster_pipeline(const Gpu& gpu, const Pipelines& pi
 struct TerrainStages {
     std::span<const std::uint32_t> task_words, mesh_words;
     StageConstants task, mesh;
+    bool whole_subgroups{};  // mesh workgroups vote (shaders/raster/slots.glsl)
 };
 
 Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& pipelines,
@@ -124,9 +125,10 @@ Result<OwnedPipeline> create_terrain_pipeline(const Gpu& gpu, const Pipelines& p
     const VkSpecializationInfo task_info{3, stage_constants_map.data(), sizeof(of.task), &of.task};
     const VkSpecializationInfo mesh_info{4, stage_constants_map.data(), sizeof(of.mesh), &of.mesh};
     const AllConstants mesh_all(&mesh_info, pipelines);
-    const std::array stages{stage(VK_SHADER_STAGE_TASK_BIT_EXT, task, &task_info),
-                            stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, mesh_all.info()),
-                            stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
+    std::array stages{stage(VK_SHADER_STAGE_TASK_BIT_EXT, task, &task_info),
+                      stage(VK_SHADER_STAGE_MESH_BIT_EXT, mesh, mesh_all.info()),
+                      stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, nullptr)};
+    if (of.whole_subgroups) stages[1].flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
     return create_raster_pipeline(gpu, pipelines, stages, ties, ties ? "terrain ties" : "terrain");
 }
 
@@ -144,23 +146,26 @@ TerrainStages stages_of_meshlets(const Gpu& gpu) {
     const bool two = limits.max_output_vertices >= 2 * gpu::meshlet_vertices &&
                      limits.max_output_primitives >= 2 * gpu::meshlet_triangles &&
                      limits.preferred_mesh_invocations >= gpu::meshlet_triangles;
-    TerrainStages of{
-        .task_words = terrain_task_spirv, .mesh_words = terrain_mesh_spirv, .task = {}, .mesh = {}};
+    TerrainStages of{.task_words = terrain_task_spirv,
+                     .mesh_words = terrain_mesh_spirv,
+                     .task = {},
+                     .mesh = {},
+                     .whole_subgroups = false};
     if (two) of.mesh_words = terrain_mesh_two_spirv;
     of.mesh.local_size = mesh_group_size(gpu);
     of.mesh.parts_per_group = two ? 2 : 1;
     return of;
 }
 
-// Workgroups of half a meshlet each. Measured on an H100: of 32 invocations they take least, and of 64 more
-// than whole meshlets (docs/BENCHMARKS.md, L).
+// Workgroups of half a meshlet and one subgroup each. Measured on an H100 and an H200, whose subgroups have
+// 32: of 64 invocations they take more than whole meshlets (docs/BENCHMARKS.md, L).
 TerrainStages stages_of_halves(const Gpu& gpu) {
-    constexpr std::uint32_t invocations = 32;
     TerrainStages of{.task_words = terrain_task_halves_spirv,
                      .mesh_words = terrain_mesh_halves_spirv,
                      .task = {},
-                     .mesh = {}};
-    of.mesh.local_size = std::min(invocations, gpu.report().mesh.max_mesh_invocations);
+                     .mesh = {},
+                     .whole_subgroups = true};
+    of.mesh.local_size = gpu.report().subgroup_size;
     of.mesh.parts_per_group = 1;
     return of;
 }

@@ -76,6 +76,10 @@ double PageStore::bytes_a_post() const {
     return static_cast<double>(sent_height_bytes_) / (static_cast<double>(sent_pages_) * posts);
 }
 
+double PageStore::means_bytes_a_post() const {
+    return static_cast<double>(block_offset_) / (gpu::page_quads * gpu::page_quads);
+}
+
 double PageStore::bytes_a_page() const {
     const double all = sent_pages_ == 0 ? static_cast<double>(page_bytes_)
                                         : static_cast<double>(sent_bytes_) / static_cast<double>(sent_pages_);

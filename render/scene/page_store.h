@@ -92,6 +92,8 @@ class PageStore {
     // its 128 x 128 posts, bounds of nodes apart.
     [[nodiscard]] double bytes_a_page() const;
     [[nodiscard]] double bytes_a_post() const;
+    // What a page keeps besides, means of the ground and places on a net, for each of those posts.
+    [[nodiscard]] double means_bytes_a_post() const;
     [[nodiscard]] const HeightQuantization& coding() const { return coding_; }
 
   private:

@@ -182,6 +182,9 @@ TEST_F(Halves, ExplainAFrameAsWholeMeshletsDo) {
 TEST(MeshletSplits, FollowTheDeviceWhereNobodyAsks) {
     DeviceReport device;
     device.subgroup_size = 32;
+    for (const MeshletSplit request : {MeshletSplit::by_device, MeshletSplit::whole, MeshletSplit::halves})
+        EXPECT_EQ(meshlet_split_for(request, device), MeshletSplit::whole) << "no ballots";
+    device.mesh_ballots = true;
     EXPECT_EQ(meshlet_split_for(MeshletSplit::by_device, device), MeshletSplit::halves);
     EXPECT_EQ(meshlet_split_for(MeshletSplit::whole, device), MeshletSplit::whole);
     for (const std::uint32_t size : {4U, 8U, 16U, 64U}) {

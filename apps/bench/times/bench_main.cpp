@@ -181,11 +181,15 @@ Result<void> run_bench(const BenchOptions& options) {
     }
     json["page_bytes"] = scene.store().bytes_a_page();
     json["bytes_a_post"] = scene.store().bytes_a_post();
+    json["means_bytes_a_post"] = scene.store().means_bytes_a_post();
     if (options.json)
         std::printf("%s\n", json.dump().c_str());
     else
-        std::printf("%.2f bytes a post, bounds of nodes apart; %.0f bytes a page\n",
-                    scene.store().bytes_a_post(), scene.store().bytes_a_page());
+        std::printf(
+            "%.2f bytes a post, bounds of nodes apart; %.0f bytes a page; means of the ground take %.2f more "
+            "a "
+            "post\n",
+            scene.store().bytes_a_post(), scene.store().bytes_a_page(), scene.store().means_bytes_a_post());
     return {};
 }
 

@@ -38,6 +38,15 @@ TEST_F(Store, NeverHoldsMoreThanItsCapacity) {
     EXPECT_EQ(*store->send(some(300, 1)), 1U) << "it is here already";
 }
 
+TEST_F(Store, TellsWhatMeansTakeBesides) {
+    auto plain = PageStore::create(*gpu_, 5);
+    auto with = PageStore::create(*gpu_, 5, {}, {.means = true});
+    ASSERT_TRUE(plain.ok() && with.ok());
+    EXPECT_EQ(plain->means_bytes_a_post(), 0.0);
+    EXPECT_EQ(with->means_bytes_a_post(), 136.0 * 136 * 12 / (128 * 128)) << "136 x 136 squares of 12 bytes";
+    EXPECT_EQ(with->bytes_a_post(), plain->bytes_a_post());
+}
+
 // What other ground hides gives way before what shows, and takes no slot of what was shown lately.
 TEST_F(Store, HiddenPagesGiveWayFirst) {
     auto store = PageStore::create(*gpu_, 20);
