@@ -176,11 +176,11 @@ void add_plan(CLI::App& app, PlanOptions& options) {
         ->description(
             "How far off the picture may be, 0.001 to 1000, e.g. 1px (default 1px). Errors are judged by "
             "it.");
-    hide(command, {"--style",        "--drape",          "--drape-opacity", "--names",        "--names-field",
-                   "--overlay",      "--overlay-colour", "--overlay-width", "--overlay-fill", "--sun",
-                   "--sun-time",     "--visibility",     "--sea",           "--rim",          "--shadows",
-                   "--sky-openness", "--labels",         "--edges",         "--samples",      "--pipeline",
-                   "--show",         "--mesh",           "--mesh-level"});
+    hide(command, {"--style",       "--drape",        "--drape-opacity",  "--drape-values",  "--names",
+                   "--names-field", "--overlay",      "--overlay-colour", "--overlay-width", "--overlay-fill",
+                   "--sun",         "--sun-time",     "--visibility",     "--sea",           "--rim",
+                   "--shadows",     "--sky-openness", "--labels",         "--edges",         "--samples",
+                   "--pipeline",    "--show",         "--mesh",           "--mesh-level"});
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},

@@ -86,12 +86,7 @@ void add_show(OptionGroup& looks, ViewOptions& options) {
         "file that was baked with clusters. A legend says which colour is what. For pictures of one sample.");
 }
 
-void add_look_options(CLI::App& command, ViewOptions& options) {
-    OptionGroup looks(command, "Looks");
-    looks.option(
-        "--style", options.style, "NAME",
-        "Colours of the ground and the sky: a style that comes with the program (default: natural), "
-        "a .json file of your own, or a .txt file: a colour table as gdaldem color-relief reads it.");
+void add_drape_options(OptionGroup& looks, ViewOptions& options) {
     looks
         .option("--drape", options.drape, "FILE",
                 "Lay an image over the ground: an orthophoto, a satellite scene or a map, any raster with a "
@@ -101,6 +96,20 @@ void add_look_options(CLI::App& command, ViewOptions& options) {
     looks.number("--drape-opacity", options.drape_opacity, "SHARE",
                  "How much images hide of the style's colours, " + span(view_limits::drape_opacity) +
                      " (default 1: all). Needs --drape.");
+    looks.choice(
+        "--drape-values", options.drape_values, drape_values_words(),
+        "What the values of images are: codes of sRGB, as a picture program writes them, or reflectance, "
+        "linear light that is stretched from its darkest to its brightest. auto (default): bytes are codes; "
+        "other numbers are what their ICC profile says, and reflectance without one. Needs --drape.");
+}
+
+void add_look_options(CLI::App& command, ViewOptions& options) {
+    OptionGroup looks(command, "Looks");
+    looks.option(
+        "--style", options.style, "NAME",
+        "Colours of the ground and the sky: a style that comes with the program (default: natural), "
+        "a .json file of your own, or a .txt file: a colour table as gdaldem color-relief reads it.");
+    add_drape_options(looks, options);
     add_vector_options(looks, options);
     CLI::Option& sun = looks.option(
         "--sun", options.sun, "AZIMUTH,ELEVATION",

@@ -54,7 +54,8 @@ struct ViewOptions {
     std::optional<std::string> rim;
     std::vector<std::string> drape;  // images over the ground, the last on top
     std::optional<double> drape_opacity;
-    std::vector<std::string> names;  // vector files whose points are named
+    std::optional<std::string> drape_values;  // auto, codes, reflectance
+    std::vector<std::string> names;           // vector files whose points are named
     std::optional<std::string> names_field;
     std::vector<std::string> overlay;  // vector files that lie on the ground
     std::optional<std::string> overlay_colour;

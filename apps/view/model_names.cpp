@@ -37,6 +37,9 @@ constexpr Names<Show, 7> shows{{{"visible", Show::visible},
                                 {"overdraw", Show::overdraw},
                                 {"clusters", Show::clusters},
                                 {"groups", Show::groups}}};
+constexpr Names<ImageValues, 3> values_of_images{{{"auto", ImageValues::by_file},
+                                                  {"codes", ImageValues::codes},
+                                                  {"reflectance", ImageValues::reflectance}}};
 constexpr Names<Edges, 2> edges_of_ground{{{"smooth", Edges::smooth}, {"steps", Edges::steps}}};
 
 template <class Choice, std::size_t count>
@@ -81,6 +84,9 @@ Result<Show> show_named(const std::string& name) {
 Result<Edges> edges_named(const std::string& name) {
     return named("--edges", edges_of_ground, name);
 }
+Result<ImageValues> drape_values_named(const std::string& name) {
+    return named("--drape-values", values_of_images, name);
+}
 Result<std::optional<bool>> labels_named(const std::string& name) {
     return named("--labels", labels_of_view, name);
 }
@@ -120,6 +126,12 @@ const char* name_of(Show show) {
 }
 const char* name_of(Edges edges) {
     return name_in(edges_of_ground, edges);
+}
+std::vector<std::string> drape_values_words() {
+    return words_of(values_of_images);
+}
+const char* name_of(ImageValues values) {
+    return name_in(values_of_images, values);
 }
 std::vector<std::string> geoid_words() {
     return words_of(geoids);

@@ -10,14 +10,15 @@
 namespace oro {
 
 // What a name stands for. Usage errors for unknown ones.
-Result<Earth> earth_named(const std::string& name);            // "ellipsoid", "sphere", "flat"
-Result<Precision> precision_named(const std::string& name);    // "relative", "naive"
-Result<bool> geoid_named(const std::string& name);             // "egm96": true, "none"
-Result<HeightStorage> heights_named(const std::string& name);  // "f32", "packed", "i16"
-Result<Sea> sea_named(const std::string& name);                // "level", "low", "voids"
-Result<Rim> rim_named(const std::string& name);                // "skirt", "none"
-Result<Show> show_named(const std::string& name);              // "visible", "levels", ...
-Result<Edges> edges_named(const std::string& name);            // "smooth", "steps"
+Result<Earth> earth_named(const std::string& name);               // "ellipsoid", "sphere", "flat"
+Result<Precision> precision_named(const std::string& name);       // "relative", "naive"
+Result<bool> geoid_named(const std::string& name);                // "egm96": true, "none"
+Result<HeightStorage> heights_named(const std::string& name);     // "f32", "packed", "i16"
+Result<Sea> sea_named(const std::string& name);                   // "level", "low", "voids"
+Result<Rim> rim_named(const std::string& name);                   // "skirt", "none"
+Result<Show> show_named(const std::string& name);                 // "visible", "levels", ...
+Result<Edges> edges_named(const std::string& name);               // "smooth", "steps"
+Result<ImageValues> drape_values_named(const std::string& name);  // "auto", "codes", "reflectance"
 Result<std::optional<bool>> labels_named(
     const std::string& name);  // "on", "off", "style": as the style has it
 
@@ -30,10 +31,12 @@ std::vector<std::string> air_words();
 std::vector<std::string> sea_words();
 std::vector<std::string> rim_words();
 std::vector<std::string> edges_words();
+std::vector<std::string> drape_values_words();
 std::vector<std::string> show_words();
 const char* name_of(Sea sea);
 const char* name_of(Rim rim);
 const char* name_of(Edges edges);
+const char* name_of(ImageValues values);
 const char* name_of(Show show);
 const char* name_of(HeightStorage heights);
 

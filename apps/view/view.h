@@ -81,6 +81,7 @@ struct View {
     bool rim_asked{};
     std::vector<std::string> drape;  // images over the ground, the last on top
     double drape_opacity{1.0};
+    ImageValues drape_values{ImageValues::by_file};
     std::vector<ImageSource> images;                  // these files, from open_view on
     VectorChoices vectors;                            // names and lines from files
     std::shared_ptr<const VectorsRead> vectors_read;  // what is in them, from open_view on; null: no files

@@ -106,6 +106,7 @@ void read_drape(const nlohmann::json& json, View& view) {
     for (const nlohmann::json& file : files)
         view.drape.push_back(path_from(as_field("files", file), "files"));
     view.drape_opacity = number(drape, "opacity", limits::drape_opacity);
+    read_choice(drape, "values", drape_values_named, view.drape_values);
 }
 
 ordered_json drape_json(const View& view) {
@@ -113,6 +114,7 @@ ordered_json drape_json(const View& view) {
     json["files"] = ordered_json::array();
     for (const std::string& file : view.drape) json["files"].push_back(path_json(file));
     json["opacity"] = view.drape_opacity;
+    if (view.drape_values != ImageValues::by_file) json["values"] = name_of(view.drape_values);
     return json;
 }
 

@@ -67,7 +67,7 @@ Result<void> open_images(View& view) {
     for (const std::string& file : view.drape) {
         ORO_TRY(const bool there, is_there(file));
         if (!there && !file.starts_with("/vsi")) return Error{ErrorKind::failed, file, "no such image"};
-        ORO_TRY(ImageSource image, open_image(file));
+        ORO_TRY(ImageSource image, open_image(file, view.drape_values));
         view.prints->images.push_back({std::filesystem::path(file).filename().string(), image.print});
         view.images.push_back(std::move(image));
     }
@@ -101,16 +101,16 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         ORO_TRY(view, read_view(view_file));
         ORO_CHECK(check_map(view, view_options, view_file));
         ORO_CHECK(check_kind(view, view_file, kind));
-        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
-                             !view_options.style && !view_options.visibility_km && !view_options.sun &&
-                                 !view_options.sun_time && !view_options.sea && !view_options.rim &&
-                                 view_options.drape.empty() && !view_options.drape_opacity &&
-                                 !view_options.shadows && view_options.names.empty() &&
-                                 !view_options.names_field && view_options.overlay.empty() &&
-                                 !view_options.overlay_colour && !view_options.overlay_width_px &&
-                                 !view_options.overlay_fill && !view_options.sky_openness &&
-                                 !view_options.labels && !view_options.edges && !view_options.show,
-                             view.prints};
+        view.told = ToldView{
+            view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
+            !view_options.style && !view_options.visibility_km && !view_options.sun &&
+                !view_options.sun_time && !view_options.sea && !view_options.rim &&
+                view_options.drape.empty() && !view_options.drape_opacity && !view_options.drape_values &&
+                !view_options.shadows && view_options.names.empty() && !view_options.names_field &&
+                view_options.overlay.empty() && !view_options.overlay_colour &&
+                !view_options.overlay_width_px && !view_options.overlay_fill && !view_options.sky_openness &&
+                !view_options.labels && !view_options.edges && !view_options.show,
+            view.prints};
         ORO_CHECK(change_view(view, view_options));
         // A sun that its file told stays where the file has it: the same view, the same bytes.
         if (view_options.sun_time) aim_sun(view.sun, view.camera.eye);

@@ -84,10 +84,16 @@ Result<void> apply_sun(View& view, const ViewOptions& options) {
 
 Result<void> apply_drape(View& view, const ViewOptions& options) {
     if (!options.drape.empty()) view.drape = options.drape;
-    if (!options.drape_opacity) return {};
-    if (view.drape.empty()) return refused("--drape-opacity", "", "says nothing without --drape FILE");
-    ORO_TRY(view.drape_opacity,
-            within("--drape-opacity", *options.drape_opacity, view_limits::drape_opacity));
+    if (view.drape.empty() && (options.drape_opacity || options.drape_values))
+        return refused(options.drape_opacity ? "--drape-opacity" : "--drape-values", "",
+                       "says nothing without --drape FILE");
+    if (options.drape_opacity) {
+        ORO_TRY(view.drape_opacity,
+                within("--drape-opacity", *options.drape_opacity, view_limits::drape_opacity));
+    }
+    if (options.drape_values) {
+        ORO_TRY(view.drape_values, drape_values_named(*options.drape_values));
+    }
     return {};
 }
 

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "core/base/checksum.h"
 #include "core/base/open_file.h"
+#include "geo/drape/image_values.h"
 #include "geo/files/guarded_files.h"
 #include "geo/sources/raster_crs.h"
 #include "geo/sources/raster_library.h"
@@ -69,14 +71,9 @@ Result<void> place(ImageSource& image, GDALDatasetH dataset) {
     return {};
 }
 
-// Of values that are no bytes and taken for light: 2 in 100 of a sample are darker than black, 2 lighter than
-// white.
-Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, const GdalMessages& messages) {
-    const auto is_byte = [&](int band) {
-        return GDALGetRasterDataType(GDALGetRasterBand(dataset, band)) == GDT_Byte;
-    };
-    if (image.palette || std::ranges::all_of(image.bands, is_byte)) return {};
-    image.is_light = true;
+// Values of all bands of an image that are some, at most 512 x 512 pixels of it.
+Result<std::vector<float>> sample_of(const ImageSource& image, GDALDatasetH dataset,
+                                     const GdalMessages& messages) {
     constexpr int most = 512;
     const int columns = std::min(image.columns, most), rows = std::min(image.rows, most);
     const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
@@ -93,7 +90,11 @@ Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, const GdalMe
             if (valid[i] != 0 && std::isfinite(values[i])) sample.push_back(values[i]);
         }
     }
-    if (sample.empty()) return {};
+    return sample;
+}
+
+// Of light 2 in 100 of a sample are darker than black, 2 lighter than white.
+void stretch(ImageSource& image, std::vector<float> sample) {
     const auto at = [&](double share) {
         const auto place =
             sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
@@ -102,16 +103,36 @@ Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, const GdalMe
     };
     image.black = at(0.02);
     image.white = std::max(at(0.98), std::nextafter(image.black, INFINITY));
+}
+
+Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, ImageValues values,
+                          const GdalMessages& messages) {
+    if (image.palette) return {};
+    const bool are_bytes = std::ranges::all_of(image.bands, [&](int band) {
+        return GDALGetRasterDataType(GDALGetRasterBand(dataset, band)) == GDT_Byte;
+    });
+    if (values == ImageValues::by_file) values = values_in(dataset, image.bands);
+    image.is_light = values == ImageValues::reflectance;
+    if (are_bytes && !image.is_light) return {};
+    ORO_TRY(std::vector<float> sample, sample_of(image, dataset, messages));
+    if (sample.empty()) return {};
+    if (image.is_light) {
+        stretch(image, std::move(sample));
+    } else {
+        const auto largest = static_cast<double>(*std::ranges::max_element(sample));
+        for (const int band : image.bands)
+            image.white = std::max(band == image.bands.front() ? 0.0 : image.white,
+                                   white_code(GDALGetRasterBand(dataset, band), largest));
+    }
     char text[160];
-    std::snprintf(
-        text, sizeof text,
-        ": its values are no bytes and taken for linear light; %.6g is shown as black, %.6g as white",
-        image.black, image.white);
+    std::snprintf(text, sizeof text, ": its values are %staken for %s; %.6g is shown as black, %.6g as white",
+                  are_bytes ? "" : "no bytes and ", image.is_light ? "linear light" : "sRGB codes",
+                  image.black, image.white);
     image.notes.push_back(image.file + text);
     return {};
 }
 
-Result<void> describe(ImageSource& image, const GdalMessages& messages) {
+Result<void> describe(ImageSource& image, ImageValues values, const GdalMessages& messages) {
     ORO_TRY(const RasterParts parts, parts_of_raster(image.file));
     const Dataset dataset(GDALOpenEx(image.file.c_str(),
                                      GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
@@ -123,7 +144,7 @@ Result<void> describe(ImageSource& image, const GdalMessages& messages) {
     image.rows = GDALGetRasterYSize(dataset.get());
     ORO_CHECK(choose_bands(image, dataset.get()));
     ORO_CHECK(place(image, dataset.get()));
-    ORO_CHECK(choose_range(image, dataset.get(), messages));
+    ORO_CHECK(choose_range(image, dataset.get(), values, messages));
     image.files = parts.files;
     const CPLStringList listed(GDALGetFileList(dataset.get()));
     for (int i = 0; i < listed.size(); ++i) {
@@ -136,13 +157,13 @@ Result<void> describe(ImageSource& image, const GdalMessages& messages) {
 
 }  // namespace
 
-Result<ImageSource> open_image(const std::string& file) {
+Result<ImageSource> open_image(const std::string& file, ImageValues values) {
     start_gdal();
     const GdalMessages messages;
     const FileWatch watch(opening_limit_s);
     ImageSource image;
     image.file = file;
-    const Result<void> described = describe(image, messages);
+    const Result<void> described = describe(image, values, messages);
     if (!watch.fault().empty()) return Error{ErrorKind::failed, file, watch.fault()};
     if (!described.ok())
         return Error{described.error().kind,

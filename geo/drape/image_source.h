@@ -11,6 +11,13 @@
 
 namespace oro {
 
+// What the values of an image stand for.
+enum class ImageValues {
+    by_file,     // as the file tells: values_in()
+    codes,       // of sRGB
+    reflectance  // light, linear
+};
+
 struct ImageSource {
     std::string file;
     int columns{};
@@ -23,8 +30,8 @@ struct ImageSource {
     std::array<double, 6> pixel_from_crs{};
     std::vector<int> bands;  // red, green, blue; or one: grey, or numbers in a palette
     bool palette{};
-    // Stored values that become 0 and 255: those of bytes, or of most of the values where there are other
-    // numbers. Bytes are sRGB codes; other numbers are light, encoded as they are read.
+    // Stored values that become 0 and 255. Of codes of sRGB all that there may be; of light, which is encoded
+    // as it is read, most of the values that there are.
     double black{0.0};
     double white{255.0};
     bool is_light{};
@@ -35,8 +42,9 @@ struct ImageSource {
 
 // Looks at an image: where it lies, and what its bands are. Errors: a file that is not there or damaged; one
 // without a CRS, or with a georeference that is no map from pixels to places; complex numbers; as
-// inspect_raster's for what a raster names and how long that takes.
-Result<ImageSource> open_image(const std::string& file);
+// inspect_raster's for what a raster names and how long that takes. Colours of palettes are codes whatever
+// `values` says.
+Result<ImageSource> open_image(const std::string& file, ImageValues values = ImageValues::by_file);
 
 // XXH64 of the bytes of some files, each with its length; of one longer than 256 MiB its length, its ends,
 // and a MiB at each of 64 places between them. Errors: a file that cannot be read.

@@ -36,6 +36,8 @@ TEST(RefusedOptions, Choices) {
          {{"plan", file, "--geoid", "egm2008"}, "--geoid egm2008: choose egm96 or none"},
          {{"plan", file, "--heights", "f64"}, "--heights f64: choose f32, packed or i16"},
          {{"plan", file, "--accuracy", "best"}, "--accuracy best: choose draft, balanced or survey"},
+         {{"shot", file, "--drape-values", "bright"},
+          "--drape-values bright: choose auto, codes or reflectance"},
          {{"shot", file, "--pipeline", "cpu"}, "--pipeline cpu: choose auto, mesh or compute"},
          {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft or cm"},
          {{"info", file, "--source-crs", "EPSG:999999"},

@@ -24,6 +24,8 @@ oro::View unusual_view() {
     view.sun = oro::SunDirection{270.0, -3.5};
     view.visibility_km = 12.5;
     view.style = "other";
+    view.drape = {"a.tif"};
+    view.drape_values = oro::ImageValues::codes;
     view.sea = oro::Sea::low;
     view.rim = oro::Rim::none;
     view.labels = true;
@@ -49,6 +51,7 @@ TEST(ViewFile, EveryFieldComesBack) {
         EXPECT_EQ(read->region.source_crs, "EPSG:2056");
         EXPECT_EQ(read->region.source_vertical, "EPSG:4979");
         EXPECT_EQ(read->visibility_km, 12.5);
+        EXPECT_EQ(read->drape_values, oro::ImageValues::codes);
         EXPECT_EQ(read->sea, oro::Sea::low);
         EXPECT_EQ(read->rim, oro::Rim::none);
         EXPECT_EQ(read->edges, oro::Edges::steps);

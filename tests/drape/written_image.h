@@ -1,11 +1,13 @@
 // Images that tests write for themselves.
 #pragma once
 
+#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -28,6 +30,9 @@ struct WrittenImage {
     std::optional<double> no_data{};
     std::vector<std::array<short, 4>> palette{};
     std::vector<int> overviews{};
+    std::vector<std::byte> profile{};  // ICC; none where it is empty
+    std::string photometric{};         // of the format; nothing: as the bands are
+    int bits{};                        // that values use, where not all of their type
 };
 
 // The value of a band (from 0) at a pixel.
@@ -41,6 +46,14 @@ inline std::string write_image(const std::filesystem::path& file, const WrittenI
     options.SetNameValue("SPARSE_OK", "TRUE");
     if (image.alpha) options.SetNameValue("ALPHA", "YES");
     if (!image.palette.empty()) options.SetNameValue("PHOTOMETRIC", "PALETTE");
+    if (!image.photometric.empty()) options.SetNameValue("PHOTOMETRIC", image.photometric.c_str());
+    if (image.bits != 0) options.SetNameValue("NBITS", std::to_string(image.bits).c_str());
+    if (!image.profile.empty()) {
+        char* const text = CPLBase64Encode(static_cast<int>(image.profile.size()),
+                                           reinterpret_cast<const GByte*>(image.profile.data()));
+        options.SetNameValue("SOURCE_ICC_PROFILE", text);
+        CPLFree(text);
+    }
     const GDALDatasetH dataset = GDALCreate(GDALGetDriverByName("GTiff"), file.c_str(), image.columns,
                                             image.rows, image.bands, image.type, options.List());
     std::array<double, 6> corners = image.crs_from_pixel;

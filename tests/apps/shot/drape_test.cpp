@@ -17,6 +17,7 @@ using oro::test::expect_refusal;
 using oro::test::failed;
 using oro::test::Outcome;
 using oro::test::run_orograph;
+using oro::test::run_program;
 using oro::test::usage;
 using oro::test::view_in;
 using oro::test::Words;
@@ -88,6 +89,51 @@ TEST_F(Drape, ThatChangedIsTold) {
                    {"image.tif", "no such image"});
 }
 
+// An image of one colour over all of the terrain.
+void make_even_image(const std::string& file, const char* type, const char* value, const Words& more = {}) {
+    Words words{"gdal_create", "-q",      "-of",    "GTiff", "-ot",   type,  "-outsize",
+                "40",          "40",      "-bands", "3",     "-burn", value, "-a_srs",
+                "EPSG:4326",   "-a_ullr", "-85",    "37",    "-84",   "36"};
+    words.insert(words.end(), more.begin(), more.end());
+    words.push_back(file);
+    const Outcome made = run_program(words);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+}
+
+// A profile of grey whose curve has the exponent 2.2: 128 bytes of header, one tag, 'curv' with 0x0233.
+const char* const profile_of_pictures =
+    "AAAAngAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAYWNzcAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAABa1RS"
+    "QwAAAJAAAAAOY3VydgAAAAAAAAABAjM=";
+
+// 32,896 of 65,535 is 128 of 255.
+TEST_F(Drape, OfSixteenBitsIsWhatItsProfileOrTheOptionSays) {
+    make_even_image(path("bytes.tif"), "Byte", "128");
+    make_even_image(path("plain.tif"), "UInt16", "32896");
+    make_even_image(path("picture.tif"), "UInt16", "32896",
+                    {"-co", std::string("SOURCE_ICC_PROFILE=") + profile_of_pictures});
+    const auto drawn = [&](const char* file, const Words& more = {}) {
+        const std::string png = path(file) + (more.empty() ? "" : more.back()) + ".png";
+        Words words{land, "--drape", path(file), "--out", png};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(shoot(words).exit_code, 0);
+        return prints_in(png)["pixels"];
+    };
+    const json bytes = drawn("bytes.tif");
+    EXPECT_EQ(drawn("picture.tif"), bytes);
+    EXPECT_EQ(drawn("plain.tif", {"--drape-values", "codes"}), bytes);
+    const json light = drawn("plain.tif");
+    EXPECT_NE(light, bytes) << "without a profile it is light";
+    EXPECT_EQ(drawn("plain.tif", {"--drape-values", "auto"}), light);
+    EXPECT_EQ(drawn("picture.tif", {"--drape-values", "reflectance"}), light);
+
+    const std::string as_codes = path("plain.tif") + "codes.png";
+    EXPECT_EQ(json::parse(view_in(as_codes))["drape"],
+              (json{{"files", {"plain.tif"}}, {"opacity", 1.0}, {"values", "codes"}}));
+    ASSERT_EQ(shoot({"--view", as_codes, "--out", path("again.png")}).exit_code, 0);
+    EXPECT_EQ(bytes_of(as_codes), bytes_of(path("again.png")));
+}
+
 TEST_F(Drape, ThatCannotLieOverGroundIsOneLine) {
     write_bytes(path("text.tif"), "this is no image");
     expect_refusal(shoot({land, "--drape", path("text.tif"), "--out", path("a.png")}), failed,
@@ -107,6 +153,10 @@ TEST_F(Drape, ThatCannotLieOverGroundIsOneLine) {
     expect_refusal(shoot({land, "--drape-opacity", "1", "--out", path("a.png")}), usage, {"--drape-opacity"});
     expect_refusal(shoot({land, "--drape", image, "--drape-opacity", "1.5", "--out", path("a.png")}), usage,
                    {"--drape-opacity 1.5", "between 0 and 1"});
+    expect_refusal(shoot({land, "--drape-values", "codes", "--out", path("a.png")}), usage,
+                   {"--drape-values", "says nothing without --drape FILE"});
+    expect_refusal(shoot({land, "--drape", image, "--drape-values", "bright", "--out", path("a.png")}), usage,
+                   {"--drape-values bright", "auto, codes or reflectance"});
     expect_refusal(shoot({land, "--drape", image, "--out", image, "--overwrite"}), usage, {"image.tif"});
 }
 
