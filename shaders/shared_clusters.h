@@ -64,6 +64,7 @@ struct ClusterBox {
 ORO_CONST uint cluster_kept = 1u;       // of the cut, and neither frustum nor horizon hides it
 ORO_CONST uint cluster_drawn = 2u;      // by the rounds so far; from the last one on: by those before it
 ORO_CONST uint cluster_drawn_now = 4u;  // by this round
+ORO_CONST uint cluster_shows = 8u;      // by the last round: no ground that is drawn hides it
 ORO_CONST uint clusters_per_choice = 64u;  // of a workgroup that chooses
 // The clusters of a frame.
 struct ClusterTable {

@@ -17,6 +17,12 @@ void HeldGroups::make_places(std::size_t groups, std::size_t clusters, std::uint
     users_.assign(leaves, no_group);
 }
 
+void HeldGroups::begin_frame() {
+    ++frame_;
+    for (const std::uint32_t group : hidden_)
+        if (held_[group]) order_.splice(order_.begin(), order_, held_[group]->place);
+}
+
 const GroupPart* HeldGroups::use(std::uint32_t group) {
     Held* const held = held_[group].get();
     if (held == nullptr) return nullptr;

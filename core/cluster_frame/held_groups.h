@@ -9,6 +9,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "core/cluster_file/group_code.h"
@@ -41,7 +42,10 @@ class HeldGroups {
     void make_places(std::size_t groups, std::size_t clusters, std::uint32_t leaves);
     void hold_at_most(std::uint64_t bytes) { most_bytes_ = bytes; }
     // From here on groups count as used by another frame: those of earlier ones may give way.
-    void begin_frame() { ++frame_; }
+    // What the last frame hid is the first of them.
+    void begin_frame();
+    // Groups that other ground hides, as far as is known, in the place of those told before. Any numbers.
+    void note_hidden(std::vector<std::uint32_t> groups) { hidden_ = std::move(groups); }
     // Lets go of what the frame has not used, as far as there is too much of it.
     void end_frame() { make_room(0); }
 
@@ -86,7 +90,8 @@ class HeldGroups {
     std::vector<std::unique_ptr<Held>> held_;             // of each group; null: it is not here
     std::vector<std::unique_ptr<ClusterReach>> reaches_;  // of each cluster, likewise
     std::vector<std::uint32_t> users_;  // of each leaf: the group that uses it, once that was read
-    std::list<std::uint32_t> order_;    // of groups that are here: least recently used first
+    std::list<std::uint32_t> order_;    // of groups that are here: those that give way first
+    std::vector<std::uint32_t> hidden_;
     std::uint64_t frame_{};
     std::uint64_t bytes_{};
     std::uint64_t most_bytes_{no_limit};

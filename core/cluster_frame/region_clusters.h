@@ -56,10 +56,12 @@ class RegionClusters {
     [[nodiscard]] std::uint32_t level_of(std::uint32_t cluster) const {
         return maker(cluster) == no_group ? 0 : groups_[maker(cluster)].level;
     }
-    // What groups and reaches may take, bytes: those least recently asked for give way, but none that was
-    // asked for since the frame began. Without this, or without frames, nothing gives way.
+    // What groups and reaches may take, bytes: those that are hidden give way first, then those least
+    // recently asked for, but none that was asked for since the frame began. Without this, or without frames,
+    // nothing gives way.
     void hold_at_most(std::uint64_t bytes) { held_.hold_at_most(bytes); }
     void begin_frame() { held_.begin_frame(); }
+    void note_hidden(std::vector<std::uint32_t> groups) { held_.note_hidden(std::move(groups)); }
     void end_frame() { held_.end_frame(); }
     [[nodiscard]] const HeldGroups& held() const { return held_; }
     // Reads groups, and the reach of clusters, that are not here, by several threads. Errors: damage.

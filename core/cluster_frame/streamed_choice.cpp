@@ -10,6 +10,8 @@ namespace {
 
 // open: gives way, as far as is known. unread: would, and nobody knows to what. closed: would, and must not.
 enum class Answer : char { no, hidden, stands, unread, open, closed };
+// Whether it shows, as far as the last frame told.
+enum class Sight : char { unknown, hidden, shows };
 
 // Where in a list a number is.
 class Places {
@@ -80,8 +82,8 @@ class StreamedCut {
         }
     }
 
-    Result<StreamedChoice> take(std::size_t room) {
-        want(room);
+    Result<StreamedChoice> take(std::size_t room, const ShownClusters& shown) {
+        want(room, shown);
         OfferedCut offered(clusters_, view_);
         for (const Met& met : met_) {
             if (met.user != no_group && asked_[met.user] != Answer::open) continue;
@@ -183,9 +185,50 @@ class StreamedCut {
         closing_.push_back(group);
     }
 
-    void want(std::size_t room) {
-        std::size_t left = room - std::min(room, in_cut_);
+    // Of each cluster that was met what is known of it, or of what is drawn in its place. A group shows where
+    // any does that it made, and is hidden where one is and none shows.
+    std::vector<Sight> find_sights(const ShownClusters& shown) {
+        std::vector<Sight> sights;
+        group_sights_.resize(asked_.size(), Sight::unknown);
         for (const Met& met : met_) {
+            const auto told = shown.find(met.cluster);
+            Sight sight = Sight::unknown;
+            if (told != shown.end())
+                sight = told->second ? Sight::shows : Sight::hidden;
+            else if (is_seen(met))
+                sight = met.user != no_group && group_sights_[met.user] == Sight::hidden ? Sight::hidden
+                                                                                         : Sight::shows;
+            sights.push_back(sight);
+            const std::uint32_t maker = clusters_.maker(met.cluster);
+            if (maker != no_group) group_sights_[maker] = std::max(group_sights_[maker], sight);
+        }
+        add_needed(sights);
+        return sights;
+    }
+
+    // What shows comes with what must be here before it may be drawn: all that the groups use that give way
+    // with its own. Of what is below that no more.
+    void add_needed(std::vector<Sight>& sights) {
+        std::vector<bool> needed(asked_.size());
+        for (std::size_t i = met_.size(); i-- > 0;) {
+            const std::uint32_t maker = clusters_.maker(met_[i].cluster), user = met_[i].user;
+            const bool gives_way = maker != no_group && asked_[maker] != Answer::stands && needed[maker];
+            if (user != no_group && (gives_way || sights[i] == Sight::shows)) needed[user] = true;
+        }
+        for (std::size_t i = 0; i < met_.size(); ++i) {
+            if (met_[i].user == no_group || !needed[met_[i].user]) continue;
+            const std::uint32_t maker = clusters_.maker(met_[i].cluster);
+            sights[i] = Sight::shows;
+            if (maker != no_group) group_sights_[maker] = Sight::shows;
+        }
+    }
+
+    void want(std::size_t room, const ShownClusters& shown) {
+        const std::vector<Sight> sights = find_sights(shown);
+        std::vector<std::uint32_t> hidden;
+        std::size_t left = room - std::min(room, in_cut_);
+        for (std::size_t i = 0; i < met_.size(); ++i) {
+            const Met& met = met_[i];
             if (!is_seen(met)) continue;
             const bool of_cut = is_of_cut(met);
             if (of_cut && lacks(met)) ++choice_.missing;
@@ -196,8 +239,14 @@ class StreamedCut {
                 if (left == 0) continue;
                 --left;
             }
-            choice_.clusters_wanted.push_back(met.cluster);
+            (sights[i] == Sight::hidden ? hidden : choice_.clusters_wanted).push_back(met.cluster);
         }
+        choice_.clusters_hidden = hidden.size();
+        choice_.clusters_wanted.insert(choice_.clusters_wanted.end(), hidden.begin(), hidden.end());
+        choice_.groups_hidden =
+            std::ranges::stable_partition(choice_.groups_wanted, [&](std::uint32_t group) {
+                return group_sights_[group] != Sight::hidden;
+            }).size();
         for (const Answer asked : asked_)
             choice_.missing += asked == Answer::unread || asked == Answer::closed ? 1U : 0U;
     }
@@ -205,7 +254,8 @@ class StreamedCut {
     RegionClusters& clusters_;
     const ClusterView& view_;
     const IsClusterHere& is_here_;
-    std::vector<Answer> asked_;  // of each group
+    std::vector<Answer> asked_;        // of each group
+    std::vector<Sight> group_sights_;  // likewise
     std::vector<std::uint32_t> next_, closing_;
     std::vector<Opened> opened_;
     std::vector<Met> met_;  // coarsest first
@@ -216,7 +266,8 @@ class StreamedCut {
 }  // namespace
 
 Result<StreamedChoice> choose_clusters_here(RegionClusters& clusters, const ClusterView& view,
-                                            std::size_t room, const IsClusterHere& is_here) {
+                                            std::size_t room, const IsClusterHere& is_here,
+                                            const ShownClusters& shown) {
     const auto cut_for = [&](const ClusterView& asked) {
         StreamedCut cut(clusters, asked, is_here);
         cut.walk();
@@ -225,14 +276,14 @@ Result<StreamedChoice> choose_clusters_here(RegionClusters& clusters, const Clus
     StreamedCut cut = cut_for(view);
     if (cut.in_cut() <= room) {
         cut.close_what_lacks();
-        return cut.take(room);
+        return cut.take(room, shown);
     }
     const std::size_t without_room = cut.in_cut() - room;
     const ClusterView coarser = view.coarser(
         coarser_steps_until([&](unsigned steps) { return cut_for(view.coarser(steps)).in_cut() <= room; }));
     StreamedCut fitting = cut_for(coarser);
     fitting.close_what_lacks();
-    ORO_TRY(StreamedChoice choice, fitting.take(room));
+    ORO_TRY(StreamedChoice choice, fitting.take(room, shown));
     choice.without_room = without_room;
     choice.missing = std::max(choice.missing, without_room);
     return choice;

@@ -8,6 +8,7 @@
 
 #include "core/cluster_frame/cluster_choice.h"
 #include "core/cluster_frame/cluster_offer.h"
+#include "core/cluster_frame/shown_clusters.h"
 
 namespace oro {
 
@@ -15,8 +16,10 @@ struct StreamedChoice {
     ClusterChoice drawn;  // all of them are here
     ClusterOffer offer;   // that the GPU makes the same of
     // What should come, coarsest first, as groups need not be asked for before those above them are known.
-    std::vector<std::uint32_t> groups_wanted;    // to be read
-    std::vector<std::uint32_t> clusters_wanted;  // to be here, and to stay; as many as there is room for
+    // Those that are hidden, as far as the last frame told, come after all others, in the same order.
+    std::vector<std::uint32_t> groups_wanted;        // to be read
+    std::vector<std::uint32_t> clusters_wanted;      // to be here, and to stay; as many as there is room for
+    std::size_t groups_hidden{}, clusters_hidden{};  // so many
     std::size_t missing{};       // groups and clusters that the cut lacks; 0: it is that of choose_clusters()
     std::size_t without_room{};  // clusters that the cut has too many for the room: a coarser one is drawn
 };
@@ -31,8 +34,10 @@ using IsClusterHere = std::function<bool(std::uint32_t cluster)>;
 //
 // Reads nothing: what nobody has read is wanted. Wanted beside the cut are the clusters above it, so that
 // there is something to go back to when the eye moves; of these the coarsest, as far as there is room.
-// room: clusters that the GPU may hold beside the roots. Errors: damage.
+// room: clusters that the GPU may hold beside the roots. shown: by the last frame; what comes in the place of
+// clusters that it hid is hidden, and comes last. It changes nothing else. Errors: damage.
 Result<StreamedChoice> choose_clusters_here(RegionClusters& clusters, const ClusterView& view,
-                                            std::size_t room, const IsClusterHere& is_here);
+                                            std::size_t room, const IsClusterHere& is_here,
+                                            const ShownClusters& shown = {});
 
 }  // namespace oro

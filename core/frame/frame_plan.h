@@ -36,7 +36,7 @@ struct FramePlan {
     std::size_t pages_beyond_horizon{};
     ClusterPlan clusters;  // off until draw_clusters()
     CasterPlan casters;    // none until plan_casters()
-    bool wants_sights{};   // the frame tells which of its nodes show (core/frame/seen_ground.h)
+    bool wants_sights{};   // the frame tells which of its nodes or clusters show (core/frame/seen_ground.h)
     // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.
     std::uint64_t heights{};
     // Other grids in the same frame: plans of their own, for the same eye and tile.

@@ -17,9 +17,10 @@
 namespace oro {
 
 // What a frame tells of the nodes of its pages: gpu::sight_words for each of them, see
-// gpu::FrameConstants::sights. Without pages it tells nothing.
+// gpu::FrameConstants::sights. Without pages it tells nothing; of clusters, a word of gpu::cluster_... each.
 struct FrameSights {
     std::vector<PageIndex> pages;
+    std::vector<gpu::DrawnCluster> clusters;
     std::vector<gpu::uint> words;
     gpu::FrameConstants view{};  // by which the frame was drawn
 };

@@ -1,7 +1,6 @@
 #include "render/clusters/cluster_scene.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -105,9 +104,9 @@ bool ClusterScene::is_here(std::uint32_t cluster) const {
 
 // What is wanted and here is to stay.
 Result<StreamedChoice> ClusterScene::choose_here() {
-    ORO_TRY(StreamedChoice choice,
-            choose_clusters_here(*clusters_, *view_, store_.capacity() - clusters_->roots().size(),
-                                 [&](std::uint32_t cluster) { return is_here(cluster); }));
+    ORO_TRY(StreamedChoice choice, choose_clusters_here(
+                                       *clusters_, *view_, store_.capacity() - clusters_->roots().size(),
+                                       [&](std::uint32_t cluster) { return is_here(cluster); }, shown_));
     for (const std::uint32_t cluster : choice.clusters_wanted)
         if (store_.is_here(cluster)) store_.use(cluster);
     return choice;
@@ -115,9 +114,23 @@ Result<StreamedChoice> ClusterScene::choose_here() {
 
 void ClusterScene::want(const StreamedChoice& choice) {
     std::vector<std::uint32_t> to_come;
-    std::ranges::copy_if(choice.clusters_wanted, std::back_inserter(to_come),
-                         [&](std::uint32_t cluster) { return !is_here(cluster); });
-    stream_->want(*view_, choice.groups_wanted, to_come);
+    std::size_t hidden = 0;
+    for (std::size_t i = 0; i < choice.clusters_wanted.size(); ++i) {
+        if (is_here(choice.clusters_wanted[i])) continue;
+        to_come.push_back(choice.clusters_wanted[i]);
+        hidden += i + choice.clusters_hidden >= choice.clusters_wanted.size() ? 1U : 0U;
+    }
+    stream_->want(*view_, choice.groups_wanted, to_come, choice.groups_hidden, hidden);
+}
+
+void ClusterScene::saw(const FrameSights& sights) {
+    shown_ = shown_clusters(sights.clusters, sights.words);
+    for (const auto& [cluster, shows] : shown_) store_.note_hidden(cluster, !shows);
+    clusters_->note_hidden(hidden_groups(sights.clusters, shown_));
+}
+
+bool ClusterScene::has_room() const {
+    return store_.size() < store_.capacity() && groups().bytes() + bytes_on_the_way <= groups().most_bytes();
 }
 
 // A group's clusters come with it: which of them are wanted is known once it is.

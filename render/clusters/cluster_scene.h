@@ -8,6 +8,7 @@
 
 #include "core/cluster_frame/streamed_choice.h"
 #include "core/frame/frame_plan.h"
+#include "core/frame/seen_ground.h"
 #include "render/clusters/cluster_store.h"
 #include "render/clusters/cluster_stream.h"
 
@@ -40,9 +41,15 @@ class ClusterScene {
     Result<void> add_what_is_here(FramePlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                                   const WorldModel& model, const HorizonOccluder& occluder,
                                   const HeightQuantization& coding);
+    // What a frame of such a plan has shown: from the next plan on what is hidden is read last, and gives way
+    // first. One that tells nothing makes that forgotten.
+    void saw(const FrameSights& sights);
     // Sends what is ready of what the last of these plans lacks: true when the next one will be better. Does
     // not wait for what is not ready. Errors: damage, the device.
     Result<bool> advance();
+
+    // Whether some more may come without any that gives way.
+    [[nodiscard]] bool has_room() const;
 
     [[nodiscard]] const ClusterStore& store() const { return store_; }
     // What groups take of the processor's memory: those that were read, without those on their way.
@@ -64,6 +71,7 @@ class ClusterScene {
     std::size_t most_on_the_way_;  // ClusterStream
     std::optional<std::uint32_t> level_;
     std::unique_ptr<ClusterStream> stream_;  // after clusters_: it ends before; null: nothing was streamed
+    ShownClusters shown_;                    // by the last frame that told
     // Of the last plan that did not wait: its eye, what it draws, and whether that is all of the cut.
     std::optional<ClusterView> view_;
     std::vector<std::uint32_t> drawn_;

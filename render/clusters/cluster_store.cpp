@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 #include <string>
+#include <tuple>
 
 namespace oro {
 namespace {
@@ -57,7 +58,10 @@ Result<std::size_t> ClusterStore::free_slot() {
             if (slots_[i].used < frame_) unused_.push_back(i);
         }
         std::ranges::sort(unused_, [&](std::size_t a, std::size_t b) {
-            return slots_[a].used != slots_[b].used ? slots_[a].used > slots_[b].used : a > b;
+            const auto stays = [&](std::size_t slot) {
+                return std::tuple(!slots_[slot].is_hidden, slots_[slot].used, slot);
+            };
+            return stays(a) > stays(b);
         });
     }
     // What was unused when they were listed may be in use by now.
@@ -89,6 +93,10 @@ ClusterStore::Held ClusterStore::use(std::uint32_t cluster) {
     const std::size_t slot = slot_of_[cluster];
     slots_[slot].used = frame_;
     return {address(slot), slots_[slot].counts};
+}
+
+void ClusterStore::note_hidden(std::uint32_t cluster, bool is_hidden) {
+    if (is_here(cluster)) slots_[slot_of_[cluster]].is_hidden = is_hidden;
 }
 
 Result<void> ClusterStore::hold(std::span<const std::uint32_t> clusters, const Fill& fill) {
@@ -123,7 +131,7 @@ Result<void> ClusterStore::stage(const Loaded& loaded) {
     ORO_TRY(const std::size_t slot, free);
     if (slot == no_slot) return {};
     std::memcpy(staging_.mapped + staged_.size() * slot_bytes, loaded.block, slot_bytes);
-    slots_[slot] = {loaded.cluster, loaded.counts, frame_};
+    slots_[slot] = {loaded.cluster, loaded.counts, frame_, false};
     if (loaded.cluster >= slot_of_.size()) slot_of_.resize(loaded.cluster + std::size_t{1}, no_slot);
     slot_of_[loaded.cluster] = slot;
     ++held_;

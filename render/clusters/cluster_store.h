@@ -13,7 +13,7 @@
 
 namespace oro {
 
-// What has not been used for longest makes room for what comes.
+// What was hidden when it was drawn last makes room for what comes, then what has not been used for longest.
 class ClusterStore {
   public:
     // At most `bytes`, at least one slot; buffers are made when they are needed.
@@ -37,6 +37,8 @@ class ClusterStore {
     [[nodiscard]] bool is_here(std::uint32_t cluster) const;
     // One that is here is used by the frame.
     Held use(std::uint32_t cluster);
+    // What a frame has told of one, which may be here: whether other ground hides it.
+    void note_hidden(std::uint32_t cluster, bool is_hidden);
     // A cluster on its way.
     struct Loaded {
         std::uint32_t cluster;
@@ -57,6 +59,7 @@ class ClusterStore {
         std::uint32_t cluster;
         std::uint32_t counts;
         std::uint64_t used;  // frame
+        bool is_hidden;
     };
     explicit ClusterStore(const Gpu& gpu) : gpu_(&gpu) {}
     Result<std::size_t> free_slot();
@@ -71,7 +74,7 @@ class ClusterStore {
     std::vector<Buffer> chunks_;
     std::size_t capacity_{};
     std::vector<Slot> slots_;           // those ever used
-    std::vector<std::size_t> unused_;   // by the frame, oldest last
+    std::vector<std::size_t> unused_;   // by the frame, those that make room first last
     std::vector<std::size_t> slot_of_;  // of each cluster ever asked for; no_slot where it is not here
     std::vector<std::size_t> staged_;   // slots of what is to be copied
     std::size_t held_{0};

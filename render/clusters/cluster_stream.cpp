@@ -21,7 +21,8 @@ ClusterStream::~ClusterStream() {
 }
 
 void ClusterStream::want(const ClusterView& view, std::span<const std::uint32_t> groups,
-                         std::span<const std::uint32_t> clusters) {
+                         std::span<const std::uint32_t> clusters, std::size_t last_groups,
+                         std::size_t last_clusters) {
     if (!(groups.empty() && clusters.empty()) && most_threads_ > 0)
         start_threads(threads_, std::exchange(most_threads_, 0),
                       [this](const std::stop_token& stop) { work(stop); });
@@ -34,10 +35,15 @@ void ClusterStream::want(const ClusterView& view, std::span<const std::uint32_t>
         if (!item.is_group) here.insert(item.number);
     for (const auto& loaded : ready_.clusters) here.insert(loaded.number);
     wanted_.clear();
-    for (const std::uint32_t group : groups)
-        if (may_begin(group)) wanted_.push_back({true, group});
-    for (const std::uint32_t cluster : clusters)
-        if (!here.contains(cluster)) wanted_.push_back({false, cluster});
+    const auto add = [&](std::span<const std::uint32_t> these, bool are_groups, bool are_last) {
+        for (const std::uint32_t number : these)
+            if (are_groups ? may_begin(number) : !here.contains(number))
+                wanted_.push_back({are_groups, number, are_last});
+    };
+    add(groups.first(groups.size() - last_groups), true, false);
+    add(clusters.first(clusters.size() - last_clusters), false, false);
+    add(groups.last(last_groups), true, true);
+    add(clusters.last(last_clusters), false, true);
     changed_.notify_all();
 }
 
@@ -76,7 +82,7 @@ void ClusterStream::load_next(std::unique_lock<std::mutex>& lock) {
         under_way_.insert(item);
         if (item.is_group) {
             ways_[item.number] = Way::begun;
-            load_group(item.number, lock);
+            load_group(item, lock);
         } else {
             load_cluster(item.number, lock);
         }
@@ -89,7 +95,8 @@ void ClusterStream::load_next(std::unique_lock<std::mutex>& lock) {
     changed_.notify_all();
 }
 
-void ClusterStream::load_group(std::uint32_t group, std::unique_lock<std::mutex>& lock) {
+void ClusterStream::load_group(const Item& item, std::unique_lock<std::mutex>& lock) {
+    const std::uint32_t group = item.number;
     const ClusterView view = *view_;
     lock.unlock();
     const RegionClusters::SeenOfGroup seen{
@@ -98,7 +105,7 @@ void ClusterStream::load_group(std::uint32_t group, std::unique_lock<std::mutex>
     Result<RegionClusters::LoadedGroup> loaded = clusters_.load_group(group, &seen);
     lock.lock();
     if (!loaded.ok()) return fail(loaded.error());
-    if (view_ && !view_->stands(clusters_.groups()[group])) want_below(*loaded);
+    if (view_ && !view_->stands(clusters_.groups()[group])) want_below(*loaded, item.is_last);
     ready_count_ += 1 + loaded->seen.size();
     ready_.groups.push_back(std::move(loaded).value());
 }
@@ -107,12 +114,17 @@ bool ClusterStream::may_begin(std::uint32_t group) const {
     return ways_[group] == Way::none || (ways_[group] == Way::given && !clusters_.is_held(group));
 }
 
-void ClusterStream::want_below(const RegionClusters::LoadedGroup& loaded) {
+void ClusterStream::want_below(const RegionClusters::LoadedGroup& loaded, bool is_last) {
+    const auto end =
+        is_last ? wanted_.end()
+                : std::ranges::partition_point(wanted_, [](const Item& item) { return !item.is_last; });
+    std::vector<Item> below;
     for (const std::uint32_t member : loaded.part->members) {
         const std::uint32_t maker = clusters_.maker(member);
         if (maker != no_group && may_begin(maker) && !view_->is_beyond_frustum(clusters_.groups()[maker]))
-            wanted_.push_back({true, maker});
+            below.push_back({true, maker, is_last});
     }
+    wanted_.insert(end, below.begin(), below.end());
 }
 
 void ClusterStream::load_cluster(std::uint32_t cluster, std::unique_lock<std::mutex>& lock) {

@@ -31,11 +31,13 @@ class ClusterStream {
     ClusterStream(const ClusterStream&) = delete;
     ClusterStream& operator=(const ClusterStream&) = delete;
 
-    // What an eye needs now and is not here, each most wanted first, groups before clusters. What was taken
-    // before is kept by now, or has given way. What was wanted before and is not any more is dropped. With a
-    // group come its clusters that can be seen, and what made those that it uses, where it gives way.
+    // What an eye needs now and is not here, each most wanted first, groups before clusters; the last so many
+    // of both, and what comes after those groups, when nothing else is wanted. What was taken before is kept
+    // by now, or has given way. What was wanted before and is not any more is dropped. With a group come its
+    // clusters that can be seen, and what made those that it uses, where it gives way.
     void want(const ClusterView& view, std::span<const std::uint32_t> groups,
-              std::span<const std::uint32_t> clusters);
+              std::span<const std::uint32_t> clusters, std::size_t last_groups = 0,
+              std::size_t last_clusters = 0);
     void want_nothing();
 
     struct Ready {
@@ -50,18 +52,19 @@ class ClusterStream {
     struct Item {
         bool is_group;
         std::uint32_t number;
+        bool is_last;
         auto operator<=>(const Item&) const = default;
     };
     void work(const std::stop_token& stop);
     // Loads what is most wanted; there is something. Lets go of the lock meanwhile.
     void load_next(std::unique_lock<std::mutex>& lock);
-    void load_group(std::uint32_t group, std::unique_lock<std::mutex>& lock);
+    void load_group(const Item& item, std::unique_lock<std::mutex>& lock);
     void load_cluster(std::uint32_t cluster, std::unique_lock<std::mutex>& lock);
     void fail(const Error& error);
     // It is neither on its way nor here.
     [[nodiscard]] bool may_begin(std::uint32_t group) const;
-    // Groups that made what a loaded one uses, of those that can be seen.
-    void want_below(const RegionClusters::LoadedGroup& loaded);
+    // Groups that made what a loaded one uses, of those that can be seen. is_last: as the loaded one.
+    void want_below(const RegionClusters::LoadedGroup& loaded, bool is_last);
 
     const RegionClusters& clusters_;
     HeightQuantization coding_;
@@ -70,7 +73,7 @@ class ClusterStream {
     std::optional<ClusterView> view_;
     std::mutex mutex_;
     std::condition_variable_any changed_;
-    std::deque<Item> wanted_;
+    std::deque<Item> wanted_;  // those that are last come last
     std::set<Item> under_way_;
     // Of each group. begun: it is under way, ready, or could not be loaded. given: it was taken; it is here
     // as long as it is held.

@@ -145,8 +145,10 @@ Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const FramePlan& plan) 
 }
 
 Result<void> GridFrame::reserve_sights(const Gpu& gpu, const FramePlan& plan) {
-    const bool wanted = plan.wants_sights && plan.constants.occlusion != 0 && !plan.clusters.on;
-    sights_size_ = wanted ? VkDeviceSize{4} * gpu::sight_words * plan.pages.size() : 0;
+    const bool wanted = plan.wants_sights && plan.constants.occlusion != 0;
+    const std::size_t words =
+        plan.clusters.on ? plan.clusters.drawn.size() : gpu::sight_words * plan.pages.size();
+    sights_size_ = wanted ? sizeof(gpu::uint) * words : 0;
     if (sights_.size >= sights_size_) return {};
     const VkDeviceSize size = std::max(sights_size_, 2 * sights_.size);
     ORO_TRY(Buffer sights,
@@ -163,13 +165,17 @@ Result<void> GridFrame::reserve_sights(const Gpu& gpu, const FramePlan& plan) {
 void GridFrame::record_sights(VkCommandBuffer commands) const {
     if (sights_size_ == 0) return;
     const VkBufferCopy copy{0, 0, sights_size_};
-    vkCmdCopyBuffer(commands, sights_.handle.get(), sights_read_.handle.get(), 1, &copy);
+    const Buffer& told = cluster_groups_ > 0 ? cluster_states_ : sights_;
+    vkCmdCopyBuffer(commands, told.handle.get(), sights_read_.handle.get(), 1, &copy);
 }
 
 FrameSights GridFrame::sights_of(const FramePlan& plan) const {
     FrameSights sights;
     if (sights_size_ == 0) return sights;
-    sights.pages = plan.page_indices;
+    if (plan.clusters.on)
+        sights.clusters = plan.clusters.drawn;
+    else
+        sights.pages = plan.page_indices;
     sights.words.resize(sights_size_ / sizeof(gpu::uint));
     std::memcpy(sights.words.data(), sights_read_.mapped, sights_size_);
     sights.view = plan.constants;
@@ -245,7 +251,8 @@ void GridFrame::address(FramePlan& plan) const {
     if (constants.occlusion != 0 && !before_.empty())
         constants.seen_before = address_words(seen_[1 - turn_].address);
     constants.page_before = address_words(data_.address + layout.before);
-    constants.sights = sights_size_ > 0 ? address_words(sights_.address) : gpu::uvec2(0U);
+    constants.sights =
+        sights_size_ > 0 && !plan.clusters.on ? address_words(sights_.address) : gpu::uvec2(0U);
 }
 
 void GridFrame::fill(const FramePlan& plan) {

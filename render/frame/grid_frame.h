@@ -27,7 +27,8 @@ class GridFrame {
     // Puts a plan, whose constants are whole, where record_upload() sends it from.
     void fill(const FramePlan& plan);
     void record_upload(VkCommandBuffer commands) const;
-    // What the frame's nodes have shown goes to where sights_of() reads it, once the frame is done.
+    // What the frame's nodes or clusters have shown goes to where sights_of() reads it, once the frame is
+    // done.
     void record_sights(VkCommandBuffer commands) const;
     // Nothing of a frame that was drawn at once.
     [[nodiscard]] FrameSights sights_of(const FramePlan& plan) const;

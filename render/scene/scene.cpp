@@ -127,6 +127,7 @@ bool Scene::saw(std::span<const FrameSights> sights) {
     const std::vector<Scene*> scenes = all();
     for (std::size_t i = 0; i < std::min(sights.size(), scenes.size()); ++i)
         is_new = scenes[i]->seen_.add(sights[i]) || is_new;
+    if (clusters_) clusters_->saw(sights.empty() ? FrameSights() : sights.front());
     return is_new;
 }
 
@@ -208,7 +209,8 @@ Result<void> Scene::end_plan(const Camera& camera, const Tile& tile, FramePlan& 
     hidden_.clear();
     for (const PageIndex& page : std::span(plan.missing).last(plan.missing_hidden))
         hidden_.insert({page.level, page.row, page.column});
-    plan.wants_sights = !plan.missing.empty() || !store_.has_room();
+    plan.wants_sights = !plan.missing.empty() || !store_.has_room() || plan.clusters.missing > 0 ||
+                        (plan.clusters.on && !clusters_->has_room());
     if (store_.means_before() > 0) {
         plan.constants.has_means = 1;
         for (gpu::FramePage& page : plan.pages) page.means = before(page, store_.means_before());

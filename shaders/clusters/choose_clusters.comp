@@ -69,7 +69,10 @@ uint later_state(uint number, uint before) {
     if (is_last) {
         atomicAdd(tested_here, 1u);
         if (hidden && !drawn) atomicAdd(hidden_here, 1u);
-        if (!hidden) SeenBlocks(drawn_cluster(number).block).at.seen = FRAME.clusters_turn;
+        if (!hidden) {
+            SeenBlocks(drawn_cluster(number).block).at.seen = FRAME.clusters_turn;
+            state |= cluster_shows;
+        }
     }
     if (drawn || hidden) return state;
     atomicAdd(later_here, 1u);

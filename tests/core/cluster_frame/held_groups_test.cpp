@@ -67,6 +67,24 @@ TEST_F(HeldOfAGraph, WhatTheFrameUsesStaysUntilTheNext) {
     EXPECT_EQ(held_.bytes(), 2 * bytes_of_one());
 }
 
+// As long as the frame does not use them.
+TEST_F(HeldOfAGraph, HiddenOnesGiveWayFirst) {
+    held_.hold_at_most(4 * bytes_of_one());
+    for (const std::uint32_t group : {0U, 1U, 2U, 3U}) {
+        held_.begin_frame();
+        put(group);
+    }
+    held_.note_hidden({2, 3, 4});
+    held_.begin_frame();
+    held_.use(3);
+    put(4);
+    EXPECT_EQ(here(), (test::Numbers{0, 1, 3, 4}));
+    held_.note_hidden({});
+    held_.begin_frame();
+    put(2);
+    EXPECT_EQ(here(), (test::Numbers{1, 2, 3, 4}));
+}
+
 TEST_F(HeldOfAGraph, WithoutFramesNothingGivesWay) {
     held_.hold_at_most(1);
     for (const std::uint32_t group : {0U, 1U, 2U, 3U, 4U}) put(group);

@@ -1,7 +1,10 @@
 // What a frame draws while its clusters stream: whatever is here, each place once, as fine as may be.
 #include "tests/core/cluster_frame/streamed_choices.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <map>
 #include <random>
 
 namespace oro {
@@ -126,6 +129,82 @@ TEST_F(StreamedChoices, AreCoarserWhereThereIsNoRoom) {
                   0U);
     }
     EXPECT_GT(short_of_room, 10U);
+}
+
+// What would come in the place of clusters that were hidden comes last, and nothing else changes.
+// Clusters on the way down from the roots, through all groups that were read and that an eye opens.
+Numbers met_by(const RegionClusters& region, const ClusterGraph& graph, const ClusterView& eye) {
+    Numbers met, opened;
+    std::vector<std::uint32_t> to_meet(region.roots().begin(), region.roots().end());
+    while (!to_meet.empty()) {
+        met.insert(to_meet.back());
+        const std::uint32_t maker = graph.clusters[to_meet.back()].made_by;
+        to_meet.pop_back();
+        if (maker == no_group || region.read_part(maker) == nullptr || opened.contains(maker)) continue;
+        const ClusterGroup& group = graph.groups[maker];
+        if (eye.stands(group) || eye.is_beyond_frustum(group)) continue;
+        opened.insert(maker);
+        for (const std::uint32_t member : graph.members_of(group)) to_meet.push_back(member);
+    }
+    return met;
+}
+
+TEST_F(StreamedChoices, WhatIsHiddenComesLast) {
+    constexpr unsigned seed = 335;
+    std::mt19937_64 random(seed);
+    std::size_t shown_first = 0, hidden_last = 0;
+    for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+        const auto region = clusters();
+        for (std::uint32_t group = 0; group < graph_.groups.size(); ++group)
+            if (random() % 16 != 0) read(*region, group);
+        Numbers here(region->roots().begin(), region->roots().end());
+        const ClusterView eye = view(test::random_camera(random, terrain_.field), 0.25);
+        // Somewhat finer than the roots, so that some stand-ins show and some do not.
+        const StreamedChoice coarse = choose(*region, eye.coarser(6), 1'000'000, here);
+        here.insert(coarse.clusters_wanted.begin(), coarse.clusters_wanted.end());
+        const StreamedChoice unknown = choose(*region, eye, 1'000'000, here);
+        ShownClusters shown;
+        for (const std::uint32_t cluster : unknown.drawn.clusters) shown[cluster] = random() % 2 == 0;
+        const StreamedChoice choice = choose(*region, eye, 1'000'000, here, shown);
+        EXPECT_EQ(choice.drawn.clusters, unknown.drawn.clusters);
+        EXPECT_EQ(choice.missing, unknown.missing);
+        EXPECT_TRUE(std::ranges::is_permutation(choice.clusters_wanted, unknown.clusters_wanted));
+        EXPECT_TRUE(std::ranges::is_permutation(choice.groups_wanted, unknown.groups_wanted));
+        EXPECT_EQ(unknown.clusters_hidden, 0U);
+        const Numbers met = met_by(*region, graph_, eye);
+        // By the way up from each of them, to what is drawn.
+        std::map<std::uint32_t, std::pair<bool, bool>> known;  // of groups: any shows, any is hidden
+        std::function<bool(std::uint32_t)> is_hidden;
+        const auto is_group_hidden = [&](std::uint32_t group) {
+            const auto [at, is_new] = known.try_emplace(group);
+            const std::uint32_t first = graph_.groups[group].first_made;
+            for (std::uint32_t made = first; is_new && made < first + graph_.groups[group].made; ++made) {
+                const ClusterReach* const reach = region->known_reach(made);
+                if (!met.contains(made) || (!shown.contains(made) && reach != nullptr &&
+                                            eye.look_at(*reach).seen != ClusterView::Seen::yes))
+                    continue;
+                (is_hidden(made) ? at->second.second : at->second.first) = true;
+            }
+            return !at->second.first && at->second.second;
+        };
+        is_hidden = [&](std::uint32_t cluster) {
+            if (const auto told = shown.find(cluster); told != shown.end()) return !told->second;
+            const std::uint32_t user = graph_.clusters[cluster].used_by;
+            return user != no_group && is_group_hidden(user);
+        };
+        for (std::size_t at = 0; at < choice.clusters_wanted.size(); ++at) {
+            const bool first = at + choice.clusters_hidden < choice.clusters_wanted.size();
+            EXPECT_TRUE(first || is_hidden(choice.clusters_wanted[at]));
+            (first ? shown_first : hidden_last) += here.contains(choice.clusters_wanted[at]) ? 0U : 1U;
+        }
+        for (std::size_t at = 0; at < choice.groups_wanted.size(); ++at)
+            EXPECT_TRUE(at + choice.groups_hidden < choice.groups_wanted.size() ||
+                        is_group_hidden(choice.groups_wanted[at]));
+    }
+    std::printf("seed %u: %zu clusters to come that show, %zu that do not\n", seed, shown_first, hidden_last);
+    EXPECT_GT(shown_first, 50U);
+    EXPECT_GT(hidden_last, 50U);
 }
 
 class StreamedChoicesWithHoles : public StreamedChoices {

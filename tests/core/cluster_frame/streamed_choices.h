@@ -36,9 +36,9 @@ class StreamedChoices : public ::testing::Test {
         return {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
     }
     static StreamedChoice choose(RegionClusters& region, const ClusterView& view, std::size_t room,
-                                 const Numbers& here) {
-        auto choice =
-            choose_clusters_here(region, view, room, [&](std::uint32_t c) { return here.contains(c); });
+                                 const Numbers& here, const ShownClusters& shown = {}) {
+        auto choice = choose_clusters_here(
+            region, view, room, [&](std::uint32_t c) { return here.contains(c); }, shown);
         EXPECT_TRUE(choice.ok()) << choice.error().line();
         return std::move(choice).value();
     }

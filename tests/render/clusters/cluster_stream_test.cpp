@@ -167,6 +167,59 @@ TEST_F(ClusterStreams, BringAgainWhatGaveWay) {
     EXPECT_GT(*std::ranges::max_element(brought), 1) << "the budget binds";
 }
 
+// Groups that are wanted last, and all below them, come after all that the others lead to.
+TEST_F(ClusterStreams, BringWhatIsWantedLastAfterTheRest) {
+    const ClusterGraph& graph = terrain_.graph;
+    std::mt19937_64 random(354);
+    int looked_at = 0;
+    for (int i = 0; i < 8; ++i) {
+        SCOPED_TRACE(i);
+        const ClusterView eye = view(test::random_camera(random, terrain_.field));
+        const auto region = clusters();
+        std::vector<std::uint32_t> first;  // all of a level
+        for (std::uint32_t level = graph.groups.back().level; first.size() < 4; --level) {
+            first.clear();
+            for (std::uint32_t group = 0; group < graph.groups.size(); ++group)
+                if (graph.groups[group].level == level) first.push_back(group);
+        }
+        const std::size_t last = first.size() / 2;
+        // What the others lead to.
+        std::vector<std::uint32_t> to_look_at(first.begin(), first.end() - static_cast<std::ptrdiff_t>(last));
+        std::set<std::uint32_t> before(to_look_at.begin(), to_look_at.end());
+        const auto look_below = [&](std::set<std::uint32_t>& found) {
+            while (!to_look_at.empty()) {
+                const ClusterGroup& group = graph.groups[to_look_at.back()];
+                to_look_at.pop_back();
+                if (eye.stands(group)) continue;
+                for (const std::uint32_t member : graph.members_of(group)) {
+                    const std::uint32_t maker = graph.clusters[member].made_by;
+                    if (maker != no_group && !eye.is_beyond_frustum(graph.groups[maker]) &&
+                        found.insert(maker).second)
+                        to_look_at.push_back(maker);
+                }
+            }
+        };
+        look_below(before);
+        std::set<std::uint32_t> all = before;
+        to_look_at.assign(first.end() - static_cast<std::ptrdiff_t>(last), first.end());
+        all.insert(to_look_at.begin(), to_look_at.end());
+        look_below(all);
+        ClusterStream stream(*region, {}, 1, 100'000);
+        stream.want(eye, first, {}, last);
+        std::vector<std::uint32_t> loaded;
+        const auto done = take_until(stream, [&](const ClusterStream::Ready& ready) {
+            for (const auto& group : ready.groups) loaded.push_back(group.number);
+            return loaded.size() >= all.size();
+        });
+        ASSERT_TRUE(done.ok());
+        const std::set<std::uint32_t> came_first(loaded.begin(),
+                                                 loaded.begin() + static_cast<std::ptrdiff_t>(before.size()));
+        EXPECT_EQ(came_first, before);
+        looked_at += before.size() < all.size() ? 1 : 0;
+    }
+    EXPECT_GT(looked_at, 3);
+}
+
 TEST_F(ClusterStreams, TellOfDamageOnce) {
     const std::uint32_t top = terrain_.graph.clusters.back().made_by;
     Camera camera;

@@ -18,13 +18,25 @@ class StreamedClusters : public test::GpuTest, public ::testing::WithParamInterf
     test::ClusterTerrain terrain_{test::rough_field(47.0, 8.0, 260, 310)};
 
     test::DrawnScene scene(std::uint64_t bytes, std::uint64_t main_bytes = HeldGroups::no_limit) {
-        test::DrawnScene drawn(*gpu_, pages_in_memory(terrain_.field, 1.0, 2), GetParam(), streamed_px,
+        return scene_of(terrain_, bytes, main_bytes);
+    }
+    test::DrawnScene scene_of(const test::ClusterTerrain& terrain, std::uint64_t bytes,
+                              std::uint64_t main_bytes = HeldGroups::no_limit) {
+        test::DrawnScene drawn(*gpu_, pages_in_memory(terrain.field, 1.0, 2), GetParam(), streamed_px,
                                streamed_px);
-        test::draw_by_clusters(*gpu_, terrain_, drawn.scene(), bytes, {}, main_bytes);
+        test::draw_by_clusters(*gpu_, terrain, drawn.scene(), bytes, {}, main_bytes);
         return drawn;
     }
     static std::size_t ground_in(const std::vector<std::uint32_t>& ids) {
         return ids.size() - static_cast<std::size_t>(std::ranges::count(ids, 0U));
+    }
+    // Numbers in the graph of what each pixel shows; of background none that is there.
+    static std::vector<std::uint32_t> clusters_of(const test::DrawnFrame& frame) {
+        std::vector<std::uint32_t> numbers;
+        for (const std::uint32_t id : frame.ids)
+            numbers.push_back(id == 0 ? no_group
+                                      : frame.plan.clusters.drawn[(id - 1) / gpu::cluster_triangles].number);
+        return numbers;
     }
     // No background within the terrain, and ground from the first frame that has any pages.
     void expect_whole(const Camera& camera, const test::DrawnFrame& frame) {
@@ -155,6 +167,44 @@ TEST_P(StreamedClusters, AreCoarserWithTooLittleMemory) {
         EXPECT_GT(too_little, 3) << slots;
         EXPECT_GT(waits.scene().clusters()->most_without_room(), 0U);
     }
+}
+
+// A wall hides most of the region. Where frames tell what they show, each pixel has what it has in the end
+// with fewer of the groups; the settled picture is the same, to the byte.
+TEST_P(StreamedClusters, BringWhatShowsBeforeWhatIsHidden) {
+    constexpr std::uint64_t gpu_bytes = std::uint64_t{64} << 20U, main_bytes = 800'000;
+    constexpr double tau_px = 0.125;
+    HeightField field = test::rough_field(47.0, 8.0, 700, 310);
+    for (int row = 590; row < 593; ++row)
+        for (int column = 0; column < 310; ++column) test::post_of(field, row, column) = 8000.0F;
+    const test::ClusterTerrain walled(std::move(field));
+    Camera camera;
+    camera.width_px = camera.height_px = streamed_px;
+    camera.vertical_fov_deg = 50.0;
+    camera.eye = {47.0 - 640.0 / 1200.0, 8.0 + 130.0 / 1200.0, 4000.0};
+    camera.attitude = {5.0, -10.0, 0.0};
+    test::DrawnScene waits = scene_of(walled, gpu_bytes);
+    const std::vector<std::uint32_t> whole = clusters_of(waits.draw(camera, tau_px));
+    const auto picture = *waits.renderer().read_picture(streamed_px, streamed_px);
+    // Groups that are here when the pixels are those of the end, and stay so.
+    const auto groups_until = [&](bool tells) {
+        test::DrawnScene streams = scene_of(walled, gpu_bytes, main_bytes);
+        std::size_t groups = 0;
+        const auto look = [&](const test::DrawnFrame& frame) {
+            if (clusters_of(frame) != whole)
+                groups = 0;
+            else if (groups == 0)
+                groups = streams.scene().clusters()->groups().size();
+        };
+        const auto streamed = test::stream_frames(streams, camera, tau_px, look, {}, tells, 2000);
+        EXPECT_TRUE(streamed.last.plan.is_settled());
+        EXPECT_EQ(*streams.renderer().read_picture(streamed_px, streamed_px), picture);
+        return groups;
+    };
+    const std::size_t told = groups_until(true), untold = groups_until(false);
+    std::printf("%zu groups until all is there that shows, %zu where nothing is told\n", told, untold);
+    EXPECT_GT(told, 0U);
+    EXPECT_LT(5 * told, 4 * untold);
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, StreamedClusters, ::testing::Values(RasterPath::mesh, RasterPath::compute),

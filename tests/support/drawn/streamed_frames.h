@@ -17,18 +17,20 @@ struct StreamedFrames {
     int coarser{};  // frames of clusters that lacked some
 };
 
-// Draws frames until one is settled, or nothing has come for a while. each: of every frame.
+// Draws frames until one is settled, or nothing that is seen has come for a while. each: of every frame.
+// tells: the scene is told what they show.
 inline StreamedFrames stream_frames(DrawnScene& drawn, const Camera& camera, double tau_px,
                                     const std::function<void(const DrawnFrame& frame)>& each,
-                                    const gpu::FrameStyle& style = {}) {
-    constexpr int most_frames = 2000, turns_without_news = 100;
+                                    const gpu::FrameStyle& style = {}, bool tells = true,
+                                    int turns_without_news = 100) {
+    constexpr int most_frames = 2000;
     StreamedFrames streamed;
     for (bool is_over = false; !is_over && streamed.frames < most_frames;) {
         streamed.last = drawn.draw_what_is_here(camera, tau_px, style);
         ++streamed.frames;
         streamed.coarser += streamed.last.plan.clusters.missing > 0 ? 1 : 0;
         each(streamed.last);
-        drawn.scene().saw(streamed.last.report.sights);
+        if (tells) drawn.scene().saw(streamed.last.report.sights);
         is_over = streamed.last.plan.is_settled();
         for (int turn = 0; !is_over; ++turn) {
             const auto better = drawn.scene().advance(streamed.last.plan.missing);
