@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <random>
 
+#include "core/base/parallel.h"
 #include "tests/support/drawn/cluster_scene.h"
 #include "tests/support/drawn/cracks.h"
 #include "tests/support/drawn/streamed_frames.h"
@@ -204,7 +205,11 @@ TEST_P(StreamedClusters, BringWhatShowsBeforeWhatIsHidden) {
     const std::size_t told = groups_until(true), untold = groups_until(false);
     std::printf("%zu groups until all is there that shows, %zu where nothing is told\n", told, untold);
     EXPECT_GT(told, 0U);
-    EXPECT_LT(5 * told, 4 * untold);
+    // More readers read what is hidden, too, for want of other work; the order itself is the business of
+    // StreamedChoices and ClusterStreams.
+    if (thread_count() <= 4) {
+        EXPECT_LT(5 * told, 4 * untold);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, StreamedClusters, ::testing::Values(RasterPath::mesh, RasterPath::compute),
