@@ -20,7 +20,7 @@ void HeldGroups::make_places(std::size_t groups, std::size_t clusters, std::uint
 void HeldGroups::begin_frame() {
     ++frame_;
     for (const std::uint32_t group : hidden_)
-        if (held_[group]) order_.splice(order_.begin(), order_, held_[group]->place);
+        if (group < held_.size() && held_[group]) order_.splice(order_.begin(), order_, held_[group]->place);
 }
 
 const GroupPart* HeldGroups::use(std::uint32_t group) {

@@ -44,7 +44,8 @@ class HeldGroups {
     // From here on groups count as used by another frame: those of earlier ones may give way.
     // What the last frame hid is the first of them.
     void begin_frame();
-    // Groups that other ground hides, as far as is known, in the place of those told before. Any numbers.
+    // Groups that other ground hides, as far as is known, in the place of those told before. Any numbers: of
+    // a cluster that nothing made or uses, no_group.
     void note_hidden(std::vector<std::uint32_t> groups) { hidden_ = std::move(groups); }
     // Lets go of what the frame has not used, as far as there is too much of it.
     void end_frame() { make_room(0); }

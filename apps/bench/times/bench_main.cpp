@@ -186,9 +186,8 @@ Result<void> run_bench(const BenchOptions& options) {
         std::printf("%s\n", json.dump().c_str());
     else
         std::printf(
-            "%.2f bytes a post, bounds of nodes apart; %.0f bytes a page; means of the ground take %.2f more "
-            "a "
-            "post\n",
+            "%.2f bytes a post, bounds of nodes apart; %.0f bytes a page; "
+            "means and places on a net take %.2f more a post\n",
             scene.store().bytes_a_post(), scene.store().bytes_a_page(), scene.store().means_bytes_a_post());
     return {};
 }

@@ -74,7 +74,7 @@ TEST_F(HeldOfAGraph, HiddenOnesGiveWayFirst) {
         held_.begin_frame();
         put(group);
     }
-    held_.note_hidden({2, 3, 4});
+    held_.note_hidden({2, 3, 4, no_group});  // the last: of a cluster alone, which no group made or uses
     held_.begin_frame();
     held_.use(3);
     put(4);
