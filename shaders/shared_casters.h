@@ -36,13 +36,16 @@ struct Casters {
     uvec2 sun_shares;  // float for each pixel, row by row: what it sees of the sun (casters.glsl, share_step)
 };
 ORO_CONST float no_node_m = 1.0e30f;
+ORO_CONST uint node_has_finer = 1u;  // the page of the next finer level is there
+ORO_CONST uint node_is_gentle = 2u;  // no triangle rises towards the sun as fast as its light does
+ORO_CONST uint node_has_voids = 4u;
 // A node of such a page.
 struct CasterNode {
     float top_m;          // nothing that it stands for is higher
     float error_m;        // of the pyramid
     float above_top_m;    // the same of the node of the next coarser level that holds it;
     float above_error_m;  // ... no_node_m where that is not there
-    uint finer;           // 1: the page of the next finer level is there
+    uint flags;           // node_has_finer, node_is_gentle, node_has_voids
     uvec2 block;          // device address of its page's PageBlock
 };
 

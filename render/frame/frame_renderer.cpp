@@ -211,7 +211,8 @@ Result<void> FrameRenderer::upload(std::size_t number, FramePlan& plan, const Fr
         grid.drape.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? drape : nullptr, constants));
     if (options_.shades) {
         ORO_CHECK(air_.prepare(*gpu_, *pipelines_, constants));
-        ORO_CHECK(grid.casters.prepare(*gpu_, options_.path, *pipelines_, plan, shared_shares_, constants));
+        const ShareOptions how{options_.path, !shades_as_gpu(*gpu_, options_.as_on_gpu)};
+        ORO_CHECK(grid.casters.prepare(*gpu_, how, *pipelines_, plan, shared_shares_, constants));
         ORO_CHECK(choose_shading(grid, constants));
     }
     grid.address(plan);

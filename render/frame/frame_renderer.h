@@ -48,9 +48,9 @@ struct FrameRendererOptions {
     // Compute path: triangles are shared between invocations as on a GPU, also where a processor draws
     // (tests); the ids are the same.
     bool shares_triangles{false};
-    // Footprints of several parts have a program of their own as on a GPU, also where a processor draws
-    // (tests); the picture is the same.
-    bool parts_apart{false};
+    // What a GPU shades and casts by several programs they do where a processor draws, too (tests); the
+    // picture is the same.
+    bool as_on_gpu{false};
     ListRoom list_room{};         // compute path: fewer than there are, for tests of full lists
     bool nearest_pyramid{false};  // wrong occlusion, for the test that notices it
     RasterPath path{RasterPath::mesh};

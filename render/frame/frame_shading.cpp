@@ -33,7 +33,7 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants&
     kind.on_net = constants.has_net != 0;
     kind.on_clusters = constants.clusters.on != 0;
     kind.parts_follow = kind.by_means && kind.in_air && style.footprint == gpu::footprint_mean &&
-                        (options_.parts_apart || gpu_->report().kind != VK_PHYSICAL_DEVICE_TYPE_CPU);
+                        shades_as_gpu(*gpu_, options_.as_on_gpu);
     ORO_TRY(grid.shade, shading_for(*gpu_, options_.path, kind, *pipelines_));
     if (kind.edges_follow) {
         ORO_TRY(edges_, edges_for(*gpu_, options_.path, kind, *pipelines_));

@@ -58,11 +58,11 @@ struct Pipelines {
     std::array<OwnedPipeline, 2> drape_wants;  // what tiles of images are wanted (then of clusters), 8 x 8
     std::array<OwnedPipeline, 6> air;          // its tables, in this order, 64 entries a workgroup
     OwnedPipeline caster_tops, openness;       // of what casts shadows
-    // Off and on a net, of clusters: of every second pixel, of all; 16 x 16 of them.
-    std::array<std::array<OwnedPipeline, 2>, 3> sun_shares;
+    // Off and on a net, of clusters; of each by what it does (shares.comp), 16 x 16 pixels or 64 of a list.
+    std::array<std::array<OwnedPipeline, 5>, 3> sun_shares;
     // Of frames of several grids, off and on a net: where pixels' ground is, 8 x 8; as sun_shares; 8 x 8.
     std::array<OwnedPipeline, 2> cast_places;
-    std::array<std::array<OwnedPipeline, 2>, 2> joined_shares;
+    std::array<std::array<OwnedPipeline, 5>, 2> joined_shares;
     OwnedPipeline join_shares;
     OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
     OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8

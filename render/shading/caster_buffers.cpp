@@ -26,8 +26,19 @@ VkDeviceSize list_at(VkExtent2D extent) {
     return aligned(VkDeviceSize{extent.width} * extent.height * sizeof(float));
 }
 
-VkDeviceSize bytes_of_shares(const Gpu& gpu, VkExtent2D extent) {
-    return (lists_pixels_together(gpu) ? 2 : 1) * list_at(extent) + sizeof(empty_list);
+VkDeviceSize bytes_of_shares(VkExtent2D extent) {
+    return 2 * list_at(extent) + sizeof(empty_list);
+}
+
+// Towards the sun in ECEF, in steps of 0.0005: an eye that moves changes it little, and which nodes are
+// gentle (tops.comp) has room for 0.0028 radians.
+glm::ivec3 sun_roughly(const gpu::FrameConstants& constants) {
+    const gpu::vec2 latitude = constants.eye_post.latitude, meridian = constants.eye_meridian;
+    const gpu::vec3 sun = constants.style.sun_enu;
+    const float out = latitude.x * sun.z - latitude.y * sun.y, east = sun.x;
+    const gpu::vec3 ecef(meridian.x * out - meridian.y * east, meridian.y * out + meridian.x * east,
+                         latitude.y * sun.z + latitude.x * sun.y);
+    return glm::ivec3(glm::round(2000.0F * ecef));
 }
 
 struct CasterLayout {
@@ -49,29 +60,33 @@ void wait_for_shaders(VkCommandBuffer commands) {
 }
 
 // Lines for every second pixel of every second row; then the others are looked at, and those that need lines
-// have them, too: at once, or once all are known.
-void record_sun_shares(VkCommandBuffer commands, const std::array<OwnedPipeline, 2>& pipelines,
-                       VkBuffer shares, VkExtent2D extent, bool lists_together) {
-    const auto dispatch = [&](const OwnedPipeline& pipeline, std::uint32_t side_px) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+// have them, too.
+void record_sun_shares(VkCommandBuffer commands, const std::array<OwnedPipeline, 5>& pipelines,
+                       VkBuffer shares, VkExtent2D extent, const ShareOptions& how) {
+    const std::array<std::size_t, 3> programs = share_programs(how);
+    const auto bind = [&](std::size_t turn) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[programs[turn]].get());
+    };
+    const auto dispatch = [&](std::size_t turn) {
+        constexpr std::uint32_t side_px = 16;
+        bind(turn);
         vkCmdDispatch(commands, (extent.width + side_px - 1) / side_px,
                       (extent.height + side_px - 1) / side_px, 1);
     };
     const VkDeviceSize list = list_at(extent);
-    if (lists_together) {
+    // A first turn that is a program of its own does this itself.
+    if (how.both_turns_in_one) {
         vkCmdUpdateBuffer(commands, shares, list, sizeof(empty_list), empty_list.data());
         wait(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
              VK_ACCESS_2_TRANSFER_WRITE_BIT);
     }
-    dispatch(pipelines[0], 16);
+    dispatch(0);
     wait_for_shaders(commands);
-    dispatch(pipelines[1], 8);
-    if (lists_together) {
-        wait(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-             VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[0].get());
-        vkCmdDispatchIndirect(commands, shares, list + groups_at);
-    }
+    dispatch(1);
+    wait(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+         VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
+    bind(2);
+    vkCmdDispatchIndirect(commands, shares, list + groups_at);
     wait_for_shaders(commands);
 }
 
@@ -94,7 +109,7 @@ Result<void> SharedShares::reserve(const Gpu& gpu, const FramePlan& plan, const 
     ORO_TRY(places_, create_buffer(gpu, pixels * sizeof(gpu::CastPlace), on_device, MemoryKind::device,
                                    "places in shadow"));
     ORO_TRY(of_one_grid_,
-            create_buffer(gpu, bytes_of_shares(gpu, {plan.constants.width_px, plan.constants.height_px}),
+            create_buffer(gpu, bytes_of_shares({plan.constants.width_px, plan.constants.height_px}),
                           on_device, MemoryKind::device, "sun shares of one grid"));
     ORO_TRY(shares_, create_buffer(gpu, pixels * sizeof(float), on_device, MemoryKind::device,
                                    "sun shares of all grids"));
@@ -133,13 +148,15 @@ Result<void> CasterBuffers::reserve(const Gpu& gpu, const FramePlan& frame,
     width_px_ = constants.width_px;
     height_px_ = constants.height_px;
     if (casts_ && !is_joined_)
-        ORO_CHECK(grow(sun_shares_, bytes_of_shares(gpu, {width_px_, height_px_}), "sun shares"));
+        ORO_CHECK(grow(sun_shares_, bytes_of_shares({width_px_, height_px_}), "sun shares"));
     return {};
 }
 
 // What nodes and openness follow from: the casters as they are sent, then whose heights they are and of which
-// pages. Heights stay where they are, and the same place holds others only as another page.
-void CasterBuffers::describe(const FramePlan& frame, const gpu::FrameCasters& casters) {
+// pages, and where the sun is over them. Heights stay where they are, and the same place holds others only as
+// another page.
+void CasterBuffers::describe(const FramePlan& frame, const gpu::FrameCasters& casters,
+                             const gpu::FrameConstants& constants) {
     const CasterPlan& plan = frame.casters;
     const CasterLayout layout = layout_of(plan);
     wanted_.assign(layout.size, std::byte{});
@@ -155,6 +172,9 @@ void CasterBuffers::describe(const FramePlan& frame, const gpu::FrameCasters& ca
     };
     add(frame.heights);
     add(casts_);
+    if (casts_) {
+        add(sun_roughly(constants));
+    }
     if (opens_)
         for (const gpu::FramePage& page : frame.pages) {
             add(page.block);
@@ -166,7 +186,7 @@ void CasterBuffers::describe(const FramePlan& frame, const gpu::FrameCasters& ca
     is_new_ = frame.heights == 0 || wanted_ != made_;
 }
 
-Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& pipelines,
+Result<void> CasterBuffers::prepare(const Gpu& gpu, const ShareOptions& how, Pipelines& pipelines,
                                     const FramePlan& frame, const SharedShares& shared,
                                     gpu::FrameConstants& constants) {
     const CasterPlan& plan = frame.casters;
@@ -177,12 +197,12 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& 
     is_joined_ = shared.is_on() && (casts_ || !frame.pages.empty());
     on_net_ = constants.has_net != 0;
     on_clusters_ = constants.clusters.on != 0;
-    lists_together_ = lists_pixels_together(gpu);
+    how_ = how;
     constants.casters = {};
     if (!any()) return {};
     ORO_CHECK(add_cast_pipelines(gpu, pipelines));
-    ORO_CHECK(is_joined_ ? add_joined_pipelines(gpu, path, on_net_, casts_, pipelines)
-                         : add_share_pipelines(gpu, path, on_net_, on_clusters_, pipelines));
+    ORO_CHECK(is_joined_ ? add_joined_pipelines(gpu, how, on_net_, casts_, pipelines)
+                         : add_share_pipelines(gpu, how, on_net_, on_clusters_, pipelines));
     ORO_CHECK(reserve(gpu, frame, constants));
     const CasterLayout layout = layout_of(plan);
     gpu::FrameCasters casters{};
@@ -196,7 +216,7 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, RasterPath path, Pipelines& 
     casters.own.nodes = address_words(nodes_.address);
     casters.shown_shares = is_joined_ ? address_words(shared.shares()) : casters.own.sun_shares;
     casters.places = address_words(shared.places());
-    describe(frame, casters);
+    describe(frame, casters, constants);
     if (is_new_) std::memcpy(staging_.mapped, wanted_.data(), size_);
     constants.casters = address_words(data_.address);
     pages_ = static_cast<std::uint32_t>(plan.pages.size());
@@ -235,11 +255,14 @@ void CasterBuffers::record_shares(VkCommandBuffer commands, const Pipelines& pip
                                                                           : 0];
     // What another grid's were for is done with.
     if (is_joined_)
-        memory_barrier(
-            commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-            VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    record_sun_shares(commands, programs, shares_, {width_px_, height_px_}, lists_together_);
+        memory_barrier(commands,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT |
+                           VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                           VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    record_sun_shares(commands, programs, shares_, {width_px_, height_px_}, how_);
     if (!is_joined_) return;
     dispatch_over_pixels(commands, pipelines.join_shares, width_px_, height_px_);
     wait_for_shaders(commands);

@@ -8,6 +8,7 @@
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
 #include "render/frame/pipelines.h"
+#include "render/shading/shading.h"
 #include "shaders/shared_places.h"
 
 namespace oro {
@@ -37,7 +38,7 @@ class CasterBuffers {
     // Room for a plan's casters, and their place into the frame's constants; the pipelines on first use.
     // Nothing happens for a style without shadows and openness, and for a plan without casters unless others
     // of the frame may take the sun from its ground.
-    Result<void> prepare(const Gpu& gpu, RasterPath path, Pipelines& pipelines, const FramePlan& plan,
+    Result<void> prepare(const Gpu& gpu, const ShareOptions& how, Pipelines& pipelines, const FramePlan& plan,
                          const SharedShares& shared, gpu::FrameConstants& constants);
     // Sends them, and finds out how high they reach and how much of the sky they leave, unless all that is as
     // it was in the frame before. The frame's set is bound for all that is recorded, its ids can be read.
@@ -55,7 +56,8 @@ class CasterBuffers {
 
   private:
     Result<void> reserve(const Gpu& gpu, const FramePlan& plan, const gpu::FrameConstants& constants);
-    void describe(const FramePlan& plan, const gpu::FrameCasters& casters);
+    void describe(const FramePlan& plan, const gpu::FrameCasters& casters,
+                  const gpu::FrameConstants& constants);
 
     Buffer staging_;  // gpu::FrameCasters, then pages, then the table
     Buffer data_;     // the same on the device
@@ -66,10 +68,10 @@ class CasterBuffers {
     std::vector<std::byte> wanted_, made_;  // what nodes_ and openness_ follow from: of this frame, and made
     VkDeviceSize size_{};
     bool casts_{}, opens_{}, is_new_{};
-    bool is_joined_{};       // the frame has several grids that cast shadows
-    bool lists_together_{};  // shading.h, lists_pixels_together
-    bool on_net_{};          // the frame's posts lie on a net
-    bool on_clusters_{};     // its pixels show clusters
+    bool is_joined_{};  // the frame has several grids that cast shadows
+    ShareOptions how_;
+    bool on_net_{};       // the frame's posts lie on a net
+    bool on_clusters_{};  // its pixels show clusters
     std::uint32_t width_px_{}, height_px_{};
     std::uint32_t pages_{};        // that cast
     std::uint32_t frame_pages_{};  // that are drawn

@@ -104,23 +104,28 @@ Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
-bool lists_pixels_together(const Gpu& gpu) {
-    return gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU;
+bool shades_as_gpu(const Gpu& gpu, bool asked) {
+    return asked || gpu.report().kind != VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
+std::array<std::size_t, 3> share_programs(const ShareOptions& how) {
+    return how.both_turns_in_one ? std::array<std::size_t, 3>{2, 3, 2} : std::array<std::size_t, 3>{0, 4, 1};
 }
 
 namespace {
 
-// shares.comp, `does`: its two turns, or both as one program and the list between them.
-Result<void> make_share_pipelines(const Gpu& gpu, RasterPath path, std::span<const std::uint32_t> words,
-                                  const Pipelines& pipelines, std::array<OwnedPipeline, 2>& shares) {
-    const std::uint32_t first = lists_pixels_together(gpu) ? 2 : 0;
-    for (std::uint32_t turn = 0; turn < shares.size(); ++turn) {
-        if (shares[turn]) continue;
-        const std::array<std::uint32_t, 2> values{flag(path == RasterPath::compute), first + turn};
+// shares.comp, by `does`.
+Result<void> make_share_pipelines(const Gpu& gpu, const ShareOptions& how,
+                                  std::span<const std::uint32_t> words, const Pipelines& pipelines,
+                                  std::array<OwnedPipeline, 5>& shares) {
+    for (const std::size_t does : share_programs(how)) {
+        if (shares[does]) continue;
+        const std::array<std::uint32_t, 2> values{flag(how.path == RasterPath::compute),
+                                                  static_cast<std::uint32_t>(does)};
         const std::array<VkSpecializationMapEntry, 2> entries{
             {{0, 0, sizeof(values[0])}, {1, sizeof(values[0]), sizeof(values[1])}}};
         const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
-        ORO_TRY(shares[turn], create_compute_pipeline(gpu, pipelines, words, "sun shares", &constants));
+        ORO_TRY(shares[does], create_compute_pipeline(gpu, pipelines, words, "sun shares", &constants));
     }
     return {};
 }
@@ -139,24 +144,24 @@ Result<void> add_cast_pipelines(const Gpu& gpu, Pipelines& pipelines) {
     return {};
 }
 
-Result<void> add_share_pipelines(const Gpu& gpu, RasterPath path, bool on_net, bool on_clusters,
+Result<void> add_share_pipelines(const Gpu& gpu, const ShareOptions& how, bool on_net, bool on_clusters,
                                  Pipelines& pipelines) {
     const std::span<const std::uint32_t> words =
         on_clusters ? std::span<const std::uint32_t>(shares_clusters_comp_spirv)
         : on_net    ? std::span<const std::uint32_t>(shares_net_comp_spirv)
                     : std::span<const std::uint32_t>(shares_comp_spirv);
-    return make_share_pipelines(gpu, path, words, pipelines,
+    return make_share_pipelines(gpu, how, words, pipelines,
                                 pipelines.sun_shares[on_clusters ? 2
                                                      : on_net    ? 1
                                                                  : 0]);
 }
 
-Result<void> add_joined_pipelines(const Gpu& gpu, RasterPath path, bool on_net, bool casts,
+Result<void> add_joined_pipelines(const Gpu& gpu, const ShareOptions& how, bool on_net, bool casts,
                                   Pipelines& pipelines) {
     using Words = std::span<const std::uint32_t>;
     const std::size_t number = on_net ? 1 : 0;
     if (!pipelines.cast_places[number]) {
-        const VkBool32 from_compute = flag(path == RasterPath::compute);
+        const VkBool32 from_compute = flag(how.path == RasterPath::compute);
         const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
         const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};
         ORO_TRY(pipelines.cast_places[number],
@@ -170,7 +175,7 @@ Result<void> add_joined_pipelines(const Gpu& gpu, RasterPath path, bool on_net, 
     }
     if (!casts) return {};
     return make_share_pipelines(
-        gpu, path, on_net ? Words(shares_beside_net_comp_spirv) : Words(shares_beside_comp_spirv), pipelines,
+        gpu, how, on_net ? Words(shares_beside_net_comp_spirv) : Words(shares_beside_comp_spirv), pipelines,
         pipelines.joined_shares[number]);
 }
 

@@ -83,6 +83,7 @@ float sun_from(CastStart start, bool is_own) {
     if (!is_own) {
         from_m = 3.0 * CASTERS.error_per_m * start.point.distance_m;
         search.last_m = -1.0e9;
+        search.is_above = false;
     }
     if (!is_own && HAS_NET && !fit_over_net(start, line, from_m, end_m)) return 1.0;
     CastPiece piece;
@@ -90,7 +91,7 @@ float sun_from(CastStart start, bool is_own) {
         if (is_own && i == 0) {
             CastPiece first = piece;
             first.per_m = line.a1.xy * line.per_m;
-            light = min(light_on_start(line, first, start), 0.0);
+            light = min(light_on_start(start), 0.0);
             search.lift_m += smooth_lift_m(line, first, start.cell, level, start.point, start.west);
         }
         from_m = piece.to_m;

@@ -2,9 +2,9 @@
 
 float sun_over_terrain(CastStart start) {
     CastSearch search = search_from(start);
+    float light = light_on_start(start);
     SunLine line = sun_line(start.at);
     CastPiece piece = CastPiece(0.0, 0.0, start.point.beyond, line.a1.xy * line.per_m);
-    float light = light_on_start(line, piece, start);
     search.lift_m += smooth_lift_m(line, piece, start.cell, start.level, start.point, start.west);
     for (int i = 0; i < 500 && piece.from_m < line.length_m; ++i) {
         piece.to_m = min(piece.from_m + cast_piece_m, line.length_m);

@@ -17,6 +17,7 @@ const bool opens = false;
 #include "shaders/air/air.glsl"
 #include "shaders/cast/casters.glsl"
 #include "shaders/cast/shadow.glsl"
+#include "shaders/cast/start.glsl"
 #include "shaders/cast/shown.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -111,6 +111,25 @@ void fit(inout SunLine line, vec3 f1, vec3 f2, vec3 f3) {
     line.a3 = 13.5 * f1 - 13.5 * f2 + 4.5 * f3;
 }
 
+// What a metre of it is where it begins; on a net nearly. That and its second derivative will do where it is short, and not near a pole: within
+// 0.3 m, and 1 cm in height.
+vec3 begins_per_m(CastFrame at) {
+    if (HAS_NET) return towards_sun_m(at, 10.0) / 10.0;
+    vec2 turn = vec2(at.sun.y / (at.meridian_m + at.h_m), at.sun.x / ((at.normal_m + at.h_m) * at.latitude.x));
+    return vec3(turn * vec2(-1.0 / CASTERS.row_rad, 1.0 / CASTERS.column_rad), at.sun.z);
+}
+bool is_short(CastFrame at, float length_m) { return !HAS_NET && length_m < 12000.0 && at.latitude.x > 0.17; }
+void begin_short(CastFrame at, inout SunLine line) {
+    float c = at.latitude.x, s = at.latitude.y, meridian_m = at.meridian_m + at.h_m, normal_m = at.normal_m + at.h_m;
+    vec2 turn = vec2(at.sun.y / meridian_m, at.sun.x / (normal_m * c));  // latitude and longitude, radians a metre
+    float inwards = s * at.sun.y - c * at.sun.z;
+    vec2 second = vec2(-(2.0 * at.sun.z * turn.x + s * at.sun.x * turn.y) / meridian_m, 2.0 * turn.y * inwards / (normal_m * c));
+    float rise = at.sun.y * turn.x + at.sun.x * at.sun.x / normal_m, half_squared = 0.5 * line.length_m * line.length_m;
+    line.a1 = line.length_m * begins_per_m(at);
+    line.a2 = half_squared * vec3(second * vec2(-1.0 / CASTERS.row_rad, 1.0 / CASTERS.column_rad), rise);
+    line.a3 = vec3(0.0);
+}
+
 SunLine sun_line(CastFrame at) {
     // To where even the disc's lower edge is above all terrain.
     float up = at.sun.z - 1.1 * sun_radius_rad, room = max(CASTERS.top_m - at.h_m, 1.0), radius = at.normal_m;
@@ -120,6 +139,10 @@ SunLine sun_line(CastFrame at) {
     line.per_m = 1.0 / line.length_m;
     line.level = max(length(at.sun.xy), 0.02);
     line.rises = up > 0.01;
+    if (is_short(at, line.length_m)) {
+        begin_short(at, line);
+        return line;
+    }
     vec3 f1 = towards_sun_m(at, line.length_m / 3.0), f2 = towards_sun_m(at, line.length_m * 2.0 / 3.0);
     vec3 f3 = towards_sun_m(at, line.length_m);
     fit(line, f1, f2, f3);
@@ -136,7 +159,7 @@ bool caster_at(ivec2 post, float error_m, inout uint level, out CasterNode node)
     if (page == no_page) return false;
     node = CasterNodes(CASTERS.nodes).at[caster_node(page, level, post)];
     // Errors grow from level to level: one of the two, or none.
-    while (node.error_m > error_m && node.finer == 1u) {
+    while (node.error_m > error_m && (node.flags & node_has_finer) != 0u) {
         --level;
         node = CasterNodes(CASTERS.nodes).at[caster_node(caster_page(level, post), level, post)];
     }
@@ -177,6 +200,7 @@ struct CastSearch {
     float step_m;
     float step_from_m;
     float step_to_m;
+    bool is_above;  // the line is over the ground where it comes to the next node, by what was looked at so far
 };
 
 void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, bool west, inout CastSearch search) {
@@ -288,7 +312,7 @@ bool look_along(SunLine line, CastPiece piece, float error_m, inout uint level, 
             if (node.above_top_m < low_m) ++level;
             continue;
         }
-        if (node.error_m > error_m && node.finer == 1u) {
+        if (node.error_m > error_m && (node.flags & node_has_finer) != 0u) {
             --level;
             continue;
         }
@@ -297,21 +321,25 @@ bool look_along(SunLine line, CastPiece piece, float error_m, inout uint level, 
             ++level;
             continue;
         }
-        look_at_node(line, piece, node, level, t_m, out_m, search);
-        if (search.least <= -sun_radius_rad) return false;
+        // A line that is above gentle ground leaves it behind.
+        if (!search.is_above || (node.flags & node_is_gentle) == 0u) {
+            look_at_node(line, piece, node, level, t_m, out_m, search);
+            if (search.least <= -sun_radius_rad) return false;
+            search.is_above = (node.flags & node_has_voids) == 0u;
+        }
         t_m = out_m;
     }
     return true;
 }
 
-// How much faster a cell's triangle rises towards the sun than the line does, metres a metre.
-float rise_over(SunLine line, CastPiece piece, CasterCell cell, bool west) {
+// How much faster a cell's triangle rises towards the sun than the line does, metres a metre. per_m: of the line, row, column, metres.
+float rise_over(vec3 per_m, CasterCell cell, bool west) {
     ivec4 h = cell.heights;
     if (h.x == void_height || h.w == void_height || (west ? h.z : h.y) == void_height) return 0.0;
     // Along the triangle's own sides: southwards, eastwards.
     vec2 steps = vec2(west ? h.z - h.x : h.w - h.y, west != cell.rises ? h.w - h.z : h.y - h.x);
     vec2 rise = height_step_m * steps / as_floats(cell.to - cell.from);  // a post
-    return dot(rise, piece.per_m) - line.a1.z * line.per_m;
+    return dot(rise, per_m.xy) - per_m.z;
 }
 
 float side_px(CasterCell cell, float distance_m) { return float(cell.to.x - cell.from.x) * CASTERS.row_rad * 6371000.0 * FRAME.pixels_per_tangent / distance_m; }
@@ -324,63 +352,16 @@ float smooth_lift_m(SunLine line, CastPiece piece, CasterCell cell, uint level, 
     vec2 size = as_floats(cell.to - cell.from), low = vec2(cell.from - point.post);
     float cell_px = side_px(cell, point.distance_m), cell_m = cell_px * point.distance_m / FRAME.pixels_per_tangent;
     if (FRAME.style.relief < 0.5 || cell_px <= smooth_from_px) return 0.0;
-    float over = rise_over(line, piece, cell, west), out_m = max(way_out_of(piece, low, low + size), 0.0);
+    vec3 per_m = vec3(piece.per_m, line.a1.z * line.per_m);
+    float over = rise_over(per_m, cell, west), out_m = max(way_out_of(piece, low, low + size), 0.0);
     vec2 next = piece.at + (out_m + 0.05 * cell_m) * piece.per_m;
     ivec2 post = clamp(point.post + ivec2(floor(next)), ivec2(0), ivec2(FRAME.last_row, FRAME.last_column) - 1);
     uint page = caster_page(level, post);
     if (page != no_page) {
         CasterCell beyond = caster_cell(PageBlocks(CasterPages(CASTERS.pages).at[page].block), level, post);
         vec2 share = (next - vec2(beyond.from - point.post)) / vec2(beyond.to - beyond.from);
-        over = max(over, rise_over(line, piece, beyond, west_of_diagonal(beyond, share) >= 0.0));
+        over = max(over, rise_over(per_m, beyond, west_of_diagonal(beyond, share) >= 0.0));
     }
     float smoothly = smoothstep(smooth_from_px, 24.0, cell_px) * (1.0 - smoothstep(0.25, 0.5, over));
     return smoothly * 2.0 * max(over, 0.0) * (out_m + 0.7 * cell_m);
-}
-
-// Where a line begins: a place, its ground, and on which level of casters that was found.
-struct CastStart {
-    CastPoint point;
-    CastFrame at;
-    float error_m;  // that casters may have
-    uint level;
-    CasterCell cell;
-    bool west;  // of the cell's two triangles
-};
-
-// The sun's rise where the place is decides how much its casters may be off.
-float caster_error_m(CastFrame at, float distance_m) {
-    return CASTERS.error_per_m * distance_m * clamp(at.sun.z / max(length(at.sun.xy), 1.0e-3), 0.02, 1.0);
-}
-
-// On the grid's own ground, as its casters have it; false where they have none.
-bool starts_on_ground(CastPoint point, out CastStart start) {
-    start.point = point;
-    start.at = cast_frame(point, 0.0);
-    start.error_m = caster_error_m(start.at, point.distance_m);
-    start.level = point.level;
-    CasterNode node;
-    if (!caster_at(point.post, start.error_m, start.level, node)) return false;
-    start.cell = caster_cell(PageBlocks(node.block), start.level, point.post);
-    vec2 share = clamp((as_floats(point.post - start.cell.from) + point.beyond) / as_floats(start.cell.to - start.cell.from), 0.0, 1.0);
-    start.west = west_of_diagonal(start.cell, share) >= 0.0;
-    start.at.h_m = above_base(start.cell, share, start.west, 0);
-    return start.at.h_m != no_ground_m;
-}
-
-// What a line meets that begins there.
-CastSearch search_from(CastStart start) {
-    return CastSearch(start.point.post, int(round(start.at.h_m / height_step_m)), 0.02, 1.1 * sun_radius_rad, 0.0, 0.0, start.level, 0.0, 0.0, 1.0);
-}
-
-// The sun's light on the triangle that a line begins on, 0 to 63; below 0 where it is turned away; 0 where it is shaded smoothly.
-float light_on_start(SunLine line, CastPiece piece, CastStart start) {
-    if (side_px(start.cell, start.point.distance_m) > smooth_from_px) return 0.0;
-    return floor(63.0 * clamp(-rise_over(line, piece, start.cell, start.west), -1.0, 1.0));
-}
-
-// As shares.comp keeps it. A part of the sun stays one, whatever is added to it.
-float kept_share(CastSearch search, float light) {
-    if (light < 0.0 && search.least <= -sun_radius_rad) return turned_share;
-    bool is_part = abs(search.least) < sun_radius_rad;
-    return (is_part ? clamp(disc_share(search.least), 1.0e-4, 0.9999) : step(0.0, search.least)) + max(light, 0.0) * share_step;
 }

@@ -231,7 +231,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(CasterNode, error_m),
         ORO_MEMBER(CasterNode, above_top_m),
         ORO_MEMBER(CasterNode, above_error_m),
-        ORO_MEMBER(CasterNode, finer),
+        ORO_MEMBER(CasterNode, flags),
         ORO_MEMBER(CasterNode, block),
         ORO_MEMBER(AirModel, on),
         ORO_MEMBER(AirModel, molecules_per_m),

@@ -187,18 +187,45 @@ TEST_F(Footprint, HoldsForMaps) {
     hold("slope", down, style("slope", 315.0, 45.0), 2.9);
 }
 
-// A GPU shades footprints of several parts by a program of their own, a processor all pixels by one.
-TEST_F(Footprint, IsTheSameByOneProgramOrTwo) {
-    const gpu::FrameStyle natural = style("natural", 315.0, 38.0);
-    const Camera low = over(46.1, 7.5, 4500.0, 0.0, -6.0, 30.0);  // near ground, far ground, sky
-    const auto one = picture(low, natural, gpu::footprint_mean, 1.0, 1);
+// A GPU has programs of their own for near ground and the sky, for what is more code, and for the turns of
+// lines to the sun; a processor one for each of the two.
+TEST_F(Footprint, IsTheSameByOneProgramOrSeveral) {
+    const gpu::FrameStyle natural = style("natural", 315.0, 20.0);
+    scene_->cast(cast_request(natural));
+    const Camera low = over(46.1, 7.5, 4500.0, 0.0, -6.0, 30.0);       // near ground, far ground, sky
+    const Camera lake = over(46.60, 7.72, 2500.0, 20.0, -25.0, 60.0);  // ... and water
+    const Camera beyond = over(46.9, 7.9, 9000.0, 30.0, -30.0, 60.0);  // ... and what is outside the data
+    const auto all = [&] {
+        std::vector<std::vector<std::uint8_t>> pictures;
+        for (const Camera& camera : {low, lake, beyond})
+            pictures.push_back(picture(camera, natural, gpu::footprint_mean, 1.0, 1));
+        return pictures;
+    };
+    const auto one = all();
     FrameRendererOptions options;
     options.extent = {width_px, height_px};
     options.path = RasterPath::compute;
-    options.smooth_edges = options.parts_apart = true;
+    options.smooth_edges = options.as_on_gpu = true;
     single_.emplace(test::made_renderer(*gpu_, options));
-    EXPECT_EQ(picture(low, natural, gpu::footprint_mean, 1.0, 1), one);
-    EXPECT_NE(picture(low, natural, gpu::footprint_point, 1.0, 1), one);
+    EXPECT_EQ(all(), one);
+    EXPECT_NE(picture(low, natural, gpu::footprint_point, 1.0, 1), one.front());
+    gpu::FrameStyle other = natural;
+    other.shadows = 0;
+    EXPECT_NE(picture(low, other, gpu::footprint_mean, 1.0, 1), one.front()) << "or nothing lies in shadow";
+    other = natural;
+    other.water.on = 0;
+    EXPECT_NE(picture(lake, other, gpu::footprint_mean, 1.0, 1), one[1]) << "or there is no lake";
+}
+
+// What lines to the sun pass over without a look depends on where it stands.
+TEST_F(Footprint, ShadowsFollowTheSunInOneRenderer) {
+    const Camera low = over(46.1, 7.5, 4500.0, 0.0, -6.0, 30.0);
+    const gpu::FrameStyle noon = style("natural", 180.0, 60.0), evening = style("natural", 270.0, 8.0);
+    scene_->cast(cast_request(evening));
+    const auto fresh = picture(low, evening, gpu::footprint_mean, 1.0, 1);
+    const auto at_noon = picture(low, noon, gpu::footprint_mean, 1.0, 1);
+    EXPECT_NE(at_noon, fresh);
+    EXPECT_EQ(picture(low, evening, gpu::footprint_mean, 1.0, 1), fresh);
 }
 
 // Where posts are larger than pixels a map has the angle of its posts, as gdaldem gives it.
