@@ -44,19 +44,28 @@ Pair pair_of(int number) {
 }
 
 // Pairs with an edge between them are listed first, so that whole subgroups look for rims together, and once for both pixels.
-shared uint listed_count;
+shared uint listed_count, edge_count;
 shared uint listed[pair_count];
 shared vec2 shares_of_pairs[pair_count];  // of the second pixel in the first, and of the first in the second
 
+// Depths that are closer to each other are no edge that is seen: the same ground, or ground just behind it.
+bool is_jump(float here, float there) { return abs(there - here) > 0.008 * min(here, there); }
+
+// Whether a pixel differs from one beside it: most squares have none that does, and are done with.
+bool has_edge(ivec2 pixel) {
+    ivec2 last = ivec2(FRAME.width_px, FRAME.height_px) - 1;
+    if (any(greaterThan(pixel, last))) return false;
+    float here = depth_at(pixel);
+    return is_jump(here, depth_at(ivec2(max(pixel.x - 1, 0), pixel.y))) || is_jump(here, depth_at(ivec2(min(pixel.x + 1, last.x), pixel.y))) ||
+           is_jump(here, depth_at(ivec2(pixel.x, max(pixel.y - 1, 0)))) || is_jump(here, depth_at(ivec2(pixel.x, min(pixel.y + 1, last.y))));
+}
+
 void list_pair(int number) {
-    // Depths that are closer to each other are no edge that is seen: the same ground, or ground just behind it.
-    const float smallest_jump = 0.008;
     shares_of_pairs[number] = vec2(0.0);
     Pair pair = pair_of(number);
     ivec2 second = pair.first + pair.to_second;
     if (!within(pair.first) || !within(second)) return;
-    float here = depth_at(pair.first), there = depth_at(second);
-    if (abs(there - here) > smallest_jump * min(here, there)) listed[atomicAdd(listed_count, 1u)] = uint(number);
+    if (is_jump(depth_at(pair.first), depth_at(second))) listed[atomicAdd(listed_count, 1u)] = uint(number);
 }
 
 vec2 shares_of(Pair pair) {
@@ -74,8 +83,11 @@ vec2 shares_of(Pair pair) {
 void keep(ivec2 pixel, vec4 colour) { imageStore(picture, pixel, vec4(dithered(srgb_from_linear(colour.rgb), pixel), colour.a)); }
 
 void main() {
-    if (gl_LocalInvocationIndex == 0u) listed_count = 0u;
+    if (gl_LocalInvocationIndex == 0u) listed_count = edge_count = 0u;
     barrier();
+    if (has_edge(ivec2(gl_GlobalInvocationID.xy))) edge_count = 1u;
+    barrier();
+    if (edge_count == 0u) return;
     const int lanes = side_px * side_px;
     for (int i = int(gl_LocalInvocationIndex); i < pair_count; i += lanes) list_pair(i);
     barrier();

@@ -292,9 +292,9 @@ void average_over_pixel(uint number, vec2 region, float undulation_m, inout Surf
         return;
     }
     if (in_air) {
-        bool will_do = one_place_will_do(near_page, region, origin_m, post_m, point);
-        point.is_left = (parts_follow || parts_alone) && will_do != parts_follow;
-        if (will_do || parts_follow) return;
+        point.is_one_place = one_place_will_do(near_page, region, origin_m, post_m, point);
+        point.is_left = parts_follow && !point.is_one_place;
+        if (point.is_one_place || parts_follow) return;
     }
     mat3 axes = axes_at(point.view);
     vec3 to_eye = normalize(-point.view) * axes;

@@ -191,7 +191,7 @@ vec3 sent_by(LitPlace place) {
     vec3 from_ground = AIR.ground_albedo * (from_sun * max(place.sun.z, 0.0) + from_sky);
     vec3 ground = (from_sun * sun_share() * place.ground.lit + from_ground * place.ground.colour
                    + (from_sky - from_ground) * sky_share() * place.ground.open) / pi;
-    return place.water > 0.0 ? mix(ground, water_radiance(place.view, place.sun, from_sun, from_sky), place.water) : ground;
+    return !parts_follow && place.water > 0.0 ? mix(ground, water_radiance(place.view, place.sun, from_sun, from_sky), place.water) : ground;
 }
 
 LitPlace ground_place(SurfacePoint point) {
@@ -199,10 +199,14 @@ LitPlace ground_place(SurfacePoint point) {
     return LitPlace(pixel_light(point, sun), point.view, point.h_m, sun, point.water);
 }
 
-// What the sky sends where a line of sight meets nothing; else false, and the place that it meets.
-bool sees_sky(vec3 direction, out vec3 sky, out LitPlace place) {
+// What the sky sends where a line of sight meets nothing; else false, and the place that it meets, unless that is left to the other of two
+// programs.
+bool sees_sky(vec3 direction, out vec3 sky, out LitPlace place, out bool is_left) {
     float horizon, distance_m = bare_sea_m(direction, horizon);
-    if (distance_m >= 0.0) {
+    bool meets = distance_m >= 0.0;
+    is_left = (parts_follow && meets) || (parts_alone && !meets);
+    if (is_left) return false;
+    if (meets) {
         place = bare_place(direction, distance_m);
         return false;
     }

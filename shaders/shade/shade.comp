@@ -17,7 +17,8 @@ layout(constant_id = 1) const bool casts = false;     // FrameStyle.shadows
 layout(constant_id = 2) const bool opens = false;     // FrameStyle.sky_openness
 layout(constant_id = 3) const bool draped = false;    // FrameConstants.drape
 layout(constant_id = 4) const bool by_means = false;  // FrameStyle.footprint
-// On a GPU two programs share the pixels of a style in air: near ground and what is no ground, in small code, then footprints of several parts.
+// On a GPU two programs share the pixels of a style in air: near ground and the sky, in small code; then footprints of several parts, what may
+// be water, and what is no ground.
 layout(constant_id = 6) const bool parts_follow = false;
 layout(constant_id = 7) const bool parts_alone = false;
 #include "shaders/place/frame.glsl"
@@ -81,7 +82,6 @@ bool shade(ivec2 pixel) {
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
     uint id = id_in(pixel);
     if (FRAME.grids_beside != 0u && is_left_to_others(id)) return true;
-    if (id == 0u && parts_alone) return false;
     float depth = 0.0;
     vec3 colour;
 #ifdef IN_AIR
@@ -90,7 +90,9 @@ bool shade(ivec2 pixel) {
 #endif
     if (id == 0u) {
 #ifdef IN_AIR
-        is_sky = sees_sky(normalize(ray), colour, place);
+        bool is_left;
+        is_sky = sees_sky(normalize(ray), colour, place, is_left);
+        if (is_left) return false;
 #else
         colour = seen_background(normalize(ray));
 #endif

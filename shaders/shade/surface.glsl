@@ -17,7 +17,8 @@ struct SurfacePoint {
     float column_m;    // ... and from its column to the next
     float mean_H_m; // as H_m, of a part of the pixel's footprint
     int parts;      // of the footprint (footprint.glsl, pixel_ground); 0: the place alone colours the pixel
-    bool is_left;   // to the other program of the two that share the pixels (footprint.glsl, one_place_will_do)
+    bool is_one_place; // one slope stands for its footprint (footprint.glsl, one_place_will_do)
+    bool is_left;   // to the other program of the two that share the pixels
     float H_per_px; // how fast H changes on the picture; 0 where no contours are asked for
     float water;    // share of water; 0 where none is looked for
     ivec2 drape_post;  // for images over the ground: (row, column) in the region, whole posts ...
@@ -291,7 +292,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     if (draped) drape_place(page, point.post, region, point.drape_post, point.drape_part);
     point.mean_H_m = point.H_m;
     point.parts = 0;
-    point.is_left = false;
+    point.is_one_place = point.is_left = false;
     uint number = page_number(id);
     if (by_means) average_over_pixel(number, region, undulation_m, point);
     if (point.is_left) return point;
@@ -317,7 +318,11 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     }
     point.water = 0.0;
 #ifdef IN_AIR
-    if (FRAME.style.water.on == 1u && !(HAS_NET && FRAME.is_seam != 0u)) point.water = water_of_pixel(page, post, point);
+    bool has_water = FRAME.style.water.on == 1u && !(HAS_NET && FRAME.is_seam != 0u);
+    // Of near ground all but what may be water is left to the one program, and that to the other.
+    if (parts_follow || (parts_alone && point.is_one_place)) point.is_left = (has_water && may_be_water(page, post)) == parts_follow;
+    if (point.is_left) return point;
+    if (!parts_follow && has_water) point.water = water_of_pixel(page, post, point);
 #endif
     if (draped) {
         PageBlocks block = PageBlocks(page.block);

@@ -36,20 +36,27 @@ void corners_of_water(PageBlocks block, FramePage page, ivec2 cell, out vec4 lev
 
 float between_corners(vec4 corners, vec2 in_cell) { return mix(mix(corners.x, corners.y, in_cell.y), mix(corners.z, corners.w, in_cell.y), in_cell.x); }
 
+ivec2 cell_of(vec2 post) { return clamp(whole_signed(floor(post)), ivec2(0), ivec2(int(page_quads) - 1)); }
+// Most ground is told by its cell alone: false where there is no water. N rises by less than a metre a kilometre.
+bool may_be_water(FramePage page, vec2 post) {
+    PageBlocks block = PageBlocks(page.block);
+    ivec2 cell = cell_of(post);
+    ivec4 steps = ivec4(height_or(block, cell, void_height), height_or(block, cell + ivec2(0, 1), void_height),
+                        height_or(block, cell + ivec2(1, 0), void_height), height_or(block, cell + ivec2(1, 1), void_height));
+    if (any(equal(steps, ivec4(void_height)))) return false;
+    int lowest = min(min(steps.x, steps.y), min(steps.z, steps.w)), highest = max(max(steps.x, steps.y), max(steps.z, steps.w));
+    float cell_m = power_of_two(page.level) * (block.at[0].row_spacing_m + block.at[0].column_spacing_m);
+    float sea_m = max(FRAME.style.water.sea_high_H_m - max(FRAME.style.water.sea_low_H_m, -1.0e5), 0.0) * FRAME.exaggeration;
+    return float(highest - lowest) * height_step_m <= max(level_within_m(), sea_m) + 1.0e-3 * cell_m;
+}
+
 // The share of water at a place of the page that it is shaded from. Level is what lies among equal posts, 5 of them at least in a row
 // and in a column (3 where they are thinned out, or at sea level): flat fields have been rounded to equal heights over 3, and seldom
 // over 5.
 float water_share(FramePage page, vec2 post) {
+    if (!may_be_water(page, post)) return 0.0;
     PageBlocks block = PageBlocks(page.block);
-    ivec2 cell = clamp(whole_signed(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
-    ivec4 steps = ivec4(height_or(block, cell, void_height), height_or(block, cell + ivec2(0, 1), void_height),
-                        height_or(block, cell + ivec2(1, 0), void_height), height_or(block, cell + ivec2(1, 1), void_height));
-    if (any(equal(steps, ivec4(void_height)))) return 0.0;
-    int lowest = min(min(steps.x, steps.y), min(steps.z, steps.w)), highest = max(max(steps.x, steps.y), max(steps.z, steps.w));
-    // Most ground is told by its cell alone. N rises by less than a metre a kilometre.
-    float cell_m = power_of_two(page.level) * (block.at[0].row_spacing_m + block.at[0].column_spacing_m);
-    float sea_m = max(FRAME.style.water.sea_high_H_m - max(FRAME.style.water.sea_low_H_m, -1.0e5), 0.0) * FRAME.exaggeration;
-    if (float(highest - lowest) * height_step_m > max(level_within_m(), sea_m) + 1.0e-3 * cell_m) return 0.0;
+    ivec2 cell = cell_of(post);
     vec4 level, sea;
     corners_of_water(block, page, cell, level, sea);
     vec2 in_cell = post - vec2(cell);
