@@ -178,13 +178,10 @@ TEST_F(Footprint, ShadowsOfFarGroundAreNoSpeckle) {
 
 TEST_F(Footprint, HoldsForMaps) {
     const Camera down = middle_of(over(46.5, 7.5, 60000.0, 0.0, -90.0, 45.0));
-    for (const char* name : {"default", "hypsometric", "plain", "relief", "contours"})
+    for (const char* name : {"default", "hypsometric", "plain", "relief", "contours", "hillshade", "aspect"})
         hold(name, down, style(name, 315.0, 45.0), 2.0);
-    // Not yet within 2 codes: strong contrasts, of angles that are not spread as a normal distribution has
-    // them even in squares of two posts.
-    hold("hillshade", down, style("hillshade", 315.0, 45.0), 2.2);
-    hold("aspect", down, style("aspect", 315.0, 45.0), 2.3);
-    hold("slope", down, style("slope", 315.0, 45.0), 2.9);
+    // Not yet within 2 codes: strong contrasts. Posts one by one are no better: 2.41 at tau 1 and 2.16 at 0.
+    hold("slope", down, style("slope", 315.0, 45.0), 2.6);
 }
 
 // A GPU has programs of their own for near ground and the sky, for what is more code, and for the turns of
