@@ -20,8 +20,8 @@ std::uint32_t tiles_of(std::uint32_t pixels) {
 }  // namespace
 
 // The programs of a frame, and what they hand to each other. In air, near ground has a program without the
-// code for footprints of several parts: those are few, and the code takes registers from all pixels. Not
-// where a processor draws: it makes each program anew in each process, which takes it 0.2 s.
+// code for footprints of several parts, for water and for what is no ground: that takes registers from all.
+// Not where a processor draws: it makes each program anew in each process, which takes it 0.2 s.
 Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants& constants) {
     const gpu::FrameStyle& style = constants.style;
     ShadingKind kind = shading_of(style);

@@ -172,9 +172,7 @@ void CasterBuffers::describe(const FramePlan& frame, const gpu::FrameCasters& ca
     };
     add(frame.heights);
     add(casts_);
-    if (casts_) {
-        add(sun_roughly(constants));
-    }
+    if (casts_) add(sun_roughly(constants));
     if (opens_)
         for (const gpu::FramePage& page : frame.pages) {
             add(page.block);

@@ -111,22 +111,25 @@ void fit(inout SunLine line, vec3 f1, vec3 f2, vec3 f3) {
     line.a3 = 13.5 * f1 - 13.5 * f2 + 4.5 * f3;
 }
 
-// What a metre of it is where it begins; on a net nearly. That and its second derivative will do where it is short, and not near a pole: within
-// 0.3 m, and 1 cm in height.
+// By how much latitude and longitude turn in its first metre, radians.
+vec2 turn_per_m(CastFrame at) { return vec2(at.sun.y / (at.meridian_m + at.h_m), at.sun.x / ((at.normal_m + at.h_m) * at.latitude.x)); }
+vec2 posts_of_turn(vec2 turn) { return turn * vec2(-1.0 / CASTERS.row_rad, 1.0 / CASTERS.column_rad); }
+// What a metre of it is where it begins; on a net nearly.
 vec3 begins_per_m(CastFrame at) {
     if (HAS_NET) return towards_sun_m(at, 10.0) / 10.0;
-    vec2 turn = vec2(at.sun.y / (at.meridian_m + at.h_m), at.sun.x / ((at.normal_m + at.h_m) * at.latitude.x));
-    return vec3(turn * vec2(-1.0 / CASTERS.row_rad, 1.0 / CASTERS.column_rad), at.sun.z);
+    return vec3(posts_of_turn(turn_per_m(at)), at.sun.z);
 }
+// That and how it changes will do where the line is short, and not near a pole: within 0.3 m, and 1 cm in height (against exact places,
+// 20,000 lines). East, north and up turn with the place, and light keeps its direction.
 bool is_short(CastFrame at, float length_m) { return !HAS_NET && length_m < 12000.0 && at.latitude.x > 0.17; }
 void begin_short(CastFrame at, inout SunLine line) {
     float c = at.latitude.x, s = at.latitude.y, meridian_m = at.meridian_m + at.h_m, normal_m = at.normal_m + at.h_m;
-    vec2 turn = vec2(at.sun.y / meridian_m, at.sun.x / (normal_m * c));  // latitude and longitude, radians a metre
+    vec2 turn = turn_per_m(at);
     float inwards = s * at.sun.y - c * at.sun.z;
     vec2 second = vec2(-(2.0 * at.sun.z * turn.x + s * at.sun.x * turn.y) / meridian_m, 2.0 * turn.y * inwards / (normal_m * c));
     float rise = at.sun.y * turn.x + at.sun.x * at.sun.x / normal_m, half_squared = 0.5 * line.length_m * line.length_m;
     line.a1 = line.length_m * begins_per_m(at);
-    line.a2 = half_squared * vec3(second * vec2(-1.0 / CASTERS.row_rad, 1.0 / CASTERS.column_rad), rise);
+    line.a2 = half_squared * vec3(posts_of_turn(second), rise);
     line.a3 = vec3(0.0);
 }
 

@@ -1,5 +1,6 @@
 #version 460
-// How high each node of the pages that cast shadows reaches: its posts, and what it stands for at most so much above them.
+// How high each node of the pages that cast shadows reaches: its posts, and what it stands for at most so much above them. And which are
+// gentle: light comes down to them more steeply than any of their triangles rises.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
