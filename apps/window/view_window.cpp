@@ -282,7 +282,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     camera.height_px = static_cast<int>(extent.height);
     follow_sun(viewer);
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    viewer.scene->cast(cast_request(viewer.style.frame));
+    viewer.scene->hold_for(viewer.style.frame);
     ORO_TRY(FramePlan plan, viewer.scene->plan(camera, tile, viewer.view.tau_px, viewer.view.model));
     viewer.missing = plan.missing;
     viewer.is_missing = !plan.is_settled();

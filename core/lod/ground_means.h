@@ -68,5 +68,9 @@ class GroundMeans {
 inline bool asks_for_means(const gpu::FrameStyle& style) {
     return style.footprint != gpu::footprint_point;
 }
+// How large squares on the screen may be that it takes, px.
+inline double means_spacing_px(const gpu::FrameStyle& style) {
+    return style.colour_by == gpu::colour_by_slope ? gpu::slope_means_px : gpu::means_spacing_px;
+}
 
 }  // namespace oro

@@ -196,7 +196,7 @@ Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, 
     if (tile_height < camera.height_px) tile_height -= 2 * margin_px;
     assert(tile_width > 0 && tile_height > 0);
 
-    scene.cast(cast_request(style));
+    scene.hold_for(style);
     PictureReport report;
     report.path = options_.path;
     if (options_.keep_depths)

@@ -6,6 +6,8 @@
 #include <iterator>
 
 #include "core/base/parallel.h"
+#include "core/frame/casters.h"
+#include "core/lod/ground_means.h"
 
 namespace oro {
 namespace {
@@ -65,6 +67,16 @@ void Scene::cast(const CastRequest& request) {
     // What lies between grids casts nothing: they do.
     if (!pages_->is_seam()) cast_ = request;
     for (Scene& other : beside_) other.cast(request);
+}
+
+void Scene::hold_means(double spacing_px) {
+    means_spacing_px_ = spacing_px;
+    for (Scene& other : beside_) other.hold_means(spacing_px);
+}
+
+void Scene::hold_for(const gpu::FrameStyle& style) {
+    cast(cast_request(style));
+    hold_means(means_spacing_px(style));
 }
 
 std::vector<DrapeStore*> Scene::drapes() const {
@@ -135,7 +147,7 @@ bool Scene::saw(std::span<const FrameSights> sights) {
 // without: what comes next may take their place.
 Result<FramePlan> Scene::plan_of_pages(const Camera& camera, const Tile& tile, double tau_px,
                                        const WorldModel& model) {
-    const double spacing_px = store_.means_before() > 0 ? gpu::means_spacing_px : gpu::shading_spacing_px;
+    const double spacing_px = store_.means_before() > 0 ? means_spacing_px_ : gpu::shading_spacing_px;
     const auto planned = [&](const Residency& residency) {
         store_.begin_frame();
         return plan_frame(*pages_, residency, camera, tile, tau_px, model, store_.coding(), spacing_px,

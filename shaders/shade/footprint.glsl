@@ -129,11 +129,30 @@ Footprint footprint_at(vec3 view, vec2 region, vec3 normal, mat3 axes, vec2 post
     return foot;
 }
 
-// The pixel's middle is on a peak or in a hollow, `higher_m` from the mean ground: where the pixel's ray meets that.
-vec2 to_mean_ground(Footprint foot, vec3 normal, vec3 to_eye, float higher_m, vec2 post_m) {
-    float facing = max(dot(normal, to_eye), 0.12 * length(normal));
-    vec2 on = higher_m * normal.z / facing * posts_along(to_eye.xy, post_m);
-    return on * min(0.25 * foot.across_posts / max(length(on), 1.0e-6), 1.0);
+// A pixel's mean ground as a plane, and the rays that meet it. Heights are those of squares.
+struct MeanPlane {
+    vec2 region;    // a place,
+    float h_m;      // ... its height there,
+    vec2 rise_m;    // and how much it rises from a row to the next, and from a column
+    vec2 on_per_m;  // how many rows and columns towards the eye a ray meets ground that is a metre higher
+    float most_posts;
+};
+// post_m, to_eye and a mean normal as for footprint_at().
+MeanPlane mean_plane(Footprint foot, vec3 normal, float h_m, vec3 to_eye, vec2 post_m) {
+    float facing = max(dot(normal, to_eye), 0.12 * length(normal)), ex = FRAME.exaggeration;
+    vec2 rise = -normal.xy / (normal.z * ex), turn = row_turn;
+    MeanPlane plane;
+    plane.region = foot.region;
+    plane.h_m = h_m;
+    plane.rise_m = post_m * vec2(turn.y * rise.x - turn.x * rise.y, turn.x * rise.x + turn.y * rise.y);
+    plane.on_per_m = ex * normal.z / facing * posts_along(to_eye.xy, post_m);
+    plane.most_posts = 0.25 * foot.across_posts;
+    return plane;
+}
+// How far from where a ray meets the plane it meets ground that is so much higher, as steep as the plane.
+vec2 on_ray(MeanPlane plane, float higher_m) {
+    vec2 on = higher_m * plane.on_per_m;
+    return on * min(plane.most_posts / max(length(on), 1.0e-6), 1.0);
 }
 
 // How far apart `count` samples of squares lie that together weigh a length of ground as a box of that length does, by the square of its
@@ -164,6 +183,7 @@ struct PartsOfLevel {
     vec2 first;
     vec2 along;   // from a part to the next
     vec2 across;  // ... row
+    float spacing;  // of the region's posts from a square to the next
 };
 
 // What the pixel's colour is a mean of: parts of its footprint, in rows along its longer side.
@@ -172,8 +192,10 @@ struct PixelGround {
     vec3 to_eye;
     float on;  // towards the next level
     int rows;
+    bool are_few;       // so that each may take some time
     bool smooth_posts;  // where several are beside each other in a pixel nobody sees how they are joined
     MeansPage page;
+    MeanPlane plane;
     float origin_m;
     float undulation_m;  // not exaggerated
     PartsOfLevel finer;
@@ -181,26 +203,44 @@ struct PixelGround {
 };
 PixelGround pixel_ground;
 
+// Their colours have the strongest contrasts.
+bool shows_slopes() { return as_map && FRAME.style.colour_by == colour_by_slope; }
+// How large squares are at most.
+float squares_px() { return shows_slopes() ? slope_means_px : means_spacing_px; }
+
 PartsOfLevel parts_of_level(Footprint foot, MeansPage near_page, uint level, int rows, int steps) {
     MeansPage page = page_over(near_page, level, foot.region);
     float square = page.spacing, long_posts = length(foot.along);
     vec2 along = foot.along * (samples_apart(long_posts, square, steps) / (long_posts * square));
     vec2 across = foot.across * (samples_apart(foot.across_posts, square, rows) / (foot.across_posts * square));
     vec2 first = among_squares(page, foot.region) - 0.5 * (float(steps - 1) * along + float(rows - 1) * across);
-    return PartsOfLevel(means_of(page), square == 1.0, page.first, first, along, across);
+    return PartsOfLevel(means_of(page), square == 1.0, page.first, first, along, across, square);
+}
+
+// The pixel shows ground above the mean nearer to the eye, and ground below it farther away: by the square at a place of the plane, how far
+// from there.
+vec2 shown_from(PartsOfLevel of, vec2 place) {
+    vec2 square = floor(place + 0.5);
+    ivec2 at = clamp(whole_signed(square) + int(means_apron), ivec2(0), ivec2(int(means_stride) - 1));
+    MeansSquare there = MeansOfPages(of.means).at[0].squares[uint(at.x) * means_stride + uint(at.y)];
+    if (there.normal == 0u) return vec2(0.0);
+    vec2 region = (square + 0.5) * of.spacing + of.corner - 0.5;
+    float plane_m = pixel_ground.plane.h_m + dot(pixel_ground.plane.rise_m, region - pixel_ground.plane.region);
+    return on_ray(pixel_ground.plane, unpackHalf2x16(there.height).x - pixel_ground.origin_m - plane_m) / of.spacing;
 }
 
 // One of them, from the squares of one level.
 GroundSum part_of_level(PartsOfLevel of, int part) {
     int step = part / pixel_ground.rows;
     vec2 place = of.first + float(step) * of.along + float(part - step * pixel_ground.rows) * of.across;
+    place += shown_from(of, place);
     GroundSum sum = no_ground();
     if (of.are_posts && pixel_ground.smooth_posts) add_smooth(sum, of.means, place, pixel_ground.origin_m);
     else add_squares(sum, of.means, place, pixel_ground.origin_m, of.are_posts);
     if (!of.are_posts || sum.share <= 0.0) return sum;
     // Posts: one slope and one height.
     vec3 normal = normalize(sum.normal);
-    if (as_map && shows_angles())
+    if (as_map && shows_angles() && pixel_ground.are_few)
         normal = finest_normal(pixel_ground.page, of.corner + place, pixel_ground.origin_m);
     sum.normal = sum.share * normal;
     sum.second = sum.share * normal.xxy * normal.xyy;
@@ -309,19 +349,21 @@ void average_over_pixel(uint number, vec2 region, float undulation_m, inout Surf
     }
     point.normal = normalize(slope.normal);
     Footprint foot = footprint_at(point.view, region, slope.normal, axes, post_m);
-    foot.region += to_mean_ground(foot, slope.normal, to_eye, H_ex * slope.h_m / slope.share, post_m);
-    float level = log2((in_air ? 0.45 : means_spacing_px) * foot.across_posts);
+    MeanPlane plane = mean_plane(foot, slope.normal, slope.h_m / slope.share, to_eye, post_m);
+    // The pixel's middle is on a peak or in a hollow.
+    foot.region += on_ray(plane, plane.h_m);
+    float level = log2(squares_px() * foot.across_posts);
     if (as_map && shows_angles() && foot.across_posts < 1.3333) {
         point.normal = finest_normal(near_page, region, origin_m);
         return;
     }
     float whole = max(floor(level), 0.0), on = level < 0.0 ? 0.0 : smoothstep(0.75, 1.0, level - whole);
     float square = exp2(whole);
-    int rows = whole_signed(clamp(ceil(foot.across_posts / square - 0.8), 1.0, 6.0));
-    int steps = whole_signed(clamp(ceil(length(foot.along) / square - 0.8), float(rows), 8.0));
+    int rows = whole_signed(clamp(ceil(foot.across_posts / square - 0.8), 1.0, shows_slopes() ? 11.0 : 6.0));
+    int steps = whole_signed(clamp(ceil(length(foot.along) / square - 0.8), float(rows), shows_slopes() ? 16.0 : 8.0));
     PartsOfLevel finer = parts_of_level(foot, slope_page, whole_number(whole), rows, steps), coarser = finer;
     if (on > 0.0) coarser = parts_of_level(foot, slope_page, whole_number(whole) + 1u, rows, steps);
-    pixel_ground = PixelGround(foot.to_next, to_eye, on, rows, foot.across_posts < 1.0 && steps < 3, slope_page, origin_m, undulation_m / H_ex, finer, coarser);
+    pixel_ground = PixelGround(foot.to_next, to_eye, on, rows, rows * steps <= 40, foot.across_posts < 1.0 && steps < 3, slope_page, plane, origin_m, undulation_m / H_ex, finer, coarser);
     point.parts = rows * steps;
 }
 
