@@ -173,10 +173,8 @@ ORO_CONST uint stands_for_missing = 4u;  // the first of these bits
 // Slopes are shaded from the coarsest page whose posts are at most so many pixels apart, whatever level the
 // triangles are of.
 ORO_CONST float shading_spacing_px = 1.5f;
-// The same where a pixel's colour is the mean of the ground that it covers: it takes eight squares or more.
-ORO_CONST float means_spacing_px = 0.375f;
-// ... and where slopes have colours, whose contrasts are the strongest.
-ORO_CONST float slope_means_px = 0.17f;
+// The same where a pixel's colour is the mean of the ground that it covers; and where slopes have colours.
+ORO_CONST float means_spacing_px = 0.375f, slope_means_px = 0.17f;
 // FrameStyle.footprint: what a pixel's colour is made of.
 ORO_CONST uint footprint_point = 0u;   // the ground in its middle, as shading_spacing_px says
 ORO_CONST uint footprint_mean = 1u;    // the mean of all that it covers

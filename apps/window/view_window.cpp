@@ -144,6 +144,7 @@ Result<void> take_finer_levels(Viewer& viewer) {
                          viewer.view.heights, asks_for_means(viewer.style.frame)));
     ORO_CHECK(lay_images(viewer.view, viewer.options.memory, viewer.gpu, scene, true));
     const Camera& camera = viewer.view.camera;
+    scene.hold_for(viewer.style.frame);
     ORO_CHECK(scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
                                  std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
     viewer.scene = std::make_unique<Scene>(std::move(scene));

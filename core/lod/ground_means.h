@@ -68,9 +68,10 @@ class GroundMeans {
 inline bool asks_for_means(const gpu::FrameStyle& style) {
     return style.footprint != gpu::footprint_point;
 }
-// How large squares on the screen may be that it takes, px.
+// How large the squares are at most that it takes, px on the screen: small ones where contrasts are strong.
 inline double means_spacing_px(const gpu::FrameStyle& style) {
-    return style.colour_by == gpu::colour_by_slope ? gpu::slope_means_px : gpu::means_spacing_px;
+    const bool of_slopes = style.colour_by == gpu::colour_by_slope && style.air.on == 0;
+    return of_slopes ? gpu::slope_means_px : gpu::means_spacing_px;
 }
 
 }  // namespace oro

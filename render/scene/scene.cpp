@@ -70,7 +70,7 @@ void Scene::cast(const CastRequest& request) {
 }
 
 void Scene::hold_means(double spacing_px) {
-    means_spacing_px_ = spacing_px;
+    if (spacing_px != asked_means_px_) means_spacing_px_ = asked_means_px_ = spacing_px;
     for (Scene& other : beside_) other.hold_means(spacing_px);
 }
 
@@ -154,6 +154,12 @@ Result<FramePlan> Scene::plan_of_pages(const Camera& camera, const Tile& tile, d
                           [&](const PageIndex& page) { return seen_.is_hidden(page); });
     };
     ORO_TRY(FramePlan plan, planned([&](const PageIndex& page) { return store_.address(page); }));
+    if (store_.means_before() > 0 && spacing_px < gpu::means_spacing_px &&
+        (full_ || plan.pages.size() + plan.missing.size() > store_.capacity())) {
+        means_spacing_px_ = gpu::means_spacing_px;
+        full_ = false;
+        return plan_of_pages(camera, tile, tau_px, model);
+    }
     can_give_way_ = plan.missing.size() > plan.missing_hidden && !plan.hidden.empty();
     if (!std::exchange(full_, false) || !can_give_way_) return plan;
     can_give_way_ = false;

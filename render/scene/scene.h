@@ -63,7 +63,7 @@ class Scene {
     // for shadows of all its grids, on the ground of all. How open the sky is each grid's own terrain tells.
     void cast(const CastRequest& request);
     // ... and squares of means that are at most so large on the screen (core/lod/ground_means.h), where it
-    // has any.
+    // has any; once the GPU has no room for them, as large as other styles take.
     void hold_means(double spacing_px);
     // Both, as a style asks for them.
     void hold_for(const gpu::FrameStyle& style);
@@ -155,7 +155,7 @@ class Scene {
     bool full_for_hidden_{false};                 // at least for those
     bool can_give_way_{false};                    // hidden pages of the last plan could, for missing ones
     CastRequest cast_;
-    double means_spacing_px_{gpu::means_spacing_px};
+    double asked_means_px_{gpu::means_spacing_px}, means_spacing_px_{gpu::means_spacing_px};
     std::vector<CastReceiver> shown_beside_;  // by other grids of the frame
     std::optional<double> top_m_;             // of the region, once it was asked for
     std::optional<ClusterScene> clusters_;

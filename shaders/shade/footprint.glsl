@@ -129,15 +129,16 @@ Footprint footprint_at(vec3 view, vec2 region, vec3 normal, mat3 axes, vec2 post
     return foot;
 }
 
-// A pixel's mean ground as a plane, and the rays that meet it. Heights are those of squares.
+// A pixel's mean ground as a plane, and the rays that meet it. Heights are as squares have them: without the exaggeration.
 struct MeanPlane {
     vec2 region;    // a place,
     float h_m;      // ... its height there,
     vec2 rise_m;    // and how much it rises from a row to the next, and from a column
-    vec2 on_per_m;  // how many rows and columns towards the eye a ray meets ground that is a metre higher
-    float most_posts;
+    vec2 on_per_m;  // so many rows and columns nearer to the eye a ray meets ground that is a metre higher
+    float most_posts;  // no part is moved farther
+    float shown;       // how much of it the eye sees: of ground that it looks straight down on 1
 };
-// post_m, to_eye and a mean normal as for footprint_at().
+// to_eye: east, north, up; normal and post_m as for footprint_at().
 MeanPlane mean_plane(Footprint foot, vec3 normal, float h_m, vec3 to_eye, vec2 post_m) {
     float facing = max(dot(normal, to_eye), 0.12 * length(normal)), ex = FRAME.exaggeration;
     vec2 rise = -normal.xy / (normal.z * ex), turn = row_turn;
@@ -146,7 +147,9 @@ MeanPlane mean_plane(Footprint foot, vec3 normal, float h_m, vec3 to_eye, vec2 p
     plane.h_m = h_m;
     plane.rise_m = post_m * vec2(turn.y * rise.x - turn.x * rise.y, turn.x * rise.x + turn.y * rise.y);
     plane.on_per_m = ex * normal.z / facing * posts_along(to_eye.xy, post_m);
-    plane.most_posts = 0.25 * foot.across_posts;
+    // Seen at a grazing angle ground hides what is behind it, and tells less of where rays meet it.
+    plane.most_posts = 0.25 * foot.across_posts * smoothstep(0.12, 0.4, facing / length(normal));
+    plane.shown = max(dot(normal, to_eye) / normal.z, 0.02);
     return plane;
 }
 // How far from where a ray meets the plane it meets ground that is so much higher, as steep as the plane.
@@ -183,7 +186,7 @@ struct PartsOfLevel {
     vec2 first;
     vec2 along;   // from a part to the next
     vec2 across;  // ... row
-    float spacing;  // of the region's posts from a square to the next
+    float spacing;  // how many of the region's posts from a square to the next
 };
 
 // What the pixel's colour is a mean of: parts of its footprint, in rows along its longer side.
@@ -192,7 +195,7 @@ struct PixelGround {
     vec3 to_eye;
     float on;  // towards the next level
     int rows;
-    bool are_few;       // so that each may take some time
+    bool are_few;       // so that each may have Horn's slope
     bool smooth_posts;  // where several are beside each other in a pixel nobody sees how they are joined
     MeansPage page;
     MeanPlane plane;
@@ -217,16 +220,24 @@ PartsOfLevel parts_of_level(Footprint foot, MeansPage near_page, uint level, int
     return PartsOfLevel(means_of(page), square == 1.0, page.first, first, along, across, square);
 }
 
-// The pixel shows ground above the mean nearer to the eye, and ground below it farther away: by the square at a place of the plane, how far
-// from there.
+// What a pixel shows of high ground is nearer to the eye than its mean plane has it, and of low ground farther away. How far from a place of
+// the plane, in squares, by the ground there.
 vec2 shown_from(PartsOfLevel of, vec2 place) {
-    vec2 square = floor(place + 0.5);
-    ivec2 at = clamp(whole_signed(square) + int(means_apron), ivec2(0), ivec2(int(means_stride) - 1));
-    MeansSquare there = MeansOfPages(of.means).at[0].squares[uint(at.x) * means_stride + uint(at.y)];
-    if (there.normal == 0u) return vec2(0.0);
-    vec2 region = (square + 0.5) * of.spacing + of.corner - 0.5;
+    // Of a pixel within a post the posts around it say nothing.
+    if (of.are_posts && pixel_ground.smooth_posts) return vec2(0.0);
+    place = clamp(place, vec2(-float(means_apron)), vec2(float(means_stride - means_apron - 1u)));
+    vec2 low = floor(place), on = place - low;
+    ivec2 first = whole_signed(low) + int(means_apron);
+    float h_m = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        uvec2 at = min(uvec2(first + ivec2(i >> 1, i & 1)), uvec2(means_stride - 1u));
+        MeansSquare there = MeansOfPages(of.means).at[0].squares[at.x * means_stride + at.y];
+        if (there.normal == 0u) return vec2(0.0);
+        h_m += (i >> 1 == 1 ? on.x : 1.0 - on.x) * ((i & 1) == 1 ? on.y : 1.0 - on.y) * (unpackHalf2x16(there.height).x - pixel_ground.origin_m);
+    }
+    vec2 region = (place + 0.5) * of.spacing + of.corner - 0.5;
     float plane_m = pixel_ground.plane.h_m + dot(pixel_ground.plane.rise_m, region - pixel_ground.plane.region);
-    return on_ray(pixel_ground.plane, unpackHalf2x16(there.height).x - pixel_ground.origin_m - plane_m) / of.spacing;
+    return on_ray(pixel_ground.plane, h_m - plane_m) / of.spacing;
 }
 
 // One of them, from the squares of one level.
@@ -248,7 +259,7 @@ GroundSum part_of_level(PartsOfLevel of, int part) {
     return sum;
 }
 
-// Means; the share is how much of it the eye sees: ground that is turned away less.
+// Means; the share is that without voids.
 GroundSum part_of_pixel(int part) {
     GroundSum sum = no_ground();
     float on = pixel_ground.on;

@@ -145,10 +145,8 @@ float add_part(inout GroundLight sum, Images images, SurfacePoint point, GroundS
     float H_apart_m = sqrt(max(part.hh_m2 - part.h_m * part.h_m, 0.0));
     // Natural colours differ little enough for two, across each other in parts that are neighbours.
     int places = H_apart_m > 0.5 || apart != mat2(0.0) ? (in_air ? 2 : shows_slopes() ? 8 : 4) : 1;  // posts have one slope
-    // Places that face the eye show more of themselves. Those that face it as a whole have been found oftener already (shown_from), nearly by
-    // as much as they do: the power is that of the least differences to 64 samples.
-    float found = pow(max(dot(part.normal, pixel_ground.to_eye) / part.normal.z, 0.02), 0.8) * float(places);
-    float whole = 0.0;
+    GroundLight own = GroundLight(vec3(0.0), vec3(0.0), vec3(0.0));
+    float shown = 0.0;
     for (int i = 0; i < places; ++i) {
         float one = float(1 - 2 * (i & 1));
         vec2 side = vec2(one, places == 2 ? one * turn : float(1 - (i & 2)));
@@ -158,11 +156,18 @@ float add_part(inout GroundLight sum, Images images, SurfacePoint point, GroundS
         if (point.H_per_px > 0.0)
             point.H_per_px = length(point.normal.xy * pixel_ground.to_next) / (point.normal.z * FRAME.exaggeration);
         if (in_air) point.mean_H_m = land_H_m(point.mean_H_m);
-        float share = part.share * max(dot(point.normal, pixel_ground.to_eye) / point.normal.z, 0.02) / found;
-        add_place(sum, images, point, sun, share);
-        whole += share;
+        // Places that face the eye show more of themselves.
+        float share = max(dot(point.normal, pixel_ground.to_eye) / point.normal.z, 0.02) / float(places);
+        add_place(own, images, point, sun, share);
+        shown += share;
     }
-    return whole;
+    // Parts that face it as a whole have been found oftener already (shown_from), nearly by as much as they do: the power is that of the least
+    // differences to 64 samples. Those that are turned away more than the mean ground have not.
+    float found = part.share * pow(max(shown, 0.5 * pixel_ground.plane.shown), -0.8);
+    sum.colour += found * own.colour;
+    sum.lit += found * own.lit;
+    sum.open += found * own.open;
+    return found * shown;
 }
 
 GroundLight pixel_light(SurfacePoint point, vec3 sun) {

@@ -192,6 +192,28 @@ TEST_F(Footprint, HoldsForMaps) {
         hold("slope", middle_of(over(46.5, 7.5, h_m, 0.0, -90.0, 45.0)), style("slope", 315.0, 45.0), 2.0);
 }
 
+// They ask for more pages than other colours; not for more than there is room for.
+TEST_F(Footprint, SlopesTakeLargerSquaresWhereMemoryIsShort) {
+    const Camera down = middle_of(over(46.5, 7.5, 60000.0, 0.0, -90.0, 45.0));
+    const Tile whole{0, 0, down.width_px, down.height_px, {0.5, 0.5}};
+    const double fine_px = means_spacing_px(style("slope", 315.0, 45.0));
+    const auto pages = [&](int memory_mb, double spacing_px) {
+        MemoryOptions memory;
+        memory.gpu_memory_mb = memory_mb;
+        auto scene = create_scene(*gpu_, region_, 1.0, memory, {}, HeightStorage::f32, true);
+        EXPECT_TRUE(scene.ok()) << scene.error().line();
+        scene->hold_means(spacing_px);
+        const auto plan = scene->settled_plan(down, whole, 1.0);
+        EXPECT_TRUE(plan.ok()) << plan.error().line();
+        EXPECT_TRUE(plan->missing.empty()) << memory_mb << " MB, squares of " << spacing_px << " px";
+        return plan->pages.size();
+    };
+    const std::size_t coarse = pages(200, gpu::means_spacing_px), fine = pages(200, fine_px);
+    std::printf("%zu pages, %zu for slopes\n", coarse, fine);
+    EXPECT_GT(fine, coarse);
+    EXPECT_EQ(pages(15, fine_px), coarse);
+}
+
 // Rows of posts that are turned from east.
 TEST_F(Footprint, HoldsOnTurnedRows) {
     const auto geotiff = test::real_data("geotiff");
