@@ -9,11 +9,10 @@
 #include <random>
 #include <span>
 
-#include "apps/drawing/region_scene.h"
 #include "apps/view/style.h"
 #include "core/terrain/ground.h"
-#include "geo/region/region.h"
 #include "render/frame/picture_renderer.h"
+#include "tests/styles/region_with_means.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/real_views.h"
 #include "tests/support/test_data.h"
@@ -36,15 +35,10 @@ class SmoothEdges : public test::GpuTest {
         const auto alps = test::real_data("alps");
         if (!alps) GTEST_SKIP() << "needs alps";
         GpuTest::SetUp();
-        RegionRequest request;
-        request.paths = {(*alps / "N46E007.SRTMGL3.hgt.zip").string(),
-                         (*alps / "N46E008.SRTMGL3.hgt.zip").string()};
-        auto region = open_region(request);
-        ASSERT_TRUE(region.ok()) << region.error().line();
-        region_ = std::move(*region);
-        auto scene = create_scene(*gpu_, region_, 1.0, {}, {}, HeightStorage::f32, true);
-        ASSERT_TRUE(scene.ok()) << scene.error().line();
-        scene_.emplace(std::move(*scene));
+        ASSERT_NO_FATAL_FAILURE(test::open_with_means(
+            *gpu_,
+            {(*alps / "N46E007.SRTMGL3.hgt.zip").string(), (*alps / "N46E008.SRTMGL3.hgt.zip").string()},
+            region_, scene_));
         View view;
         view.sun = SunDirection{215.0, 35.0};
         const auto style = load_style(view, region_.field);

@@ -4,16 +4,15 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <numbers>
 #include <random>
 
-#include "apps/drawing/region_scene.h"
 #include "apps/view/style.h"
 #include "core/frame/casters.h"
 #include "core/lod/ground_means.h"
-#include "geo/region/region.h"
 #include "render/frame/picture_renderer.h"
+#include "tests/styles/region_with_means.h"
+#include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/drawn/made_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/test_data.h"
@@ -29,7 +28,8 @@ class Footprint : public test::GpuTest {
         const auto alps = test::real_data("alps");
         if (!alps) GTEST_SKIP() << "needs alps";
         GpuTest::SetUp();
-        open(*alps / "N46E007.SRTMGL3.hgt.zip");
+        ASSERT_NO_FATAL_FAILURE(
+            test::open_with_means(*gpu_, {(*alps / "N46E007.SRTMGL3.hgt.zip").string()}, region_, scene_));
         FrameRendererOptions options;
         options.extent = {width_px, height_px};
         options.several_samples = true;
@@ -42,16 +42,6 @@ class Footprint : public test::GpuTest {
         auto single = FrameRenderer::create(*gpu_, options);
         ASSERT_TRUE(single.ok()) << single.error().line();
         single_.emplace(std::move(*single));
-    }
-    void open(const std::filesystem::path& file) {
-        RegionRequest request;
-        request.paths = {file.string()};
-        auto region = open_region(request);
-        ASSERT_TRUE(region.ok()) << region.error().line();
-        region_ = std::move(*region);
-        auto scene = create_scene(*gpu_, region_, 1.0, {}, {}, HeightStorage::f32, true);
-        ASSERT_TRUE(scene.ok()) << scene.error().line();
-        scene_.emplace(std::move(*scene));
     }
     void TearDown() override {
         renderer_.reset();
@@ -195,7 +185,6 @@ TEST_F(Footprint, HoldsForMaps) {
 // They ask for more pages than other colours; not for more than there is room for.
 TEST_F(Footprint, SlopesTakeLargerSquaresWhereMemoryIsShort) {
     const Camera down = middle_of(over(46.5, 7.5, 60000.0, 0.0, -90.0, 45.0));
-    const Tile whole{0, 0, down.width_px, down.height_px, {0.5, 0.5}};
     const double fine_px = means_spacing_px(style("slope", 315.0, 45.0));
     const auto pages = [&](int memory_mb, double spacing_px) {
         MemoryOptions memory;
@@ -203,7 +192,7 @@ TEST_F(Footprint, SlopesTakeLargerSquaresWhereMemoryIsShort) {
         auto scene = create_scene(*gpu_, region_, 1.0, memory, {}, HeightStorage::f32, true);
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         scene->hold_means(spacing_px);
-        const auto plan = scene->settled_plan(down, whole, 1.0);
+        const auto plan = scene->settled_plan(down, test::whole_picture(down), 1.0);
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         EXPECT_TRUE(plan->missing.empty()) << memory_mb << " MB, squares of " << spacing_px << " px";
         return plan->pages.size();
@@ -218,7 +207,8 @@ TEST_F(Footprint, SlopesTakeLargerSquaresWhereMemoryIsShort) {
 TEST_F(Footprint, HoldsOnTurnedRows) {
     const auto geotiff = test::real_data("geotiff");
     if (!geotiff) GTEST_SKIP() << "needs geotiff";
-    open(*geotiff / "N46E008_EPSG21781_i16_rotated_nodata_edges.tif");
+    ASSERT_NO_FATAL_FAILURE(test::open_with_means(
+        *gpu_, {(*geotiff / "N46E008_EPSG21781_i16_rotated_nodata_edges.tif").string()}, region_, scene_));
     for (const double heading_deg : {0.0, 120.0, 240.0})
         hold("natural, on turned rows",
              over(46.5 - 0.3 * std::cos(heading_deg * std::numbers::pi / 180.0),
