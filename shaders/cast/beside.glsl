@@ -1,4 +1,4 @@
-// Lines towards the sun in a frame of several grids: over the terrain of one of them, from the ground of any. Needs shadow.glsl,
+// Lines towards the sun in a frame of several grids: over the terrain of one of them, from the ground of any. Needs smooth.glsl,
 // compiled with BESIDE, and net.glsl.
 
 // The place of a pixel that another grid shows, among the posts of this one or beyond its rims.
@@ -86,18 +86,18 @@ float sun_from(CastStart start, bool is_own) {
         search.is_above = false;
     }
     if (!is_own && HAS_NET && !fit_over_net(start, line, from_m, end_m)) return 1.0;
+    float smoothly = is_own ? smoothness(start) : 0.0;
+    if (is_own) light = min(light_on_start(start), 0.0);
     CastPiece piece;
-    for (int i = 0; i < 500 && from_m < end_m && next_piece(line, start.point.beyond, from_m, end_m, piece); ++i) {
-        if (is_own && i == 0) {
-            CastPiece first = piece;
-            first.per_m = line.a1.xy * line.per_m;
-            light = min(light_on_start(start), 0.0);
-            search.lift_m += smooth_lift_m(line, first, start.cell, level, start.point, start.west);
-        }
+    for (int i = 0; i < 500; ++i) {
+        bool is_smooth = i == 0 && smoothly > 0.0;
+        float way_m = is_smooth ? smooth_way_m(start, line.a1.xy * line.per_m) : cast_piece_m;
+        if (!next_piece(line, start.point.beyond, from_m, min(from_m + way_m, end_m), piece)) break;
         from_m = piece.to_m;
         float rounded = 2.5e-7 * max(abs(piece.at.x), abs(piece.at.y));
         if (!is_own && !cut_to_grid(piece, start.point.post, within_rims - rounded)) continue;
         bool goes_on = look_along(line, piece, start.error_m, level, search);
+        if (is_smooth && sees_smooth_ground(line, start, piece, smoothly, search)) goes_on = true;
         if (search.least <= -sun_radius_rad || (is_own && !goes_on)) break;
     }
     return kept_share(search, light);

@@ -344,27 +344,3 @@ float rise_over(vec3 per_m, CasterCell cell, bool west) {
     vec2 rise = height_step_m * steps / as_floats(cell.to - cell.from);  // a post
     return dot(rise, per_m.xy) - per_m.z;
 }
-
-float side_px(CasterCell cell, float distance_m) { return float(cell.to.x - cell.from.x) * CASTERS.row_rad * 6371000.0 * FRAME.pixels_per_tangent / distance_m; }
-const float smooth_from_px = 8.0;
-
-// Metres by which a line begins above its triangle where that, or the next towards the sun, is turned away from the sun, but posts are so
-// large that the ground is shaded smoothly: there the shaded slope tells how much light it gets, and an edge of triangles must not.
-// Nothing where slopes are not shaded at all.
-float smooth_lift_m(SunLine line, CastPiece piece, CasterCell cell, uint level, CastPoint point, bool west) {
-    vec2 size = as_floats(cell.to - cell.from), low = vec2(cell.from - point.post);
-    float cell_px = side_px(cell, point.distance_m), cell_m = cell_px * point.distance_m / FRAME.pixels_per_tangent;
-    if (FRAME.style.relief < 0.5 || cell_px <= smooth_from_px) return 0.0;
-    vec3 per_m = vec3(piece.per_m, line.a1.z * line.per_m);
-    float over = rise_over(per_m, cell, west), out_m = max(way_out_of(piece, low, low + size), 0.0);
-    vec2 next = piece.at + (out_m + 0.05 * cell_m) * piece.per_m;
-    ivec2 post = clamp(point.post + ivec2(floor(next)), ivec2(0), ivec2(FRAME.last_row, FRAME.last_column) - 1);
-    uint page = caster_page(level, post);
-    if (page != no_page) {
-        CasterCell beyond = caster_cell(PageBlocks(CasterPages(CASTERS.pages).at[page].block), level, post);
-        vec2 share = (next - vec2(beyond.from - point.post)) / vec2(beyond.to - beyond.from);
-        over = max(over, rise_over(per_m, beyond, west_of_diagonal(beyond, share) >= 0.0));
-    }
-    float smoothly = smoothstep(smooth_from_px, 24.0, cell_px) * (1.0 - smoothstep(0.25, 0.5, over));
-    return smoothly * 2.0 * max(over, 0.0) * (out_m + 0.7 * cell_m);
-}

@@ -20,6 +20,7 @@ const bool opens = false;
 #include "shaders/cast/casters.glsl"
 #include "shaders/cast/shadow.glsl"
 #include "shaders/cast/start.glsl"
+#include "shaders/cast/smooth.glsl"
 #include "shaders/cast/shown.glsl"
 #ifdef BESIDE
 #include "shaders/cast/beside.glsl"

@@ -104,6 +104,34 @@ TEST_F(CastShadows, AreTheSameBytesHoweverTheyAreDrawn) {
     }
 }
 
+// Level ground next to a wall of one row, 60 m high: it is drawn, and begins its lines, in cells of 32 posts,
+// in which there is no wall. 60 / tan(10 deg) = 340 m of it have the wall's shadow: 3.7 rows.
+TEST_F(CastShadows, OfAWallLieOnTheLevelGroundBesideIt) {
+    constexpr double north_deg = 46.3, rows_per_degree = 1200.0, wall_row = 513.0,
+                     row_m = 111170.0 / rows_per_degree;
+    const HeightField field =
+        test::made_field(north_deg, 8.0, rows_per_degree, 1025, 400, [](double lat_deg, double) {
+            const double rows_off = std::abs((north_deg - lat_deg) * rows_per_degree - wall_row);
+            return static_cast<float>(std::max(0.0, 60.0 * (1.0 - rows_off)));
+        });
+    const gpu::FrameStyle style = lit_from(180.0, 10.0);
+    gpu::FrameStyle without = style;
+    without.shadows = 0;
+    for (const double from_wall_m : {1.5 * row_m, 2.5 * row_m, 3.5 * row_m, 4.0 * row_m, 6.0 * row_m}) {
+        Camera camera =
+            northward(field, north_deg - (wall_row - from_wall_m / row_m) / rows_per_degree, 500.0);
+        camera.attitude = {0.0, -89.9, 0.0};
+        camera.vertical_fov_deg = 2.0;
+        const auto middle = [](const std::vector<std::uint8_t>& rgb) { return rgb[3 * (32 * 64 + 32)]; };
+        const std::uint8_t lit = middle(draw(field, camera, without)),
+                           shown = middle(draw(field, camera, style));
+        if (from_wall_m < 3.6 * row_m)
+            EXPECT_LT(shown, lit) << from_wall_m << " m from the wall";
+        else
+            EXPECT_EQ(shown, lit) << from_wall_m << " m from the wall";
+    }
+}
+
 // A crest 1,000 m over a plain, the sun behind it, 30 degrees high: 1,732 m away its shadow ends, and the
 // sun's disc is uncovered over 2 x 0.00465 x 1,000 / sin(30 deg)^2 = 37 m. Worked from the angle between the
 // crest and the sun's middle, and the share of a disc above a straight edge: 1/2 + (x sqrt(1 - x^2) +
