@@ -1,12 +1,13 @@
 // Near the eye a cell is many pixels wide, and the ground is shaded smoothly. There a triangle that is turned away from the sun, or that a
 // neighbour hides, would be a dark facet with straight sides. So what lies within a few cells of where a line begins may not hide more
 // of the sun as triangles than it does as a smooth surface. Needs start.glsl.
+// Source: J. Hanika, Hacking the shadow terminator, Ray Tracing Gems II, 2021, tells of such facets, and of starts above the triangle;
+// here the ground that is met is smooth, too.
 
 const float all_smooth_px = 24.0;
 // From where triangles begin to count as they are, up to where they all do; cells.
-const float smooth_cells = 2.0, smooth_end_cells = 4.0;
-const float looks_per_cell = 4.0;
-const int looks_max = 80;
+const float smooth_cells = 1.5, smooth_end_cells = 3.0;
+const int smooth_cells_max = 32;
 
 // 0 where the ground is triangles, 1 where it is shaded smoothly. Nothing is smooth where slopes are not shaded at all.
 float smoothness(CastStart start) {
@@ -14,11 +15,9 @@ float smoothness(CastStart start) {
     return smoothstep(smooth_from_px, all_smooth_px, side_px(start.cell, start.point.distance_m));
 }
 
-// How far along the line ground may be smooth, metres, in one piece of it. per_m: posts a metre.
-float smooth_way_m(CastStart start, vec2 per_m) {
-    float cell_posts = float(1 << start.level) * smooth_end_cells;
-    return min(cell_posts / max(max(abs(per_m.x), abs(per_m.y)), 1.0e-9), cast_piece_m);
-}
+// How far a line goes in a cell of a level, along the axis that it follows more; and how far the ground on it may be smooth. Metres.
+float cell_m_of(vec2 per_m, uint level) { return float(1 << level) / max(max(abs(per_m.x), abs(per_m.y)), 1.0e-9); }
+float smooth_way_m(CastStart start, vec2 per_m) { return smooth_end_cells * cell_m_of(per_m, start.level); }
 
 // Source: C. de Boor, A Practical Guide to Splines, 1978, chapter IX: the uniform cubic B-spline. Its slopes at the posts are those that
 // are shaded there.
@@ -27,60 +26,74 @@ vec4 spline_weights(float at) {
     return vec4(rest * rest * rest, 4.0 - 3.0 * at * at * (1.0 + rest), 4.0 - 3.0 * rest * rest * (1.0 + at), at * at * at) / 6.0;
 }
 
-// The ground so many posts from where a line begins, on the level that lines meet it on, metres above a height (in steps): of its triangle,
-// and of the smooth surface. no_ground_m where there is none. level: where to begin to look.
-vec2 ground_at(CastStart start, vec2 beyond, int base, inout uint level) {
-    ivec2 moved = ivec2(floor(beyond));
-    ivec2 at = start.point.post + moved;
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(FRAME.last_row, FRAME.last_column)))) return vec2(no_ground_m);
+// A cell, and the sixteen posts in and around it: metres above a height (in steps), a column for each row of posts.
+struct SmoothCell {
+    CasterCell cell;
+    mat4 posts_m;
+};
+// Of the level that lines meet there; false where there is none. A void post is as high as the cell's corner next to it.
+bool smooth_cell(CastStart start, ivec2 at, int base, inout uint level, out SmoothCell found) {
     CasterNode node;
-    if (!caster_at(at, start.error_m, level, node)) return vec2(no_ground_m);
+    if (!caster_at(at, start.error_m, level, node)) return false;
     PageBlocks block = PageBlocks(node.block);
-    CasterCell cell = caster_cell(block, level, at);
-    vec2 share = clamp((as_floats(at - cell.from) + beyond - as_floats(moved)) / as_floats(cell.to - cell.from), 0.0, 1.0);
-    float flat_m = above_base(cell, share, west_of_diagonal(cell, share) >= 0.0, base);
-    if (flat_m == no_ground_m) return vec2(no_ground_m);
-    vec4 rows = spline_weights(share.x), columns = spline_weights(share.y);
+    found.cell = caster_cell(block, level, at);
     uvec2 first = uvec2(at) >> level & 127u;
-    float smooth_m = 0.0;
     for (int i = 0; i < 16; ++i) {
-        int height = stored_height(block, first + uvec2(i >> 2, i & 3));
-        smooth_m += rows[i >> 2] * columns[i & 3] * (height == void_height ? flat_m : float(height - base) * height_step_m);
+        int row = i >> 2, column = i & 3, height = stored_height(block, first + uvec2(row, column));
+        if (height == void_height) height = found.cell.heights[(row > 1 ? 2 : 0) + (column > 1 ? 1 : 0)];
+        found.posts_m[row][column] = height == void_height ? 0.0 : float(height - base) * height_step_m;
     }
-    return vec2(flat_m, smooth_m);
+    return true;
+}
+float smooth_at_m(SmoothCell found, vec2 share) { return dot(spline_weights(share.x), spline_weights(share.y) * found.posts_m); }
+
+// What has been seen of the smooth ground, and how high it is where the line begins.
+struct SmoothSearch {
+    float least;
+    float here_m;
+};
+
+// Looks where a line crosses a side of a triangle, as look_at_cell() does: so ground that counts as it is hides what it hides there.
+void look_at_smooth(SunLine line, CastPiece piece, SmoothCell found, uint level, float t_m, bool west, CastSearch search, inout SmoothSearch seen) {
+    vec2 size = as_floats(found.cell.to - found.cell.from);
+    vec2 share = clamp((piece.at + t_m * piece.per_m - as_floats(found.cell.from - search.post)) / size, 0.0, 1.0);
+    float flat_m = above_base(found.cell, share, west, search.base);
+    if (flat_m == no_ground_m) return;
+    float as_is = max(smoothstep(smooth_cells, smooth_end_cells, t_m / cell_m_of(piece.per_m, level)),
+                      smoothstep(smooth_cells / smooth_end_cells, 1.0, t_m / piece.to_m));
+    float clear_m = mix(seen.here_m - smooth_at_m(found, share), -flat_m, as_is);
+    seen.least = min(seen.least, (along(line, t_m).z + search.lift_m + clear_m) * line.level / t_m);
 }
 
-// Where the next look is: a part of a cell farther on, or where another node begins, so that none is passed over.
-float next_look_m(CastPiece piece, CastSearch search, float t_m, float step_m, uint level, float cell_m) {
-    ivec2 post = search.post + whole_signed(floor(piece.at + (t_m - piece.from_m) * piece.per_m));
-    ivec2 node_from = (post >> (int(level) + 3)) << (int(level) + 3);
-    float out_m = way_out_of(piece, as_floats(node_from - search.post), as_floats(node_from + (8 << level) - search.post));
-    return min(t_m + cell_m / looks_per_cell, max(out_m, t_m) + step_m);
-}
-
-// The least angle of smooth ground from the sun's middle along the first piece of a line (search.least); at most `most`, and its negative
-// where that takes too many looks.
+// The least angle of smooth ground from the sun's middle along the first piece of a line (search.least), as far as that is above the disc's
+// lower edge; at most `most`. Nothing is seen where it takes too many cells.
 float smooth_least(SunLine line, CastStart start, CastPiece piece, CastSearch search, float most) {
     uint level = start.level;
-    vec2 here = ground_at(start, start.point.beyond, search.base, level);
-    float least = most, t_m = 0.0, step_m = cast_step_m(piece), post_m = 1.0 / max(max(abs(piece.per_m.x), abs(piece.per_m.y)), 1.0e-9);
-    for (int i = 0; i < looks_max; ++i) {
-        float cell_m = float(1 << level) * post_m;
-        t_m = next_look_m(piece, search, t_m, step_m, level, cell_m);
-        if (t_m >= piece.to_m) return least;
-        vec3 at = along(line, t_m);
-        vec2 there = ground_at(start, start.point.beyond + at.xy, search.base, level);
-        if (there.x == no_ground_m || here.x == no_ground_m) continue;
-        vec2 clear = here - there;
-        float as_is = smoothstep(smooth_cells, smooth_end_cells, t_m / (float(1 << level) * post_m));
-        as_is = max(as_is, smoothstep(smooth_cells / smooth_end_cells, 1.0, t_m / piece.to_m));
-        least = min(least, (at.z + search.lift_m + mix(clear.y, clear.x, as_is)) * line.level / t_m);
+    float t_m = 0.0, step_m = cast_step_m(piece);
+    SmoothSearch seen = SmoothSearch(most, 0.0);
+    for (int i = 0; i < smooth_cells_max; ++i) {
+        ivec2 post = search.post + whole_signed(floor(piece.at + (t_m + step_m) * piece.per_m));
+        SmoothCell found;
+        if (any(lessThan(post, ivec2(0))) || any(greaterThanEqual(post, ivec2(FRAME.last_row, FRAME.last_column)))) return seen.least;
+        if (!smooth_cell(start, post, search.base, level, found)) return seen.least;
+        vec2 low = as_floats(found.cell.from - search.post), size = as_floats(found.cell.to - found.cell.from);
+        vec2 here = (piece.at + t_m * piece.per_m - low) / size, change = piece.per_m / size;
+        if (i == 0) seen.here_m = smooth_at_m(found, clamp(here, 0.0, 1.0));
+        float out_m = clamp(way_out_of(piece, low, low + size), t_m + step_m, max(piece.to_m, t_m + step_m));
+        float apart = west_of_diagonal(found.cell, here), rate = found.cell.rises ? -change.x - change.y : change.x - change.y;
+        float diagonal_m = rate == 0.0 ? -1.0 : t_m - apart / rate;
+        bool crosses = diagonal_m > t_m && diagonal_m < out_m;
+        bool west = crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * rate > 0.0;
+        if (crosses) look_at_smooth(line, piece, found, level, diagonal_m, west, search, seen);
+        look_at_smooth(line, piece, found, level, out_m, crosses ? !west : west, search, seen);
+        t_m = out_m;
+        if (t_m >= piece.to_m || seen.least <= -sun_radius_rad) return seen.least;
     }
     return -most;
 }
 
-// Takes back what triangles hide in the first piece of a line, as far as the smooth ground hides less. True where they had stopped it and
-// do no more.
+// Takes back what triangles hide in the first piece of a line, as far as the smooth ground hides less. True where they had stopped it, and
+// it goes on.
 bool sees_smooth_ground(SunLine line, CastStart start, CastPiece piece, float smoothly, inout CastSearch search) {
     const float most = 1.1 * sun_radius_rad;
     if (search.least >= most) return false;

@@ -104,31 +104,36 @@ TEST_F(CastShadows, AreTheSameBytesHoweverTheyAreDrawn) {
     }
 }
 
-// Level ground next to a wall of one row, 60 m high: it is drawn, and begins its lines, in cells of 32 posts,
-// in which there is no wall. 60 / tan(10 deg) = 340 m of it have the wall's shadow: 3.7 rows.
-TEST_F(CastShadows, OfAWallLieOnTheLevelGroundBesideIt) {
+// A wall of one row, 60 m high: 60 / tan(10 deg) = 340 m of the ground beside it have its shadow, 3.7 rows.
+// Level ground begins its lines in cells of 32 posts, in which there is no wall; rough ground in cells of
+// one, of which the smooth surface makes a lower wall.
+TEST_F(CastShadows, OfAWallLieOnTheGroundBesideIt) {
     constexpr double north_deg = 46.3, rows_per_degree = 1200.0, wall_row = 513.0,
                      row_m = 111170.0 / rows_per_degree;
-    const HeightField field =
-        test::made_field(north_deg, 8.0, rows_per_degree, 1025, 400, [](double lat_deg, double) {
-            const double rows_off = std::abs((north_deg - lat_deg) * rows_per_degree - wall_row);
-            return static_cast<float>(std::max(0.0, 60.0 * (1.0 - rows_off)));
-        });
-    const gpu::FrameStyle style = lit_from(180.0, 10.0);
-    gpu::FrameStyle without = style;
-    without.shadows = 0;
-    for (const double from_wall_m : {1.5 * row_m, 2.5 * row_m, 3.5 * row_m, 4.0 * row_m, 6.0 * row_m}) {
-        Camera camera =
-            northward(field, north_deg - (wall_row - from_wall_m / row_m) / rows_per_degree, 500.0);
-        camera.attitude = {0.0, -89.9, 0.0};
-        camera.vertical_fov_deg = 2.0;
-        const auto middle = [](const std::vector<std::uint8_t>& rgb) { return rgb[3 * (32 * 64 + 32)]; };
-        const std::uint8_t lit = middle(draw(field, camera, without)),
-                           shown = middle(draw(field, camera, style));
-        if (from_wall_m < 3.6 * row_m)
-            EXPECT_LT(shown, lit) << from_wall_m << " m from the wall";
-        else
-            EXPECT_EQ(shown, lit) << from_wall_m << " m from the wall";
+    for (const double rough_m : {0.0, 0.3}) {
+        const HeightField field = test::made_field(
+            north_deg, 8.0, rows_per_degree, 1025, 400, [rough_m](double lat_deg, double lon_deg) {
+                const double row = (north_deg - lat_deg) * rows_per_degree,
+                             rows_off = std::abs(row - wall_row);
+                const double rough = rough_m * std::sin(12.9898 * std::round(row) +
+                                                        78.233 * std::round(lon_deg * rows_per_degree));
+                return static_cast<float>(std::max(rough, 60.0 * (1.0 - rows_off)));
+            });
+        const gpu::FrameStyle style = lit_from(180.0, 10.0);
+        gpu::FrameStyle without = style;
+        without.shadows = 0;
+        for (const double rows : {1.5, 2.5, 3.5, 4.0, 6.0}) {
+            Camera camera = northward(field, north_deg - (wall_row - rows) / rows_per_degree, 500.0);
+            camera.attitude = {0.0, -89.9, 0.0};
+            camera.vertical_fov_deg = 2.0;
+            const auto middle = [](const std::vector<std::uint8_t>& rgb) { return rgb[3 * (32 * 64 + 32)]; };
+            const std::uint8_t lit = middle(draw(field, camera, without)),
+                               shown = middle(draw(field, camera, style));
+            if (rows < 3.6)
+                EXPECT_LT(shown, lit) << rows * row_m << " m from the wall, rough " << rough_m;
+            else
+                EXPECT_EQ(shown, lit) << rows * row_m << " m from the wall, rough " << rough_m;
+        }
     }
 }
 
