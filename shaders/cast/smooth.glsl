@@ -4,7 +4,7 @@
 // Source: J. Hanika, Hacking the shadow terminator, Ray Tracing Gems II, 2021, tells of such facets, and of starts above the triangle;
 // here the ground that is met is smooth, too.
 
-const float all_smooth_px = 24.0;
+const float all_smooth_px = 10.0;
 // From where triangles begin to count as they are, up to where they all do; cells.
 const float smooth_cells = 1.5, smooth_end_cells = 3.0;
 const int smooth_cells_max = 32;

@@ -37,7 +37,7 @@ CastSearch search_from(CastStart start) {
 
 // How wide the side of a cell is in the picture, and from where on the ground is shaded smoothly (smooth.glsl).
 float side_px(CasterCell cell, float distance_m) { return float(cell.to.x - cell.from.x) * CASTERS.row_rad * 6371000.0 * FRAME.pixels_per_tangent / distance_m; }
-const float smooth_from_px = 8.0;
+const float smooth_from_px = 5.0;
 
 // The sun's light on the triangle that a line begins on, 0 to 63; below 0 where it is turned away; 0 where it is shaded smoothly.
 float light_on_start(CastStart start) {

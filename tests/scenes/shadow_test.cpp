@@ -54,7 +54,8 @@ struct NearView {
 };
 
 // Where a cell of posts covers hundreds of pixels, shaded smoothly, a triangle of it that is turned away from
-// the sun was a dark patch with hard edges: first any, then those that are 14 degrees steeper than the light.
+// the sun was a dark patch with hard edges: first any, then those that are 14 degrees steeper than the light,
+// then those where a cell covers ten pixels.
 TEST_F(ShadowsOfPictures, HaveNoEdgesOfTrianglesNearTheEye) {
     const auto alps = test::real_data("alps");
     if (!alps) GTEST_SKIP() << "needs alps";
@@ -69,6 +70,11 @@ TEST_F(ShadowsOfPictures, HaveNoEdgesOfTrianglesNearTheEye) {
          150.0,
          15.0,
          {0.42, 0.48, 0.75, 0.9}},
+        {"N46E007:N46E008",
+         {{46.67, 8.06, 2539.9}, {205.0, -4.0, 0.0}, 45.0, 1280, 720},
+         107.16,
+         47.35,
+         {0.32, 0.59, 0.36, 0.69}},
     };
     for (const NearView& view : views) {
         RegionRequest request;
