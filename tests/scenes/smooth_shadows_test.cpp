@@ -1,0 +1,90 @@
+// Near the eye shadows are those of the smooth surface that is shaded: how far they are from those of
+// triangles.
+#include "tests/scenes/shadows_of_pictures.h"
+#include "tests/support/test_data.h"
+
+namespace oro {
+namespace {
+
+using test::ShadowsOfPictures;
+using test::shares_alone;
+
+struct SmoothTally {
+    std::uint64_t facing{}, dark{}, lighter{}, darker{};
+};
+
+// Of ground whose smooth slope has sunlight, at least a twentieth of what a slope can have: what is dark as
+// triangles and lit in the picture, and the other way about.
+SmoothTally compare(const DepthPicture& triangles, const DepthPicture& with, const DepthPicture& without) {
+    constexpr int half = 188, a_twentieth = 63;  // of the light, as codes of sRGB
+    SmoothTally tally;
+    for (std::size_t i = 0; i < triangles.points.size(); ++i) {
+        if (triangles.points[i].background() || without.rgba[4 * i] < a_twentieth) continue;
+        const bool is_dark = triangles.rgba[4 * i] < half,
+                   shown_dark = 2 * with.rgba[4 * i] < without.rgba[4 * i];
+        ++tally.facing;
+        tally.dark += is_dark;
+        tally.lighter += is_dark && !shown_dark;
+        tally.darker += shown_dark && !is_dark;
+    }
+    return tally;
+}
+
+// Eyes 20 to 500 m above the Alps, which look 20 degrees down, and suns 8 to 40 degrees high.
+TEST_F(ShadowsOfPictures, OfSmoothGroundAreNearlyThoseOfTriangles) {
+    if (!test::real_data("alps")) GTEST_SKIP() << "needs alps";
+    constexpr std::uint64_t seed = 612;
+    const int views = test::view_count(8);
+    RegionRequest request;
+    request.paths = {test::real_data("alps")->string()};
+    request.box = *parse_tile_range("N46E008:N46E008");
+    const auto region = open_region(request);
+    ASSERT_TRUE(region.ok()) << region.error().line();
+    const TrueSurface surface(region->field, 1.0, thread_count());
+    auto scene = Scene::create(*gpu_, pages_in_memory(region->field, 1.0, thread_count()),
+                               {std::uint64_t{1} << 30U, 0});
+    ASSERT_TRUE(scene.ok()) << scene.error().line();
+    DepthPainter painter(*gpu_, RasterPath::compute);
+    std::mt19937_64 random(seed);
+    const auto between = [&random](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    SmoothTally together;
+    for (int view = 0; view < views; ++view) {
+        Camera camera{
+            {between(46.1, 46.9), between(8.1, 8.9), 0.0}, {between(0.0, 360.0), -20.0, 0.0}, 45.0, 320, 180};
+        const PostNumber post = region->field.grid.post_at(camera.eye.lat_deg, camera.eye.lon_deg);
+        const auto ground_m = surface.h_at_m(post.row, post.column);
+        ASSERT_TRUE(ground_m);
+        camera.eye.h_m = *ground_m + between(20.0, 500.0);
+        const SineCosine a = sine_cosine_deg(between(0.0, 360.0)), e = sine_cosine_deg(between(8.0, 40.0));
+        const glm::dvec3 sun_enu{e.cosine * a.sine, e.cosine * a.cosine, e.sine};
+        const auto triangles = painter.draw(*scene, camera, shares_alone(sun_enu), {});
+        gpu::FrameStyle style = shares_alone(sun_enu);
+        style.tints[0].colour = gpu::vec3(1.0F);
+        style.relief = 1.0F;
+        const auto with = painter.draw(*scene, camera, style, {});
+        style.shadows = 0;
+        const auto without = painter.draw(*scene, camera, style, {});
+        ASSERT_TRUE(triangles.ok() && with.ok() && without.ok());
+        const SmoothTally one = compare(*triangles, *with, *without);
+        together.facing += one.facing;
+        together.dark += one.dark;
+        together.lighter += one.lighter;
+        together.darker += one.darker;
+    }
+    const auto percent = [&together](std::uint64_t count) {
+        return 100.0 * static_cast<double>(count) / static_cast<double>(together.facing);
+    };
+    std::printf(
+        "seed %llu, %d views: %llu pixels that face the sun, %.2f %% dark as triangles; %.2f %% lit though "
+        "dark, %.2f %% dark though lit\n",
+        static_cast<unsigned long long>(seed), views, static_cast<unsigned long long>(together.facing),
+        percent(together.dark), percent(together.lighter), percent(together.darker));
+    EXPECT_GT(percent(together.dark), 2.0) << "or the test sees no shadow";
+    EXPECT_LT(percent(together.lighter), 1.5);
+    EXPECT_LT(percent(together.darker), 0.1);
+}
+
+}  // namespace
+}  // namespace oro
