@@ -40,10 +40,10 @@ bool cut_to_grid(inout CastPiece piece, ivec2 post, float by_posts) {
 }
 const float within_rims = -1.0e-3;  // posts: no post beyond the last is asked for
 
-// A straight piece of the line from a place on it to where the next begins; false where it has no length.
-bool next_piece(SunLine line, vec2 beyond, float from_m, float end_m, out CastPiece piece) {
+// A straight piece of the line, so long or up to its end; false where it has no length.
+bool next_piece(SunLine line, vec2 beyond, float from_m, float long_m, float end_m, out CastPiece piece) {
     piece.from_m = from_m;
-    piece.to_m = min(from_m + cast_piece_m, end_m);
+    piece.to_m = min(from_m + long_m, end_m);
     piece.at = beyond + along(line, from_m).xy;
     piece.per_m = (beyond + along(line, piece.to_m).xy - piece.at) / (piece.to_m - piece.from_m);
     return piece.to_m > from_m;
@@ -54,7 +54,7 @@ bool fit_over_net(CastStart start, inout SunLine line, inout float from_m, inout
     float first_m = -1.0, last_m = 0.0, around = 2.0 + 0.02 * float(max(FRAME.last_row, FRAME.last_column));
     CastPiece piece;
     float at_m = from_m;
-    for (int i = 0; i < 500 && at_m < end_m && next_piece(line, start.point.beyond, at_m, end_m, piece); ++i) {
+    for (int i = 0; i < 500 && at_m < end_m && next_piece(line, start.point.beyond, at_m, cast_piece_m, end_m, piece); ++i) {
         at_m = piece.to_m;
         if (!cut_to_grid(piece, start.point.post, around)) continue;
         if (first_m < 0.0) first_m = piece.from_m;
@@ -92,7 +92,7 @@ float sun_from(CastStart start, bool is_own) {
     for (int i = 0; i < 500; ++i) {
         bool is_smooth = i == 0 && smoothly > 0.0;
         float way_m = is_smooth ? smooth_way_m(start, line.a1.xy * line.per_m) : cast_piece_m;
-        if (!next_piece(line, start.point.beyond, from_m, min(from_m + way_m, end_m), piece)) break;
+        if (!next_piece(line, start.point.beyond, from_m, way_m, end_m, piece)) break;
         from_m = piece.to_m;
         float rounded = 2.5e-7 * max(abs(piece.at.x), abs(piece.at.y));
         if (!is_own && !cut_to_grid(piece, start.point.post, within_rims - rounded)) continue;

@@ -19,8 +19,8 @@ float smoothness(CastStart start) {
 float cell_m_of(vec2 per_m, uint level) { return float(1 << level) / max(max(abs(per_m.x), abs(per_m.y)), 1.0e-9); }
 float smooth_way_m(CastStart start, vec2 per_m) { return smooth_end_cells * cell_m_of(per_m, start.level); }
 
-// Source: C. de Boor, A Practical Guide to Splines, 1978, chapter IX: the uniform cubic B-spline. Its slopes at the posts are those that
-// are shaded there.
+// Source: C. de Boor, A Practical Guide to Splines, 1978, chapter IX: the uniform cubic B-spline. Its slopes at the posts are
+// central differences, nearly those that are shaded.
 vec4 spline_weights(float at) {
     float rest = 1.0 - at;
     return vec4(rest * rest * rest, 4.0 - 3.0 * at * at * (1.0 + rest), 4.0 - 3.0 * rest * rest * (1.0 + at), at * at * at) / 6.0;
@@ -31,17 +31,25 @@ struct SmoothCell {
     CasterCell cell;
     mat4 posts_m;
 };
-// Of the level that lines meet there; false where there is none. A void post is as high as the cell's corner next to it.
+// A void corner is as high as those beside it, or the base.
+int filled(int corner, int beside, int other, int base) {
+    if (corner != void_height) return corner;
+    if (beside == void_height) return other == void_height ? base : other;
+    return other == void_height ? beside : (beside + other) / 2;
+}
+// Of the level that lines meet there; false where there is none. A void post around it is as high as the corner next to it.
 bool smooth_cell(CastStart start, ivec2 at, int base, inout uint level, out SmoothCell found) {
     CasterNode node;
     if (!caster_at(at, start.error_m, level, node)) return false;
     PageBlocks block = PageBlocks(node.block);
     found.cell = caster_cell(block, level, at);
+    ivec4 h = found.cell.heights;
+    ivec4 corners = ivec4(filled(h.x, h.y, h.z, base), filled(h.y, h.x, h.w, base), filled(h.z, h.x, h.w, base), filled(h.w, h.y, h.z, base));
     uvec2 first = uvec2(at) >> level & 127u;
     for (int i = 0; i < 16; ++i) {
         int row = i >> 2, column = i & 3, height = stored_height(block, first + uvec2(row, column));
-        if (height == void_height) height = found.cell.heights[(row > 1 ? 2 : 0) + (column > 1 ? 1 : 0)];
-        found.posts_m[row][column] = height == void_height ? 0.0 : float(height - base) * height_step_m;
+        if (height == void_height) height = corners[(row > 1 ? 2 : 0) + (column > 1 ? 1 : 0)];
+        found.posts_m[row][column] = float(height - base) * height_step_m;
     }
     return true;
 }
@@ -53,16 +61,19 @@ struct SmoothSearch {
     float here_m;
 };
 
-// Looks where a line crosses a side of a triangle, as look_at_cell() does: so ground that counts as it is hides what it hides there.
-void look_at_smooth(SunLine line, CastPiece piece, SmoothCell found, uint level, float t_m, bool west, CastSearch search, inout SmoothSearch seen) {
+// Looks where a line crosses a side of a triangle, as look_at_cell() does: so ground that counts as it is hides what it hides there. either:
+// on the diagonal, where the triangle of the other side is as good. False where there is no ground.
+bool look_at_smooth(SunLine line, CastPiece piece, SmoothCell found, uint level, float t_m, bool west, bool either, CastSearch search, inout SmoothSearch seen) {
     vec2 size = as_floats(found.cell.to - found.cell.from);
     vec2 share = clamp((piece.at + t_m * piece.per_m - as_floats(found.cell.from - search.post)) / size, 0.0, 1.0);
     float flat_m = above_base(found.cell, share, west, search.base);
-    if (flat_m == no_ground_m) return;
+    if (flat_m == no_ground_m && either) flat_m = above_base(found.cell, share, !west, search.base);
+    if (flat_m == no_ground_m) return false;
     float as_is = max(smoothstep(smooth_cells, smooth_end_cells, t_m / cell_m_of(piece.per_m, level)),
                       smoothstep(smooth_cells / smooth_end_cells, 1.0, t_m / piece.to_m));
     float clear_m = mix(seen.here_m - smooth_at_m(found, share), -flat_m, as_is);
     seen.least = min(seen.least, (along(line, t_m).z + search.lift_m + clear_m) * line.level / t_m);
+    return true;
 }
 
 // The least angle of smooth ground from the sun's middle along the first piece of a line (search.least), as far as that is above the disc's
@@ -70,6 +81,7 @@ void look_at_smooth(SunLine line, CastPiece piece, SmoothCell found, uint level,
 float smooth_least(SunLine line, CastStart start, CastPiece piece, CastSearch search, float most) {
     uint level = start.level;
     float t_m = 0.0, step_m = cast_step_m(piece);
+    bool has_ground = true;
     SmoothSearch seen = SmoothSearch(most, 0.0);
     for (int i = 0; i < smooth_cells_max; ++i) {
         ivec2 post = search.post + whole_signed(floor(piece.at + (t_m + step_m) * piece.per_m));
@@ -84,8 +96,10 @@ float smooth_least(SunLine line, CastStart start, CastPiece piece, CastSearch se
         float diagonal_m = rate == 0.0 ? -1.0 : t_m - apart / rate;
         bool crosses = diagonal_m > t_m && diagonal_m < out_m;
         bool west = crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * rate > 0.0;
-        if (crosses) look_at_smooth(line, piece, found, level, diagonal_m, west, search, seen);
-        look_at_smooth(line, piece, found, level, out_m, crosses ? !west : west, search, seen);
+        // Ground is looked at where the line leaves it; behind a void, where the line comes to it, too.
+        if (!has_ground) look_at_smooth(line, piece, found, level, t_m, west, false, search, seen);
+        if (crosses) look_at_smooth(line, piece, found, level, diagonal_m, west, true, search, seen);
+        has_ground = look_at_smooth(line, piece, found, level, out_m, crosses ? !west : west, false, search, seen);
         t_m = out_m;
         if (t_m >= piece.to_m || seen.least <= -sun_radius_rad) return seen.least;
     }

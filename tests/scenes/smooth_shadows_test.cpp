@@ -1,6 +1,8 @@
 // Near the eye shadows are those of the smooth surface that is shaded: how far they are from those of
 // triangles.
+#include "tests/scenes/scene_of_grids.h"
 #include "tests/scenes/shadows_of_pictures.h"
+#include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -84,6 +86,38 @@ TEST_F(ShadowsOfPictures, OfSmoothGroundAreNearlyThoseOfTriangles) {
     EXPECT_GT(percent(together.dark), 2.0) << "or the test sees no shadow";
     EXPECT_LT(percent(together.lighter), 1.5);
     EXPECT_LT(percent(together.darker), 0.1);
+}
+
+// Another grid in the frame changes nothing of a grid's shadows on itself: those of cells of 4.4 km, of which
+// three are longer than the pieces that lines are followed by.
+TEST_F(ShadowsOfPictures, OfSmoothGroundAreTheSameBesideAnotherGrid) {
+    const auto hills = [](double lat_deg, double lon_deg) {
+        return static_cast<float>(1500.0 * (std::sin(40.0 * lat_deg) + std::sin(31.0 * lon_deg)));
+    };
+    const HeightField wide = test::made_field(48.0, 6.0, 25.0, 60, 80, hills),
+                      other = test::made_field(46.5, 9.6, 100.0, 40, 40, hills);
+    const auto drawn = [&](bool beside) {
+        Scene scene = test::scene_of_pages(*gpu_, pages_in_memory(wide, 1.0, 2));
+        if (beside) scene.draw_beside(test::scene_of_pages(*gpu_, pages_in_memory(other, 1.0, 2)));
+        const SineCosine a = sine_cosine_deg(110.0), e = sine_cosine_deg(8.0);
+        gpu::FrameStyle style = shares_alone({e.cosine * a.sine, e.cosine * a.cosine, e.sine});
+        style.tints[0].colour = gpu::vec3(1.0F);
+        style.relief = 1.0F;
+        const Camera camera{{46.6, 6.8, 40000.0}, {70.0, -35.0, 0.0}, 50.0, 320, 180};
+        return DepthPainter(*gpu_, RasterPath::compute).draw(scene, camera, style, {});
+    };
+    const auto alone = drawn(false), beside = drawn(true);
+    ASSERT_TRUE(alone.ok() && beside.ok());
+    int asked = 0, dark = 0, differ = 0;
+    for (std::size_t i = 0; i < beside->points.size(); ++i) {
+        if (beside->points[i].background() || beside->points[i].grid != 0) continue;
+        ++asked;
+        dark += beside->rgba[4 * i] < 20;
+        differ += std::abs(alone->rgba[4 * i] - beside->rgba[4 * i]) > 8;
+    }
+    std::printf("%d pixels, %d dark, %d differ\n", asked, dark, differ);
+    EXPECT_GT(dark, asked / 50) << "or the test sees no shadow";
+    EXPECT_LE(differ, 3);
 }
 
 }  // namespace
