@@ -188,7 +188,10 @@ float way_out_of(CastPiece piece, vec2 low, vec2 high) {
     return piece.from_m + min(way.x, way.y);
 }
 
-// How far the terrain's edge is from the sun's middle, seen from the place (radians, negative: above it); at most `most`.
+// So far below the sun's middle the terrain's edge hides nothing of its disc.
+const float nothing_hidden_rad = 1.1 * sun_radius_rad;
+
+// How far the terrain's edge is from the sun's middle, seen from the place (radians, negative: above it); at most nothing_hidden_rad.
 struct CastSearch {
     ivec2 post;
     int base;      // height where the line begins, steps
@@ -206,11 +209,15 @@ struct CastSearch {
     bool is_above;  // the line is over the ground where it comes to the next node, by what was looked at so far
 };
 
+// A place of a piece in a cell, of 1, from its north-west; bounded to the cell.
+vec2 share_of_cell(CastPiece piece, CasterCell cell, ivec2 post, float t_m) {
+    vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
+    return clamp((at - as_floats(cell.from - post)) / as_floats(cell.to - cell.from), 0.0, 1.0);
+}
+
 void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, bool west, inout CastSearch search) {
     if (t_m <= 0.0) return;
-    vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
-    vec2 share = clamp((at - as_floats(cell.from - search.post)) / as_floats(cell.to - cell.from), 0.0, 1.0);
-    float ground_m = above_base(cell, share, west, search.base);
+    float ground_m = above_base(cell, share_of_cell(piece, cell, search.post, t_m), west, search.base);
     if (ground_m == no_ground_m) return;
     search.last_m = t_m;
     search.last_ground_m = ground_m;
@@ -229,13 +236,30 @@ float cast_step_m(CastPiece piece) {
 
 // Begins a node of another level than the one before it.
 void meet_level(CastPiece piece, CasterCell cell, float t_m, float to_m, bool west, inout CastSearch search) {
-    vec2 at = piece.at + (t_m - piece.from_m) * piece.per_m;
-    vec2 share = clamp((at - as_floats(cell.from - search.post)) / as_floats(cell.to - cell.from), 0.0, 1.0);
-    float ground_m = above_base(cell, share, west, search.base);
+    float ground_m = above_base(cell, share_of_cell(piece, cell, search.post, t_m), west, search.base);
     if (ground_m == no_ground_m) return;
     search.step_m = ground_m - search.last_ground_m;
     search.step_from_m = t_m;
     search.step_to_m = to_m;
+}
+
+// Where a piece crosses a cell's diagonal between two places on it, if it does, and which triangle it is in before and after.
+struct CellCrossing {
+    float diagonal_m;
+    bool crosses;
+    bool west_before;
+    bool west_after;
+};
+CellCrossing crossing_of(CastPiece piece, CasterCell cell, ivec2 post, float t_m, float out_m) {
+    vec2 low = as_floats(cell.from - post), size = as_floats(cell.to - post) - low;
+    vec2 here = (piece.at + (t_m - piece.from_m) * piece.per_m - low) / size, step = piece.per_m / size;
+    float apart = west_of_diagonal(cell, here), change = cell.rises ? -step.x - step.y : step.x - step.y;
+    CellCrossing crossing;
+    crossing.diagonal_m = change == 0.0 ? -1.0 : t_m - apart / change;
+    crossing.crosses = crossing.diagonal_m > t_m && crossing.diagonal_m < out_m;
+    crossing.west_before = crossing.crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * change > 0.0;
+    crossing.west_after = crossing.crosses != crossing.west_before;
+    return crossing;
 }
 
 // The terrain's edge as seen along the part of a piece in one node, cell by cell: its triangles are highest against the line where the
@@ -261,21 +285,16 @@ void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, fl
         float matters_m = min(z_m, out_z_m) - (out_m - t_m) * (out_m - t_m) / 5.0e7 - max(search.least, 0.0) * out_m * per_slope;
         bool low_enough = float(highest) * height_step_m - base_m < matters_m && search.step_m == 0.0 && !meets && out_m + step_m < to_m;
         if (!low_enough) {
-            // Where it crosses the diagonal.
             cell.rises = caster_rises(PageBlocks(node.block), level, post);
-            vec2 size = high - low, here = (piece.at + (t_m - piece.from_m) * piece.per_m - low) / size, step = piece.per_m / size;
-            float apart = west_of_diagonal(cell, here), change = cell.rises ? -step.x - step.y : step.x - step.y;
-            float diagonal_m = change == 0.0 ? -1.0 : t_m - apart / change;
-            bool crosses = diagonal_m > t_m && diagonal_m < out_m;
-            bool before = crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * change > 0.0;  // in the western triangle
-            if (meets) meet_level(piece, cell, t_m, to_m, before, search);
+            CellCrossing crossing = crossing_of(piece, cell, search.post, t_m, out_m);
+            if (meets) meet_level(piece, cell, t_m, to_m, crossing.west_before, search);
             meets = false;
-            look_at_cell(line, piece, cell, t_m, before, search);
-            if (crosses) {
-                look_at_cell(line, piece, cell, diagonal_m, before, search);
-                look_at_cell(line, piece, cell, diagonal_m, !before, search);
+            look_at_cell(line, piece, cell, t_m, crossing.west_before, search);
+            if (crossing.crosses) {
+                look_at_cell(line, piece, cell, crossing.diagonal_m, crossing.west_before, search);
+                look_at_cell(line, piece, cell, crossing.diagonal_m, crossing.west_after, search);
             }
-            look_at_cell(line, piece, cell, out_m, crosses ? !before : before, search);
+            look_at_cell(line, piece, cell, out_m, crossing.west_after, search);
         }
         t_m = out_m;
         z_m = out_z_m;

@@ -64,8 +64,7 @@ struct SmoothSearch {
 // Looks where a line crosses a side of a triangle, as look_at_cell() does: so ground that counts as it is hides what it hides there. either:
 // on the diagonal, where the triangle of the other side is as good. False where there is no ground.
 bool look_at_smooth(SunLine line, CastPiece piece, SmoothCell found, uint level, float t_m, bool west, bool either, CastSearch search, inout SmoothSearch seen) {
-    vec2 size = as_floats(found.cell.to - found.cell.from);
-    vec2 share = clamp((piece.at + t_m * piece.per_m - as_floats(found.cell.from - search.post)) / size, 0.0, 1.0);
+    vec2 share = share_of_cell(piece, found.cell, search.post, t_m);
     float flat_m = above_base(found.cell, share, west, search.base);
     if (flat_m == no_ground_m && either) flat_m = above_base(found.cell, share, !west, search.base);
     if (flat_m == no_ground_m) return false;
@@ -77,42 +76,37 @@ bool look_at_smooth(SunLine line, CastPiece piece, SmoothCell found, uint level,
 }
 
 // The least angle of smooth ground from the sun's middle along the first piece of a line (search.least), as far as that is above the disc's
-// lower edge; at most `most`. Nothing is seen where it takes too many cells.
-float smooth_least(SunLine line, CastStart start, CastPiece piece, CastSearch search, float most) {
+// lower edge. Nothing is seen where it takes too many cells.
+float smooth_least(SunLine line, CastStart start, CastPiece piece, CastSearch search) {
     uint level = start.level;
     float t_m = 0.0, step_m = cast_step_m(piece);
     bool has_ground = true;
-    SmoothSearch seen = SmoothSearch(most, 0.0);
+    SmoothSearch seen = SmoothSearch(nothing_hidden_rad, 0.0);
     for (int i = 0; i < smooth_cells_max; ++i) {
         ivec2 post = search.post + whole_signed(floor(piece.at + (t_m + step_m) * piece.per_m));
         SmoothCell found;
         if (any(lessThan(post, ivec2(0))) || any(greaterThanEqual(post, ivec2(FRAME.last_row, FRAME.last_column)))) return seen.least;
         if (!smooth_cell(start, post, search.base, level, found)) return seen.least;
-        vec2 low = as_floats(found.cell.from - search.post), size = as_floats(found.cell.to - found.cell.from);
-        vec2 here = (piece.at + t_m * piece.per_m - low) / size, change = piece.per_m / size;
-        if (i == 0) seen.here_m = smooth_at_m(found, clamp(here, 0.0, 1.0));
-        float out_m = clamp(way_out_of(piece, low, low + size), t_m + step_m, max(piece.to_m, t_m + step_m));
-        float apart = west_of_diagonal(found.cell, here), rate = found.cell.rises ? -change.x - change.y : change.x - change.y;
-        float diagonal_m = rate == 0.0 ? -1.0 : t_m - apart / rate;
-        bool crosses = diagonal_m > t_m && diagonal_m < out_m;
-        bool west = crosses ? apart > 0.0 : apart + 0.5 * (out_m - t_m) * rate > 0.0;
+        if (i == 0) seen.here_m = smooth_at_m(found, share_of_cell(piece, found.cell, search.post, t_m));
+        float out_m = way_out_of(piece, as_floats(found.cell.from - search.post), as_floats(found.cell.to - search.post));
+        out_m = clamp(out_m, t_m + step_m, max(piece.to_m, t_m + step_m));
+        CellCrossing crossing = crossing_of(piece, found.cell, search.post, t_m, out_m);
         // Ground is looked at where the line leaves it; behind a void, where the line comes to it, too.
-        if (!has_ground) look_at_smooth(line, piece, found, level, t_m, west, false, search, seen);
-        if (crosses) look_at_smooth(line, piece, found, level, diagonal_m, west, true, search, seen);
-        has_ground = look_at_smooth(line, piece, found, level, out_m, crosses ? !west : west, false, search, seen);
+        if (!has_ground) look_at_smooth(line, piece, found, level, t_m, crossing.west_before, false, search, seen);
+        if (crossing.crosses) look_at_smooth(line, piece, found, level, crossing.diagonal_m, crossing.west_before, true, search, seen);
+        has_ground = look_at_smooth(line, piece, found, level, out_m, crossing.west_after, false, search, seen);
         t_m = out_m;
         if (t_m >= piece.to_m || seen.least <= -sun_radius_rad) return seen.least;
     }
-    return -most;
+    return -nothing_hidden_rad;
 }
 
 // Takes back what triangles hide in the first piece of a line, as far as the smooth ground hides less. True where they had stopped it, and
 // it goes on.
 bool sees_smooth_ground(SunLine line, CastStart start, CastPiece piece, float smoothly, inout CastSearch search) {
-    const float most = 1.1 * sun_radius_rad;
-    if (search.least >= most) return false;
+    if (search.least >= nothing_hidden_rad) return false;
     bool was_stopped = search.least <= -sun_radius_rad;
-    float hidden = max(search.least, -most), seen = max(hidden, smooth_least(line, start, piece, search, most));
+    float hidden = max(search.least, -nothing_hidden_rad), seen = max(hidden, smooth_least(line, start, piece, search));
     search.least = mix(hidden, seen, smoothly);
     search.is_above = false;
     return was_stopped && search.least > -sun_radius_rad;

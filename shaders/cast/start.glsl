@@ -32,7 +32,7 @@ bool starts_on_ground(CastPoint point, out CastStart start) {
 
 // What a line meets that begins there.
 CastSearch search_from(CastStart start) {
-    return CastSearch(start.point.post, int(round(start.at.h_m / height_step_m)), 0.02, 1.1 * sun_radius_rad, 0.0, 0.0, start.level, 0.0, 0.0, 1.0, true);
+    return CastSearch(start.point.post, int(round(start.at.h_m / height_step_m)), 0.02, nothing_hidden_rad, 0.0, 0.0, start.level, 0.0, 0.0, 1.0, true);
 }
 
 // How wide the side of a cell is in the picture, and from where on the ground is shaded smoothly (smooth.glsl).
