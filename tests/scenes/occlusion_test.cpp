@@ -3,6 +3,7 @@
 #include "core/seam/seam_pages.h"
 #include "core/terrain/ground.h"
 #include "geo/together/cut_regions.h"
+#include "tests/scenes/real_tiles.h"
 #include "tests/support/drawn/occlusion_pairs.h"
 #include "tests/support/height_storage.h"
 #include "tests/support/test_data.h"
@@ -25,12 +26,8 @@ class OccludedScene : public test::GpuTest, public ::testing::WithParamInterface
 
 // Where people stand: valleys and ridges of the Bernese Alps.
 TEST_P(OccludedScene, TheAlpsAreThoseWithout) {
-    const auto data = test::real_data("alps");
-    if (!data) GTEST_SKIP() << "needs alps";
-    RegionRequest request;
-    request.paths = {data->string()};
-    request.box = *parse_tile_range("N46E007:N46E008");
-    auto region = open_region(request);
+    if (!test::real_data("alps")) GTEST_SKIP() << "needs alps";
+    const auto region = test::open_tiles("alps", "N46E007:N46E008");
     ASSERT_TRUE(region.ok()) << region.error().line();
     Scene scene = scene_of(pages_in_memory(region->field, 1.0, 2));
     const test::EyeGround where{46.3, 46.8, 7.4, 8.6, [&](double lat_deg, double lon_deg) {

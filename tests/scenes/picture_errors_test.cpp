@@ -10,6 +10,7 @@
 #include "core/truth/view_set.h"
 #include "geo/region/region.h"
 #include "render/frame/depth_picture.h"
+#include "tests/scenes/real_tiles.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/height_storage.h"
 #include "tests/support/net_terrain.h"
@@ -122,10 +123,7 @@ class ErrorsOfPictures : public test::GpuTest {
 
     // Views of a folder of real data.
     void look_over(const char* folder, const char* tiles, int views) {
-        RegionRequest request;
-        request.paths = {test::real_data(folder)->string()};
-        request.box = *parse_tile_range(tiles);
-        const auto region = open_region(request);
+        const auto region = test::open_tiles(folder, tiles);
         ASSERT_TRUE(region.ok()) << region.error().line();
         look(folder, region->field, views);
     }

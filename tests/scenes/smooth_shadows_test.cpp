@@ -1,15 +1,84 @@
 // Near the eye shadows are those of the smooth surface that is shaded: how far they are from those of
 // triangles.
+#include "core/light/sun_position.h"
+#include "tests/scenes/real_tiles.h"
 #include "tests/scenes/scene_of_grids.h"
 #include "tests/scenes/shadows_of_pictures.h"
 #include "tests/support/rough_terrain.h"
-#include "tests/support/test_data.h"
 
 namespace oro {
 namespace {
 
 using test::ShadowsOfPictures;
 using test::shares_alone;
+
+// ... and slopes have light and shade.
+gpu::FrameStyle shaded_alone(const glm::dvec3& sun_enu, float colour, float relief) {
+    gpu::FrameStyle style = shares_alone(sun_enu);
+    style.tints[0].colour = gpu::vec3(colour);
+    style.relief = relief;
+    return style;
+}
+
+// A view of the Alps whose ground, in a part of the picture (of 1: left, top, right, bottom), has no shadow
+// on it but that of a triangle on itself or on the next.
+struct NearView {
+    const char* tiles;
+    Camera camera;
+    double sun_azimuth_deg, sun_elevation_deg;
+    double box[4];
+};
+
+// Where a cell of posts covers hundreds of pixels, shaded smoothly, a triangle of it that is turned away from
+// the sun was a dark patch with hard edges: first any, then those that are 14 degrees steeper than the light,
+// then those where a cell covers ten pixels.
+TEST_F(ShadowsOfPictures, HaveNoEdgesOfTrianglesNearTheEye) {
+    if (!test::real_data("alps")) GTEST_SKIP() << "needs alps";
+    const NearView views[] = {
+        {"N46E007:N46E008",
+         {{46.67, 8.06, 2537.0}, {205.0, -4.0, 0.0}, 45.0, 960, 540},
+         315.0,
+         38.0,
+         {0.5, 0.75, 1.0, 1.0}},
+        {"N46E008:N46E008",
+         {{46.3, 8.2, 3053.0}, {30.0, -8.0, 0.0}, 45.0, 960, 540},
+         150.0,
+         15.0,
+         {0.42, 0.48, 0.75, 0.9}},
+        {"N46E007:N46E008",
+         {{46.67, 8.06, 2539.9}, {205.0, -4.0, 0.0}, 45.0, 1280, 720},
+         107.16,
+         47.35,
+         {0.32, 0.59, 0.36, 0.69}},
+    };
+    for (const NearView& view : views) {
+        const auto region = test::open_tiles("alps", view.tiles);
+        ASSERT_TRUE(region.ok()) << region.error().line();
+        auto made = Scene::create(*gpu_, pages_in_memory(region->field, 1.0, thread_count()),
+                                  {std::uint64_t{1} << 30U, 0});
+        ASSERT_TRUE(made.ok()) << made.error().line();
+        DepthPainter painter(*gpu_, RasterPath::compute);
+        gpu::FrameStyle style =
+            shaded_alone(enu_towards(view.sun_azimuth_deg, view.sun_elevation_deg), 0.8F, 1.2F);
+        const auto with = painter.draw(*made, view.camera, style, {});
+        style.shadows = 0;
+        const auto without = painter.draw(*made, view.camera, style, {});
+        ASSERT_TRUE(with.ok() && without.ok());
+        const int width = view.camera.width_px, height = view.camera.height_px;
+        int darker = 0, most = 0;
+        for (int y = static_cast<int>(view.box[1] * height); y < static_cast<int>(view.box[3] * height); ++y)
+            for (int x = static_cast<int>(view.box[0] * width); x < static_cast<int>(view.box[2] * width);
+                 ++x) {
+                const auto i = static_cast<std::size_t>(4 * (y * width + x));
+                const int by = without->rgba[i] - with->rgba[i];
+                darker += by > 20;
+                most = std::max(most, by);
+            }
+        std::printf("%s: %d pixels darker by more than 20 codes, the darkest by %d\n", view.tiles, darker,
+                    most);
+        EXPECT_LE(darker, 10);
+    }
+}
 
 struct SmoothTally {
     std::uint64_t facing{}, dark{}, lighter{}, darker{};
@@ -37,10 +106,7 @@ TEST_F(ShadowsOfPictures, OfSmoothGroundAreNearlyThoseOfTriangles) {
     if (!test::real_data("alps")) GTEST_SKIP() << "needs alps";
     constexpr std::uint64_t seed = 612;
     const int views = test::view_count(8);
-    RegionRequest request;
-    request.paths = {test::real_data("alps")->string()};
-    request.box = *parse_tile_range("N46E008:N46E008");
-    const auto region = open_region(request);
+    const auto region = test::open_tiles("alps", "N46E008:N46E008");
     ASSERT_TRUE(region.ok()) << region.error().line();
     const TrueSurface surface(region->field, 1.0, thread_count());
     auto scene = Scene::create(*gpu_, pages_in_memory(region->field, 1.0, thread_count()),
@@ -59,12 +125,10 @@ TEST_F(ShadowsOfPictures, OfSmoothGroundAreNearlyThoseOfTriangles) {
         const auto ground_m = surface.h_at_m(post.row, post.column);
         ASSERT_TRUE(ground_m);
         camera.eye.h_m = *ground_m + between(20.0, 500.0);
-        const SineCosine a = sine_cosine_deg(between(0.0, 360.0)), e = sine_cosine_deg(between(8.0, 40.0));
-        const glm::dvec3 sun_enu{e.cosine * a.sine, e.cosine * a.cosine, e.sine};
+        const double azimuth_deg = between(0.0, 360.0), elevation_deg = between(8.0, 40.0);
+        const glm::dvec3 sun_enu = enu_towards(azimuth_deg, elevation_deg);
         const auto triangles = painter.draw(*scene, camera, shares_alone(sun_enu), {});
-        gpu::FrameStyle style = shares_alone(sun_enu);
-        style.tints[0].colour = gpu::vec3(1.0F);
-        style.relief = 1.0F;
+        gpu::FrameStyle style = shaded_alone(sun_enu, 1.0F, 1.0F);
         const auto with = painter.draw(*scene, camera, style, {});
         style.shadows = 0;
         const auto without = painter.draw(*scene, camera, style, {});
@@ -99,10 +163,7 @@ TEST_F(ShadowsOfPictures, OfSmoothGroundAreTheSameBesideAnotherGrid) {
     const auto drawn = [&](bool beside) {
         Scene scene = test::scene_of_pages(*gpu_, pages_in_memory(wide, 1.0, 2));
         if (beside) scene.draw_beside(test::scene_of_pages(*gpu_, pages_in_memory(other, 1.0, 2)));
-        const SineCosine a = sine_cosine_deg(110.0), e = sine_cosine_deg(8.0);
-        gpu::FrameStyle style = shares_alone({e.cosine * a.sine, e.cosine * a.cosine, e.sine});
-        style.tints[0].colour = gpu::vec3(1.0F);
-        style.relief = 1.0F;
+        const gpu::FrameStyle style = shaded_alone(enu_towards(110.0, 8.0), 1.0F, 1.0F);
         const Camera camera{{46.6, 6.8, 40000.0}, {70.0, -35.0, 0.0}, 50.0, 320, 180};
         return DepthPainter(*gpu_, RasterPath::compute).draw(scene, camera, style, {});
     };
