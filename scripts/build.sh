@@ -13,6 +13,8 @@ build_release() {
   done
   log=build/$name.log
   mkdir -p build
+  # In continuous integration a warning stops the build; for who only builds it does not.
+  case "${CI:-}" in '' | 0 | false) ;; *) options+=(-DCMAKE_COMPILE_WARNING_AS_ERROR=ON) ;; esac
   build=(cmake --build --preset release ${targets[0]+--target "${targets[@]}"})
   for together in ON OFF; do
     say "configuring build/release"

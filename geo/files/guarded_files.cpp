@@ -14,6 +14,7 @@
 #include <memory>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace oro {
 namespace {
@@ -34,22 +35,40 @@ std::string words(int reason) {
     return std::generic_category().message(reason);
 }
 
+// What GDAL's classes ask of those derived from them has changed from version to version, and the numbers of
+// the versions are not looked at: each function is declared in every form that GDAL 3.6 to 3.12 asks for. The
+// form that a version has overrides that version's; the others are functions that nothing calls. For that
+// reason none is marked `override` here. A form that a version requires and that is missing makes the class
+// abstract: that does not compile.
+using OpenedFile = decltype(std::declval<VSIFilesystemHandler&>().Open("", "", false, nullptr));
+
+// A handler's file, for the caller to own. GDAL up to 3.11 gives a pointer, GDAL 3.12 a std::unique_ptr.
+[[maybe_unused]] VSIVirtualHandle* released(VSIVirtualHandle* file) {
+    return file;
+}
+template <typename Closer>
+VSIVirtualHandle* released(std::unique_ptr<VSIVirtualHandle, Closer> file) {
+    return file.release();
+}
+
 // A local file that GDAL reads.
 class WatchedFile final : public VSIVirtualHandle {
   public:
-    WatchedFile(VSIVirtualHandle* file, std::string name) : file_(file), name_(std::move(name)) {}
+    WatchedFile(OpenedFile file, std::string name)
+        : file_(released(std::move(file))), name_(std::move(name)) {}
 
-    int Seek(vsi_l_offset place, int whence) override {
+    int Seek(vsi_l_offset place, int whence) {
         errno = 0;
         const int failed = file_->Seek(place, whence);
         if (failed != 0 && watching != nullptr && errno != 0 && errno != EINVAL)
             watching->note(name_ + ": cannot be read: " + words(errno));
         return failed;
     }
-    vsi_l_offset Tell() override { return file_->Tell(); }
-    std::size_t Read(void* to, std::size_t size, std::size_t count) override {
+    vsi_l_offset Tell() { return file_->Tell(); }
+    std::size_t Read(void* to, std::size_t size, std::size_t count) {
         if (watching != nullptr && watching->spent()) {
             note(watching->fault());
+            refused_ = true;
             return 0;
         }
         errno = 0;
@@ -61,18 +80,40 @@ class WatchedFile final : public VSIVirtualHandle {
         }
         return got;
     }
-    std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
-    int Eof() override { return file_->Eof(); }
-    int Close() override { return file_->Close(); }
-    void* GetNativeFileDescriptor() override { return file_->GetNativeFileDescriptor(); }
-    VSIRangeStatus GetRangeStatus(vsi_l_offset place, vsi_l_offset length) override {
+    std::size_t Read(void* to, std::size_t bytes) { return Read(to, 1, bytes); }  // GDAL after 3.12
+    std::size_t Write(const void*, std::size_t, std::size_t) { return 0; }
+    std::size_t Write(const void*, std::size_t) { return 0; }  // GDAL after 3.12
+    int Eof() { return file_->Eof(); }
+    int Error() { return refused_ ? 1 : error_of(*file_); }  // GDAL 3.10
+    void ClearErr() {                                        // GDAL 3.10
+        refused_ = false;
+        clear_error_of(*file_);
+    }
+    int Close() { return file_->Close(); }
+    void* GetNativeFileDescriptor() { return file_->GetNativeFileDescriptor(); }
+    VSIRangeStatus GetRangeStatus(vsi_l_offset place, vsi_l_offset length) {
         return file_->GetRangeStatus(place, length);
     }
-    [[nodiscard]] bool HasPRead() const override { return false; }
+    [[nodiscard]] bool HasPRead() const { return false; }
 
   private:
+    // Up to GDAL 3.9 a file has no error of its own: a read that gives less than was asked for is the sign.
+    template <typename File>
+    static int error_of(File& file) {
+        if constexpr (requires { file.Error(); }) {
+            return file.Error();
+        } else {
+            return 0;
+        }
+    }
+    template <typename File>
+    static void clear_error_of(File& file) {
+        if constexpr (requires { file.ClearErr(); }) file.ClearErr();
+    }
+
     std::unique_ptr<VSIVirtualHandle> file_;
     std::string name_;
+    bool refused_{};  // a read was refused: a limit of time or bytes is reached
 };
 
 // The file system of this machine, as GDAL has it, for regular files.
@@ -80,8 +121,7 @@ class LocalFiles final : public VSIFilesystemHandler {
   public:
     explicit LocalFiles(VSIFilesystemHandler* files) : files_(files) {}
 
-    VSIVirtualHandle* Open(const char* name, const char* access, bool set_error,
-                           CSLConstList options) override {
+    OpenedFile Open(const char* name, const char* access, bool set_error, CSLConstList options) {
         const std::string_view mode = access;
         if (mode.find_first_of("wa+") != std::string_view::npos)
             return files_->Open(name, access, set_error, options);
@@ -93,7 +133,7 @@ class LocalFiles final : public VSIFilesystemHandler {
             return nullptr;
         }
         errno = 0;
-        VSIVirtualHandle* const file = files_->Open(name, access, set_error, options);
+        OpenedFile file = files_->Open(name, access, set_error, options);
         const int reason = errno;
         if (file == nullptr) {
             if (watching != nullptr && !is_absence(reason))
@@ -103,24 +143,35 @@ class LocalFiles final : public VSIFilesystemHandler {
         }
         if (watching != nullptr)
             watching->opened(status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size));
-        return new WatchedFile(file, name);
+        return OpenedFile(new WatchedFile(std::move(file), name));
     }
-    int Stat(const char* name, VSIStatBufL* status, int flags) override {
-        return files_->Stat(name, status, flags);
+    int Stat(const char* name, VSIStatBufL* status, int flags) { return files_->Stat(name, status, flags); }
+    int Unlink(const char* name) { return files_->Unlink(name); }
+    int Mkdir(const char* name, long mode) { return files_->Mkdir(name, mode); }
+    int Rmdir(const char* name) { return files_->Rmdir(name); }
+    int Rename(const char* from, const char* to) { return renamed(*files_, from, to, nullptr, nullptr); }
+    int Rename(const char* from, const char* to, GDALProgressFunc progress, void* of) {  // GDAL after 3.10
+        return renamed(*files_, from, to, progress, of);
     }
-    int Unlink(const char* name) override { return files_->Unlink(name); }
-    int Mkdir(const char* name, long mode) override { return files_->Mkdir(name, mode); }
-    int Rmdir(const char* name) override { return files_->Rmdir(name); }
-    int Rename(const char* from, const char* to) override { return files_->Rename(from, to); }
-    char** ReadDirEx(const char* name, int most) override { return files_->ReadDirEx(name, most); }
-    char** SiblingFiles(const char* name) override { return files_->SiblingFiles(name); }
-    int IsCaseSensitive(const char* name) override { return files_->IsCaseSensitive(name); }
-    GIntBig GetDiskFreeSpace(const char* name) override { return files_->GetDiskFreeSpace(name); }
-    VSIDIR* OpenDir(const char* name, int depth, const char* const* options) override {
+    char** ReadDirEx(const char* name, int most) { return files_->ReadDirEx(name, most); }
+    char** SiblingFiles(const char* name) { return files_->SiblingFiles(name); }
+    int IsCaseSensitive(const char* name) { return files_->IsCaseSensitive(name); }
+    GIntBig GetDiskFreeSpace(const char* name) { return files_->GetDiskFreeSpace(name); }
+    VSIDIR* OpenDir(const char* name, int depth, const char* const* options) {
         return files_->OpenDir(name, depth, options);
     }
 
   private:
+    template <typename Files>
+    static int renamed(Files& files, const char* from, const char* to,
+                       [[maybe_unused]] GDALProgressFunc progress, [[maybe_unused]] void* of) {
+        if constexpr (requires { files.Rename(from, to, progress, of); }) {
+            return files.Rename(from, to, progress, of);
+        } else {
+            return files.Rename(from, to);
+        }
+    }
+
     std::unique_ptr<VSIFilesystemHandler> files_;
 };
 
@@ -129,16 +180,17 @@ class RefusedFiles final : public VSIFilesystemHandler {
   public:
     explicit RefusedFiles(std::shared_ptr<VSIFilesystemHandler> before) : before_(std::move(before)) {}
 
-    VSIVirtualHandle* Open(const char* name, const char*, bool, CSLConstList) override {
+    OpenedFile Open(const char* name, const char*, bool, CSLConstList) {
         refuse(name);
         return nullptr;
     }
-    int Stat(const char* name, VSIStatBufL*, int) override {
+    int Stat(const char* name, VSIStatBufL*, int) {
         refuse(name);
         return -1;
     }
-    bool IsLocal(const char*) override { return false; }
-    bool SupportsRead(const char*) override { return false; }
+    bool IsLocal(const char*) { return false; }
+    bool IsLocal(const char*) const { return false; }  // GDAL after 3.10
+    bool SupportsRead(const char*) { return false; }
 
   private:
     static void refuse(const char* name) {
