@@ -49,7 +49,7 @@ void add_crossings(double begin, double end, double first, double last, std::vec
 // The same over grids on nets, where a way that is straight in latitude and longitude is bent among the
 // posts, and over several grids.
 void follow_bent(const TrueGround& ground, const VectorPlace& from, const VectorPlace& to,
-                 const GroundSink& sink) {
+                 const PlaceSink& sink) {
     const double turn_deg = std::remainder(to.lon_deg - from.lon_deg, 360.0);
     const double long_m = wgs84_a_m * radians_from_deg(std::hypot(to.lat_deg - from.lat_deg, turn_deg)).rad;
     const auto at = [&](double along_m) {
@@ -74,7 +74,7 @@ void follow_bent(const TrueGround& ground, const VectorPlace& from, const Vector
 }  // namespace
 
 void follow_ground(const TrueGround& ground, const VectorPlace& from, const VectorPlace& to,
-                   const GroundSink& sink) {
+                   const PlaceSink& sink) {
     const TrueSurface& surface = ground.surface(0);
     const PostGrid& grid = surface.field().grid;
     if (grid.net || ground.grids() > 1) return follow_bent(ground, from, to, sink);

@@ -10,13 +10,13 @@
 namespace oro {
 
 // Takes the next place of a line on the ground; nothing where the ground ends and the line with it.
-using GroundSink = std::function<void(const std::optional<Geodetic>& place)>;
+using PlaceSink = std::function<void(const std::optional<Geodetic>& place)>;
 
 // Follows the way from one place to another on the ground: even in latitude and longitude, the shorter way
 // round. Gives the first place, each place where the way comes to another triangle of the ground, and the
 // last: between them the ground is as straight as the way. Places without ground end the line. Heights are
 // the surface's; error: its own rounding.
 void follow_ground(const TrueGround& ground, const VectorPlace& from, const VectorPlace& to,
-                   const GroundSink& sink);
+                   const PlaceSink& sink);
 
 }  // namespace oro

@@ -161,7 +161,7 @@ std::vector<SeenLine> joined(const std::vector<Sample>& samples, const std::vect
 std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, const TrueGround& ground,
                                  const PointsInView& in_view, const Camera& camera, double margin_px) {
     Sampler sampler(in_view, camera, margin_px);
-    const GroundSink take = [&](const std::optional<Geodetic>& place) { sampler.take(place); };
+    const PlaceSink take = [&](const std::optional<Geodetic>& place) { sampler.take(place); };
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const VectorShape& shape = *shapes[i];
         if (shape.kind == VectorKind::point) continue;

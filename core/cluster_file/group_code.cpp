@@ -21,7 +21,7 @@ struct LocalMesh {
     std::int32_t column{};
     std::uint32_t rows{1};
     std::uint32_t columns{1};
-    std::vector<LatticePoint> points;
+    std::vector<GridPosition> points;
     std::vector<LocalTriangle> triangles;
 };
 
@@ -207,7 +207,7 @@ std::optional<std::string> decode_group(std::span<const std::byte> bytes, const 
         for (const LocalTriangle& local : mesh.triangles) {
             VertexTriangle& triangle = part.triangles.emplace_back();
             for (std::size_t j = 0; j < 3; ++j) {
-                const LatticePoint& point = mesh.points[local[j]];
+                const GridPosition& point = mesh.points[local[j]];
                 triangle[j] = posts.number(mesh.row + point.row, mesh.column + point.column);
             }
         }

@@ -18,7 +18,7 @@ std::size_t angle_class(double cotangent) {
 
 }  // namespace
 
-void MeshCode::start(std::span<const LatticePoint> points) {
+void MeshCode::start(std::span<const GridPosition> points) {
     points_ = points;
     walk_.start(static_cast<int>(points.size()));
     least_untold_ = 0;
@@ -58,7 +58,7 @@ void MeshCode::close(const ClusterWalk::Edge& edge) {
 
 bool MeshCode::fits(int a, int b, int c) const {
     const auto place = [&](int vertex) {
-        const LatticePoint& point = points_[static_cast<std::size_t>(vertex)];
+        const GridPosition& point = points_[static_cast<std::size_t>(vertex)];
         return SurfaceVertex{point.row, point.column, 0};
     };
     return walk_.may_be(a, b, c) && twice_area(place(a), place(b), place(c)) > 0;
@@ -67,7 +67,7 @@ bool MeshCode::fits(int a, int b, int c) const {
 // From all that have room, without asking what else is in the way. Roundings may change the order, the same
 // on every machine: they are those of IEEE 754, and products are not joined with sums (-ffp-contract=off).
 void MeshCode::look_from(const ClusterWalk::Edge& edge) {
-    const LatticePoint &from = points_[static_cast<std::size_t>(edge.to)],
+    const GridPosition &from = points_[static_cast<std::size_t>(edge.to)],
                        &to = points_[static_cast<std::size_t>(edge.from)];
     const double from_row = from.row, from_column = from.column, to_row = to.row, to_column = to.column;
     for (std::size_t i = 0; i < open_; ++i) {
@@ -125,7 +125,7 @@ bool MeshCode::code_first(Coder& coder, LocalTriangle& triangle) {
 }
 
 template <class Coder>
-bool MeshCode::code(Coder& coder, std::span<const LatticePoint> points, std::uint32_t count,
+bool MeshCode::code(Coder& coder, std::span<const GridPosition> points, std::uint32_t count,
                     std::vector<LocalTriangle>& triangles) {
     start(points);
     if constexpr (!Coder::writes) triangles.clear();
@@ -157,9 +157,9 @@ bool MeshCode::code(Coder& coder, std::span<const LatticePoint> points, std::uin
     return true;
 }
 
-template bool MeshCode::code(RangeEncoder&, std::span<const LatticePoint>, std::uint32_t,
+template bool MeshCode::code(RangeEncoder&, std::span<const GridPosition>, std::uint32_t,
                              std::vector<LocalTriangle>&);
-template bool MeshCode::code(RangeDecoder&, std::span<const LatticePoint>, std::uint32_t,
+template bool MeshCode::code(RangeDecoder&, std::span<const GridPosition>, std::uint32_t,
                              std::vector<LocalTriangle>&);
 
 }  // namespace oro

@@ -20,7 +20,7 @@ class MeshCode {
     // clockwise; an encoder's are coded, a decoder's are replaced. False where a decoder's bytes tell none
     // such; the triangles are then of no use.
     template <class Coder>
-    bool code(Coder& coder, std::span<const LatticePoint> points, std::uint32_t count,
+    bool code(Coder& coder, std::span<const GridPosition> points, std::uint32_t count,
               std::vector<LocalTriangle>& triangles);
 
   private:
@@ -32,7 +32,7 @@ class MeshCode {
         double cotangent;  // of the angle at it
         int vertex;        // none: there is no other
     };
-    void start(std::span<const LatticePoint> points);
+    void start(std::span<const GridPosition> points);
     void add(const LocalTriangle& triangle);
     void close(const ClusterWalk::Edge& edge);
     void drop_where_closed(int vertex);
@@ -50,7 +50,7 @@ class MeshCode {
     AdaptiveBit first_is_next_;
 
     ClusterWalk walk_;
-    std::span<const LatticePoint> points_;
+    std::span<const GridPosition> points_;
     int least_untold_{};
     // Vertices that have room for a triangle, in rising order, and where they are; as numbers of one kind, so
     // that the compiler reckons several at a time.

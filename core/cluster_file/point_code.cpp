@@ -68,7 +68,7 @@ void PointCode::code_box(Coder& coder, const Box& box, std::uint32_t count, std:
     if constexpr (Coder::writes) {
         const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(first);
         in_one = static_cast<std::uint32_t>(std::partition(begin, begin + count,
-                                                           [&](const LatticePoint& point) {
+                                                           [&](const GridPosition& point) {
                                                                return point.row < one.row + one.rows &&
                                                                       point.column < one.column + one.columns;
                                                            }) -
@@ -81,7 +81,7 @@ void PointCode::code_box(Coder& coder, const Box& box, std::uint32_t count, std:
 
 template <class Coder>
 void PointCode::code(Coder& coder, std::int32_t rows, std::int32_t columns, std::uint32_t count,
-                     std::vector<LatticePoint>& points) {
+                     std::vector<GridPosition>& points) {
     const Box all{0, 0, rows, columns};
     assert(count >= 1 && count <= all.places());
     points_.clear();
@@ -94,8 +94,8 @@ void PointCode::code(Coder& coder, std::int32_t rows, std::int32_t columns, std:
 }
 
 template void PointCode::code(RangeEncoder&, std::int32_t, std::int32_t, std::uint32_t,
-                              std::vector<LatticePoint>&);
+                              std::vector<GridPosition>&);
 template void PointCode::code(RangeDecoder&, std::int32_t, std::int32_t, std::uint32_t,
-                              std::vector<LatticePoint>&);
+                              std::vector<GridPosition>&);
 
 }  // namespace oro

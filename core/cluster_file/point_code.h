@@ -10,10 +10,10 @@
 namespace oro {
 
 // Row and column in a rectangle; they sort row by row.
-struct LatticePoint {
+struct GridPosition {
     std::int32_t row{};
     std::int32_t column{};
-    friend auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
+    friend auto operator<=>(const GridPosition&, const GridPosition&) = default;
 };
 
 // A rectangle is cut in two across its longer side, and it is told how many places are in the first half; and
@@ -25,7 +25,7 @@ class PointCode {
     // >= 1 and below 2^31; count: 1 .. rows * columns.
     template <class Coder>
     void code(Coder& coder, std::int32_t rows, std::int32_t columns, std::uint32_t count,
-              std::vector<LatticePoint>& points);
+              std::vector<GridPosition>& points);
 
   private:
     struct Box {
@@ -46,7 +46,7 @@ class PointCode {
     // By the places of a rectangle, few or many, and by how many of them there are.
     std::array<std::array<FewNumbers, 9>, 6> few_;
     std::array<NearZero, 4> many_;
-    std::vector<LatticePoint> points_;
+    std::vector<GridPosition> points_;
 };
 
 }  // namespace oro

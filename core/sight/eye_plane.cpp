@@ -23,7 +23,8 @@ int grid_column(const PostGrid& grid, int column) {
 
 }  // namespace
 
-EyePlane::EyePlane(const TrueSurface& surface, const Lookout& lookout, const PostWindow& window, int threads)
+EyePlane::EyePlane(const TrueSurface& surface, const Lookout& lookout, const ViewshedWindow& window,
+                   int threads)
     : window_(window),
       stride_(window.columns + 2),
       posts_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(window.rows + 2),

@@ -26,7 +26,7 @@ struct Entry {
 
 class Sweep {
   public:
-    Sweep(const TrueSurface& surface, const ViewshedRequest& request, const PostWindow& window)
+    Sweep(const TrueSurface& surface, const ViewshedRequest& request, const ViewshedWindow& window)
         : surface_(surface),
           request_(request),
           window_(window),
@@ -63,7 +63,7 @@ class Sweep {
 
     const TrueSurface& surface_;
     const ViewshedRequest& request_;
-    PostWindow window_;
+    ViewshedWindow window_;
     double target_m_;
     Lookout lookout_;
     EyePlane plane_;
@@ -353,7 +353,7 @@ Geodetic target_over_post(const TrueSurface& surface, int row, int column, doubl
 
 Viewshed viewshed(const TrueSurface& surface, const ViewshedRequest& request,
                   const ViewshedProgress& progress) {
-    const PostWindow window = window_around(surface.field().grid, request.eye, request.radius_m);
+    const ViewshedWindow window = window_around(surface.field().grid, request.eye, request.radius_m);
     if (window.rows < 1 || window.columns < 1) return {};
     return Sweep(surface, request, window).result(progress);
 }

@@ -17,7 +17,7 @@ namespace {
 bool others_reach(const TrueGround& ground, std::size_t grid, const ViewshedRequest& request) {
     for (std::size_t other = 0; other < ground.grids(); ++other) {
         if (other == grid) continue;
-        const PostWindow window =
+        const ViewshedWindow window =
             window_around(ground.surface(other).field().grid, request.eye, request.radius_m);
         if (window.rows > 0 && window.columns > 0) return true;
     }
@@ -85,7 +85,7 @@ Viewshed viewshed_of_grids(const TrueGround& ground, std::size_t grid, const Vie
     const TrueSurface& surface = ground.surface(grid);
     if (!others_reach(ground, grid, request)) return viewshed(surface, request, progress);
     Viewshed viewshed{window_around(surface.field().grid, request.eye, request.radius_m), {}, 0};
-    const PostWindow& window = viewshed.window;
+    const ViewshedWindow& window = viewshed.window;
     if (window.rows < 1 || window.columns < 1) return {};
     viewshed.missed_by_m.assign(
         static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns), Viewshed::unknown);

@@ -105,7 +105,7 @@ bool AzimuthSights::meets_ground(const Azimuth& azimuth, double elevation, doubl
     return oracle_.first_hit(cosine * azimuth.ahead + sine * up_, reach_m).has_value();
 }
 
-double AzimuthSights::ground_top(const Azimuth& azimuth, double before_rad, Elevations between,
+double AzimuthSights::ground_top(const Azimuth& azimuth, double before_rad, ElevationInterval between,
                                  const std::optional<double>& guess_rad) const {
     double low = between.low_rad, high = between.high_rad;
     if (high <= low) return high;
@@ -176,8 +176,9 @@ std::vector<BeyondData> AzimuthSights::beyond(const Azimuth& azimuth, const std:
             continue;
         }
         const double lowest = elevation_rad(azimuth, stretch.begin_rad, lowest_h_m_);
-        const Elevations between{std::max({floor_rad, lowest, azimuth.wanted.low_rad - azimuth.exact_rad}),
-                                 std::min(top, azimuth.wanted.high_rad + 2.0 * azimuth.exact_rad)};
+        const ElevationInterval between{
+            std::max({floor_rad, lowest, azimuth.wanted.low_rad - azimuth.exact_rad}),
+            std::min(top, azimuth.wanted.high_rad + 2.0 * azimuth.exact_rad)};
         floor_rad = std::max(
             floor_rad, ground_top(azimuth, stretch.begin_rad, between, i == 0 ? guess_rad : std::nullopt));
         if (i == 0) guess_rad = floor_rad;
@@ -186,8 +187,8 @@ std::vector<BeyondData> AzimuthSights::beyond(const Azimuth& azimuth, const std:
     return found;
 }
 
-AzimuthSights::Look AzimuthSights::look(const glm::dvec3& ahead, const Elevations& wanted, double exact_rad,
-                                        std::optional<double>& guess_rad) const {
+AzimuthSights::Look AzimuthSights::look(const glm::dvec3& ahead, const ElevationInterval& wanted,
+                                        double exact_rad, std::optional<double>& guess_rad) const {
     const GroundTrack track(eye_, ahead);
     const Azimuth azimuth{track, ahead, wanted, exact_rad};
     const std::vector<Stretch> stretches = without_data(track);

@@ -11,15 +11,15 @@
 
 namespace oro {
 
-// Elevations are angles above the eye's level, as seen (through the air).
-struct Elevations {
+// From one elevation to another: angles above the eye's level, as seen (through the air).
+struct ElevationInterval {
     double low_rad;
     double high_rad;
 };
 
 // Lines of elevations in (low, high] come into `cell` first of all where there are no data.
 struct BeyondData {
-    Elevations lines;
+    ElevationInterval lines;
     DegreeCell cell;
 };
 
@@ -37,7 +37,7 @@ class AzimuthSights {
     // `ahead`: a unit ECEF direction across the eye's vertical. `wanted`: nothing need be told of lines
     // outside. Ends that known ground makes are right to `exact_rad`. `guess_rad`: where the first
     // such end may be; gets where it is.
-    [[nodiscard]] Look look(const glm::dvec3& ahead, const Elevations& wanted, double exact_rad,
+    [[nodiscard]] Look look(const glm::dvec3& ahead, const ElevationInterval& wanted, double exact_rad,
                             std::optional<double>& guess_rad) const;
 
   private:
@@ -48,7 +48,7 @@ class AzimuthSights {
     struct Azimuth {
         const GroundTrack& track;
         const glm::dvec3& ahead;
-        Elevations wanted;
+        ElevationInterval wanted;
         double exact_rad;
     };
     [[nodiscard]] std::vector<Stretch> without_data(const GroundTrack& track) const;
@@ -59,7 +59,7 @@ class AzimuthSights {
     // True when known ground before that place is in a line's way.
     [[nodiscard]] bool meets_ground(const Azimuth& azimuth, double elevation, double before_rad) const;
     // The highest elevation that known ground before a place reaches, within `between`.
-    [[nodiscard]] double ground_top(const Azimuth& azimuth, double before_rad, Elevations between,
+    [[nodiscard]] double ground_top(const Azimuth& azimuth, double before_rad, ElevationInterval between,
                                     const std::optional<double>& guess_rad) const;
     [[nodiscard]] std::vector<BeyondData> beyond(const Azimuth& azimuth,
                                                  const std::vector<Stretch>& stretches,

@@ -142,7 +142,7 @@ struct Azimuths {
                 const auto number = static_cast<std::size_t>(i);
                 const Tangents& here = wanted[number];
                 if (here.low > here.high) continue;
-                const Elevations elevations{std::atan(here.low), std::atan(here.high)};
+                const ElevationInterval elevations{std::atan(here.low), std::atan(here.high)};
                 const AzimuthSights::Look look = sights.look(directions.ahead(first + i), elevations,
                                                              0.5 * directions.place_rad(), guess_rad);
                 ground_below[number] = tangent_of(look.ground_below_rad);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "geo/places/lat_lon.h"
 #include "geo/sources/source.h"
 
 namespace oro {
@@ -18,11 +19,6 @@ struct PostLattice {
     int rows{};
     int columns{};
     int step{1};
-};
-
-struct LatLon {
-    double lat_deg;
-    double lon_deg;
 };
 
 // The way that source_sampling goes, backwards: from post numbers to WGS84 degrees. From any thread.

@@ -1,6 +1,8 @@
 // Distances and directions over the ellipsoid.
 #pragma once
 
+#include "geo/places/lat_lon.h"
+
 namespace oro {
 
 struct GeodesicPath {
@@ -11,10 +13,6 @@ struct GeodesicPath {
 // 2013).
 GeodesicPath geodesic_between(double from_lat_deg, double from_lon_deg, double to_lat_deg, double to_lon_deg);
 
-struct LatLon {
-    double lat_deg;
-    double lon_deg;
-};
 // Where one comes to from a place by a direction over a distance; as exact.
 LatLon geodesic_towards(double from_lat_deg, double from_lon_deg, double bearing_deg, double distance_m);
 

@@ -37,7 +37,7 @@ struct ViewshedReport {
     double target_m{};
     double radius_km{};
     std::size_t grid{};  // whose posts the file has
-    PostWindow window;
+    ViewshedWindow window;
     std::vector<float> missed_by_m;  // of the eye that misses it least
     std::vector<float> count;        // of eyes that see it
     std::size_t cells{}, seen{}, asked{};
@@ -64,7 +64,7 @@ Result<void> check_words(const ViewshedOptions& options) {
 }
 
 // A window moved by whole turns so that its columns are nearest to those of another.
-PostWindow beside(PostWindow window, const PostWindow& other, const PostGrid& grid) {
+ViewshedWindow beside(ViewshedWindow window, const ViewshedWindow& other, const PostGrid& grid) {
     if (!grid.goes_round() || window.columns == 0) return window;
     const int turn = grid.columns() - 1;
     while (window.first_column - other.first_column > turn / 2) window.first_column -= turn;
@@ -72,10 +72,10 @@ PostWindow beside(PostWindow window, const PostWindow& other, const PostGrid& gr
     return window;
 }
 
-PostWindow around_both(const PostWindow& one, const PostWindow& other) {
+ViewshedWindow around_both(const ViewshedWindow& one, const ViewshedWindow& other) {
     if (one.rows == 0 || one.columns == 0) return other;
     if (other.rows == 0 || other.columns == 0) return one;
-    PostWindow both;
+    ViewshedWindow both;
     both.first_row = std::min(one.first_row, other.first_row);
     both.first_column = std::min(one.first_column, other.first_column);
     both.rows = std::max(one.first_row + one.rows, other.first_row + other.rows) - both.first_row;
@@ -106,7 +106,7 @@ Result<void> make_window(const ViewshedOptions& options, const SightGround& grou
 }
 
 void take_in(const Viewshed& shed, const PostGrid& grid, ViewshedReport& report) {
-    const PostWindow window = beside(shed.window, report.window, grid);
+    const ViewshedWindow window = beside(shed.window, report.window, grid);
     for (int row = window.first_row; row < window.first_row + window.rows; ++row) {
         for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
             const float missed_m = shed.missed_by_m[window.number(row, column)];

@@ -115,11 +115,11 @@ TEST(NumberCode, NumbersOfAllSizes) {
     EXPECT_TRUE(decoder.at_end());
 }
 
-std::vector<LatticePoint> random_points(std::mt19937_64& random, std::int32_t rows, std::int32_t columns,
+std::vector<GridPosition> random_points(std::mt19937_64& random, std::int32_t rows, std::int32_t columns,
                                         std::size_t count) {
-    std::vector<LatticePoint> points;
+    std::vector<GridPosition> points;
     while (points.size() < count) {
-        const LatticePoint point{static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(rows)),
+        const GridPosition point{static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(rows)),
                                  static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(columns))};
         if (std::find(points.begin(), points.end(), point) == points.end()) points.push_back(point);
     }
@@ -147,7 +147,7 @@ TEST(PointCode, PlacesOfAnyLattice) {
             write.code(encoder, rows, columns, static_cast<std::uint32_t>(count), points);
             const auto bytes = encoder.finish();
             RangeDecoder decoder(bytes);
-            std::vector<LatticePoint> found;
+            std::vector<GridPosition> found;
             read.code(decoder, rows, columns, static_cast<std::uint32_t>(count), found);
             ASSERT_EQ(found, points) << rows << " x " << columns << ", " << count;
             ASSERT_TRUE(decoder.at_end() && !decoder.is_wrong());

@@ -23,7 +23,7 @@ struct Tally {
 inline Tally held_against_lookout(const TrueSurface& surface, const ViewshedRequest& request,
                                   const Viewshed& shed, int stride) {
     const Lookout lookout(surface, request.eye, request.air);
-    const PostWindow& window = shed.window;
+    const ViewshedWindow& window = shed.window;
     std::vector<Tally> rows(static_cast<std::size_t>(window.rows));
     in_parallel(window.rows, thread_count(), [&](int i) {
         Tally& tally = rows[static_cast<std::size_t>(i)];
