@@ -15,6 +15,7 @@
 #include "apps/view/view_paths.h"
 #include "core/light/utc_time.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/text_encoding.h"
 #include "geo/pictures/picture.h"
 #include "geo/sources/raster_source.h"
 #include "render/device/raster_request.h"
@@ -372,8 +373,10 @@ Result<View> view_from_json(const std::string& text, const std::string& where) {
 Result<View> read_view(const std::string& path) {
     const std::size_t dot = path.find_last_of('.');
     const std::string ending = dot == std::string::npos ? "" : lower_case(path.substr(dot));
-    ORO_TRY(const std::string text, ending == ".json" ? read_text_file(path) : read_view_json(path));
-    ORO_TRY(View view, view_from_json(text, path));
+    ORO_TRY(std::string bytes, ending == ".json" ? read_text_file(path) : read_view_json(path));
+    const auto text = utf8_text(std::move(bytes));
+    if (!text.ok()) return Error{text.error().kind, path, text.error().what};
+    ORO_TRY(View view, view_from_json(*text, path));
     ORO_CHECK(lead_from_working_folder(view, path));
     return view;
 }
