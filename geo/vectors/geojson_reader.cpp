@@ -169,7 +169,8 @@ class GeoJsonReader {
                 has_geometry = true;
                 geometry(value, to);
             } else if (name == "properties") {
-                for (const auto& [field, said] : value.members()) layer_.say(field, said.words());
+                for (const auto& [field, said] : value.members())
+                    layer_.say(field, said.is(Kind::number) ? without_power(said.words()) : said.words());
             } else {
                 leave_out_beside(name, value);
             }

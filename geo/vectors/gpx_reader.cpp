@@ -42,7 +42,7 @@ void say_fields(const pugi::xml_node& node, const std::string& prefix, LayerBuil
         if (has_elements(child))
             say_fields(child, prefix + field + "_", layer, depth + 1);
         else
-            layer.say(prefix + field, text_of(child));
+            layer.say(prefix + field, name == "ele" ? without_power(text_of(child)) : text_of(child));
     }
 }
 

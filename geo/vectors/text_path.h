@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -42,6 +43,17 @@ inline WrittenNumber written_number(std::string_view word) {
         number.value = std::strtod(std::string(word).c_str(), nullptr);
     if (!std::isfinite(number.value)) number.fault = no_place::not_finite;
     return number;
+}
+
+// A text that is a number with a power of ten (1.2e3), without it as far as that is short; any other as it
+// is.
+inline std::string without_power(std::string text) {
+    if (text.find_first_of("eE") == std::string::npos) return text;
+    const WrittenNumber number = written_number(text);
+    if (number.fault != nullptr) return text;
+    char plain[40];
+    std::snprintf(plain, sizeof plain, "%.15g", number.value);
+    return plain;
 }
 
 // The places of a point, a line or a ring, in the order of the file. One whose x or y is no finite number is

@@ -172,14 +172,14 @@ TEST(GpxFile, FieldsAreThoseOfItsElementsAndExtensions) {
     const auto read = read_vectors(written(
         "a.gpx",
         test::gpx(
-            "<wpt lat=\"46\" lon=\"8\"><ele>12</ele><name> Hut &amp; pass </name><link href=\"h\"><text>t"
+            "<wpt lat=\"46\" lon=\"8\"><ele>1.25e3</ele><name> Hut &amp; pass </name><link href=\"h\"><text>t"
             "</text></link><extensions><ogr:peak>1</ogr:peak><x:a><x:b>c</x:b></x:a></extensions></wpt>")));
     ASSERT_TRUE(read.ok()) << read.error().line();
     const VectorLayer& layer = read->layers.front();
     const VectorShape& shape = layer.shapes.front();
     EXPECT_EQ(layer.name, "waypoints");
     EXPECT_EQ(layer.text(shape, "name"), "Hut & pass");
-    EXPECT_EQ(layer.text(shape, "ele"), "12");
+    EXPECT_EQ(layer.text(shape, "ele"), "1250");
     EXPECT_EQ(layer.text(shape, "link1_href"), "h");
     EXPECT_EQ(layer.text(shape, "link1_text"), "t");
     EXPECT_EQ(layer.text(shape, "peak"), "1");
