@@ -210,7 +210,7 @@ Result<void> read_text(VectorFile& file, std::string bytes, FileWatch& watch) {
     LeftOut left_out;
     if (first != std::string::npos && text[first] == '<') {
         const Result<XmlText> xml = XmlText::parse(text);
-        if (!xml.ok()) return unknown(xml.error().what);
+        if (!xml.ok()) return fault(xml.error().what);
         const std::string_view root = local_name(xml->root());
         static constexpr std::array kml_roots{"kml", "Document", "Folder", "Placemark"};
         if (root == "gpx") {
