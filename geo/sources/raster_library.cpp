@@ -112,7 +112,7 @@ namespace {
 std::string words_of(const char* message) {
     const std::string words = message;
     const bool of_packing = words.starts_with("In file ") && words.find("gzip.cpp") != std::string::npos;
-    return of_packing ? "its packing is damaged, or it is cut" : words;
+    return of_packing ? "packed bytes make no sense, or end early" : words;
 }
 
 }  // namespace
