@@ -20,6 +20,7 @@ namespace {
 
 // More are a table that nobody can open.
 constexpr double most_steps = 1.0e7;
+constexpr double most_threshold_m = 1.0e4;
 // 25 times round the Earth.
 constexpr double longest_m = 1.0e9;
 
@@ -32,6 +33,11 @@ Result<void> check_words(const ProfileOptions& options) {
         char text[40];
         std::snprintf(text, sizeof text, "%.15g", *options.step_m);
         return refused("--step", text, "must be more than 0");
+    }
+    if (!(options.climb_threshold_m >= 0.0 && options.climb_threshold_m <= most_threshold_m)) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.15g", options.climb_threshold_m);
+        return refused("--climb-threshold", text, between_words(0.0, most_threshold_m));
     }
     if (options.out.empty()) return {};
     const std::string name = lower_case(options.out);
@@ -141,7 +147,7 @@ Result<void> run_profile(const ProfileOptions& options) {
     if (lower_case(options.out).ends_with(".geojson"))
         profile.crossings = crossings_of(profile, ground->ground());
     ORO_CHECK(ground->region.health());
-    profile.sums = sums_of(profile.points);
+    profile.sums = sums_of(profile.points, options.climb_threshold_m);
     bar.clear();
     if (!profile.sums.highest) {
         const LatLon& begin = profile.line.places.front();

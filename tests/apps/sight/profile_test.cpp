@@ -66,6 +66,21 @@ TEST(ProfileCommand, ATableHasTheSumsThatAreTold) {
     EXPECT_NEAR(rows.back()[0], 14535.0160 + 7128.3499, 1e-3);
 }
 
+TEST(ProfileCommand, TheSumThatGuidesUseIsToldWithItsThreshold) {
+    const oro::test::Words line{"profile", bundled(), "-q", "--along", line_of_three};
+    const auto with = [&](const oro::test::Words& more) { return oro::test::joined(line, more); };
+    const auto usual = object_said_by(with({"--json"}));
+    EXPECT_EQ(usual["over_threshold"]["threshold_m"], 10.0);
+    EXPECT_LT(usual["over_threshold"]["ascent_m"].get<double>(), usual["ascent_m"].get<double>());
+    EXPECT_LT(usual["over_threshold"]["descent_m"].get<double>(), usual["descent_m"].get<double>());
+    const auto every = object_said_by(with({"--json", "--climb-threshold", "0"}));
+    EXPECT_NEAR(every["over_threshold"]["ascent_m"].get<double>(), every["ascent_m"].get<double>(), 1e-6);
+    const Outcome told = run_orograph(with({"--climb-threshold", "25"}));
+    EXPECT_TRUE(oro::test::says(told.out, " m, in rises and falls of 25 m or more\n")) << told.out;
+    expect_refusal(run_orograph(with({"--climb-threshold", "-1"})), 2,
+                   {"--climb-threshold -1: must be between 0 and 10000"});
+}
+
 TEST(ProfileCommand, StepsAreAsAskedFor) {
     const fs::path out = oro::test::scratch_folder() / "p.csv";
     object_said_by({"profile", bundled(), "-q", "--json", "--along", line_of_three, "--out", out.string(),
