@@ -12,6 +12,11 @@ nlohmann::ordered_json sources_json(const std::vector<SourceReport>& sources);
 // Null for nothing.
 nlohmann::ordered_json resampling_json(const std::optional<RegionResampling>& found);
 nlohmann::ordered_json region_json(const Region& region);
+// How far apart the posts of a file in a projected CRS are as the CRS counts it, the mean of both ways;
+// nothing of one in degrees, nor of a baked region's, of which it is not known.
+std::optional<double> projected_spacing_m(const SourceReport& source);
+// The size of all of the file that a baked grid is in, with other grids and clusters.
+std::uint64_t bytes_of_file(const RegionFile& file);
 // The file of a baked region that is one whole; null for all others.
 nlohmann::ordered_json file_json(const Region& region);
 

@@ -137,6 +137,25 @@ TEST(InfoText, LengthsAreInWordsAndUnitsShort) {
     expect_words(info_text(region_of({coarse})), {"degrees (27.67 km)\n"});
 }
 
+// Found: of a file in LV95 (EPSG:2056) the spacing was told in degrees.
+TEST(InfoText, OfAProjectedFileTheSpacingIsTheCrssOwn) {
+    SourceReport projected = tile("lv95.tif");
+    // 30 m of the equator, 6,378,137 m from the Earth's middle; at 46.5 N of a meridian (6,369.06 km) and a
+    // parallel.
+    projected.nominal_spacing_deg = 0.000269494585;
+    projected.lat_spacing_deg = 0.000269770;
+    projected.lon_spacing_deg = 0.000390693;
+    projected.spacing_m = 29.9876;
+    expect_words(info_text(region_of({projected})),
+                 {"posts       1201 x 1201, every 30 m of its CRS (29.99 m on the ground)\n"});
+    expect_words(info_text(region_of({projected, projected})),
+                 {"1201 x 1201 posts, every 30 m of its CRS (29.99 m on the ground); "});
+    // Degrees of another datum stay degrees.
+    SourceReport degrees = tile("nad27.tif");
+    degrees.nominal_spacing_deg = 1.0 / 1200.0;
+    expect_words(info_text(region_of({degrees})), {"every 0.000833333 x 0.000833333 degrees (92.63 m"});
+}
+
 TEST(InfoText, FilledPostsAndPlacementsAreTold) {
     SourceReport coarse = tile("c.tif");
     coarse.placement = Placement{Fit::every_kth_post, 0.0012, 3, 2};
