@@ -195,7 +195,7 @@ void read_region(const nlohmann::json& json, RegionRequest& region) {
     if (!json_field(json, "bbox").is_null()) region.box = read_box(json);
     region.height_unit = json_string(json, "height_unit");
     if (!region.height_unit.empty() && !metres_in(region.height_unit))
-        throw JsonFault{"'height_unit' is '" + region.height_unit + "', none of m, ft, us-ft, cm"};
+        throw JsonFault{"'height_unit' is '" + region.height_unit + "', none of m, ft, us-ft, cm, dm, mm"};
     // Where nothing was told there is none.
     if (json.contains("source_crs")) region.source_crs = json_string(json, "source_crs");
     if (const auto fault = fault_of_source_crs(region.source_crs)) throw JsonFault{"'source_crs' " + *fault};

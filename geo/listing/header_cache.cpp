@@ -17,7 +17,7 @@
 namespace oro {
 namespace {
 
-constexpr std::string_view format = "orograph headers 1";
+constexpr std::string_view format = "orograph headers 2";
 
 std::int64_t nanoseconds(const timespec& time) {
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;

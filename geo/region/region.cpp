@@ -15,6 +15,7 @@
 #include "geo/posts/laying.h"
 #include "geo/posts/own_posts.h"
 #include "geo/posts/seams.h"
+#include "geo/posts/value_notes.h"
 #include "geo/posts/voids.h"
 #include "geo/region/baked_region.h"
 #include "geo/region/lying_apart.h"
@@ -160,9 +161,11 @@ Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent
 
     region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
     describe_voids(sources, surface, region);
+    note_values(sources, region.notes);
     if (region.voids == region.field.H_m.size())
         return Error{ErrorKind::no_data, list_of(request.paths),
-                     "no height in " + bounding_box_text(posts) + ": " + all_without_height(region)};
+                     "no height in " + bounding_box_text(posts) + ": " + all_without_height(region) +
+                         why_no_height(sources)};
     region.posts_print = posts_print(region.field);
     region.geoid_print = undulation_print(region.field.undulation);
     for (Source& source : sources) region.sources.push_back(std::move(source.report));

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "geo/files/source_paths.h"
+#include "geo/posts/value_notes.h"
 #include "geo/region/region_grid.h"
 #include "geo/sources/hgt_source.h"
 #include "geo/sources/raster_source.h"
@@ -23,6 +24,31 @@ void number_as_listed(RegionSources& found) {
     for (std::size_t i = 0; i < order.size(); ++i)
         found.sources[order[i]].report.listed = static_cast<int>(i) + 1;
 }
+
+// The same of several files is one line, with the first one's name.
+class Doubts {
+  public:
+    void add(const std::string& path, const std::string& doubt) {
+        const std::string name = path + ": ";
+        const std::string what = doubt.starts_with(name) ? doubt.substr(name.size()) : doubt;
+        const auto known = std::ranges::find(all_, what, &Doubt::what);
+        if (known != all_.end())
+            ++known->files;
+        else
+            all_.push_back({path, what, 1});
+    }
+    void into(std::vector<std::string>& notes) const {
+        for (const Doubt& doubt : all_)
+            notes.push_back(files_words(doubt.path, doubt.files) + ": " + doubt.what);
+    }
+
+  private:
+    struct Doubt {
+        std::string path, what;
+        std::size_t files;
+    };
+    std::vector<Doubt> all_;
+};
 
 }  // namespace
 
@@ -48,6 +74,7 @@ Result<RegionSources> look_at_sources(const RegionRequest& request, const Progre
     ORO_TRY(const ToldOfFiles told, told_of_files(request));
     RegionSources found;
     std::size_t skipped = 0;
+    Doubts doubts;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const SourcePath& path = paths[i];
         if (progress && i % 64 == 0)
@@ -58,7 +85,7 @@ Result<RegionSources> look_at_sources(const RegionRequest& request, const Progre
             if (!meets(source_of_cell(name.tile), *box)) continue;
         }
         ORO_TRY(Finding finding, look_at_file(path, told));
-        for (const std::string& doubt : finding.doubts) found.notes.push_back(doubt);
+        for (const std::string& doubt : finding.doubts) doubts.add(path.shown, doubt);
         if (finding.source) {
             found.sources.push_back(std::move(*finding.source));
             found.named_by.push_back(path.path);
@@ -68,6 +95,7 @@ Result<RegionSources> look_at_sources(const RegionRequest& request, const Progre
         if (++skipped <= no_limit_notes) found.notes.push_back(passed_over + finding.unfit.line());
         if (found.first_skipped.empty()) found.first_skipped = finding.unfit.line();
     }
+    doubts.into(found.notes);
     if (request.listed_first) number_as_listed(found);
     if (skipped > no_limit_notes)
         found.notes.push_back(passed_over + std::to_string(skipped - no_limit_notes) +

@@ -7,15 +7,11 @@
 
 #include "core/base/result.h"
 #include "geo/files/source_paths.h"
+#include "geo/sources/height_unit.h"
 #include "geo/sources/source.h"
 #include "geo/sources/told_of_files.h"
 
 namespace oro {
-
-// Metres in a unit of height, by any of its usual names ("m", "ft", "us-ft", "cm", "US survey foot", ...);
-// nothing for other words. Source: international foot 0.3048 m and US survey foot 1200/3937 m, NIST Special
-// Publication 811, 2008, B.6.
-std::optional<double> metres_in(const std::string& unit);
 
 // A source, or the reason why a file is none although nothing is wrong with it.
 struct Finding {

@@ -55,7 +55,7 @@ TEST(RefusedOptions, Choices) {
          {{"shot", file, "--drape-values", "bright"},
           "--drape-values bright: choose auto, codes or reflectance"},
          {{"shot", file, "--pipeline", "cpu"}, "--pipeline cpu: choose auto, mesh or compute"},
-         {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft or cm"},
+         {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft, cm, dm or mm"},
          {{"info", file, "--source-crs", "EPSG:999999"},
           "--source-crs EPSG:999999: is no coordinate reference system that PROJ knows; e.g. EPSG:2056"},
          {{"info", file, "--source-crs", "EPSG:5728"},
