@@ -158,14 +158,14 @@ TEST(UndeclaredVoids, TheSameOfSeveralFilesIsOneNote) {
 }
 
 // A source of a whole file that is this block.
-std::pair<Source, PostBlock> block_of(int side, const HeightOfPost& height) {
+std::pair<Source, PostBlock> block_of(int posts_a_side, const HeightOfPost& height) {
     Source source;
-    source.report.rows = source.report.columns = side;
+    source.report.rows = source.report.columns = posts_a_side;
     source.report.spacing_m = 1852.0;
     PostBlock block;
-    block.window = {0, 0, side, side};
-    for (int r = 0; r < side; ++r)
-        for (int c = 0; c < side; ++c) block.height_m.push_back(static_cast<float>(height(r, c)));
+    block.window = {0, 0, posts_a_side, posts_a_side};
+    for (int r = 0; r < posts_a_side; ++r)
+        for (int c = 0; c < posts_a_side; ++c) block.height_m.push_back(static_cast<float>(height(r, c)));
     return {std::move(source), std::move(block)};
 }
 
@@ -182,7 +182,7 @@ TEST(UndeclaredVoids, DepthsOfTheSeaStay) {
     std::printf("seed %u\n", seed);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> chance(0.0, 1.0);
-    constexpr int side = 48;
+    constexpr int posts_a_side = 48;
     for (int round = 0; round < 300; ++round) {
         const double deepest_m = round % 3 == 0   ? -9999.0
                                  : round % 3 == 1 ? -10900.0 * chance(random)
@@ -190,14 +190,14 @@ TEST(UndeclaredVoids, DepthsOfTheSeaStay) {
         const double rough_m = 3000.0 * chance(random) * chance(random);
         const double wave = 0.05 + 0.3 * chance(random), phase = 6.0 * chance(random);
         std::vector<double> depths;
-        for (int r = 0; r < side; ++r)
-            for (int c = 0; c < side; ++c)
+        for (int r = 0; r < posts_a_side; ++r)
+            for (int c = 0; c < posts_a_side; ++c)
                 depths.push_back(2000.0 * std::sin(wave * r + phase) * std::cos(wave * c) +
                                  rough_m * chance(random));
         // Whole metres, as ETOPO has them, moved so that the deepest post is what it is to be.
         const double lowest = *std::min_element(depths.begin(), depths.end());
-        auto [source, block] = block_of(side, [&](int r, int c) {
-            return std::round(depths[static_cast<std::size_t>(r * side + c)] - lowest) +
+        auto [source, block] = block_of(posts_a_side, [&](int r, int c) {
+            return std::round(depths[static_cast<std::size_t>(r * posts_a_side + c)] - lowest) +
                    std::round(deepest_m);
         });
         const std::vector<float> before = block.height_m;
