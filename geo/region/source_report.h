@@ -22,20 +22,22 @@ enum class SourceFormat { srtm1_hgt, srtm3_hgt, raster };
 
 enum class PostsAre { points, cell_centres };
 
-// Where it is known from what a source's heights refer to. Assumed is EGM96.
+// Whence it is known what a source's heights refer to. Assumed is EGM96.
 enum class DatumFrom {
     crs,
     dted_egm96,  // DTED metadata say so
     dted_egm2008,
-    assumed_for_hgt,     // .hgt files state none
+    hgt_format,          // .hgt files state none: it is SRTM's format, whose heights are of EGM96
     assumed_unstated,    // the file states none
     assumed_unreadable,  // PROJ cannot read what the CRS states
-    told                 // by the request, because the file does not say
+    told,                // by the request, because the file does not say
+    product  // by the file's name: the product that it is of has them (geo/sources/known_products.h)
 };
 
 struct HeightDatum {
     DatumFrom from{DatumFrom::assumed_unstated};
-    std::string name;        // from a CRS or told, as PROJ calls it: "EPSG:5703 NAVD88 height"
+    // From a CRS or told, as PROJ calls it: "EPSG:5703 NAVD88 height"; of a product with the product's name.
+    std::string name;
     bool egm96_stands_in{};  // a grid for it is missing
 };
 

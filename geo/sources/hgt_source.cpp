@@ -197,7 +197,7 @@ Result<Source> inspect_hgt(const SourcePath& path) {
                                      : SourceFormat::raster;
     if (report.format == SourceFormat::raster) report.driver = "half-second .hgt";
     report.crs = "EPSG:4326 WGS 84";
-    report.vertical_datum.from = DatumFrom::assumed_for_hgt;
+    report.vertical_datum.from = DatumFrom::hgt_format;
     report.attribution = srtm_attribution(path);
     report.rows = report.columns = *posts;
     report.lat_spacing_deg = report.lon_spacing_deg = 1.0 / per_deg;

@@ -13,7 +13,7 @@ SourceReport tile(const std::string& path) {
     source.path = path;
     source.format = SourceFormat::srtm3_hgt;
     source.crs = "EPSG:4326 WGS 84";
-    source.vertical_datum.from = DatumFrom::assumed_for_hgt;
+    source.vertical_datum.from = DatumFrom::hgt_format;
     source.attribution = "somebody";
     source.rows = source.columns = 1201;
     source.lat_spacing_deg = source.lon_spacing_deg = 1.0 / 1200.0;
