@@ -35,6 +35,7 @@ template <class Bytes, class Entry>
 void entry_fields(Bytes& bytes, Entry& entry) {
     auto& finding = entry.finding;
     bytes(finding.unfit.kind), bytes(finding.unfit.where), bytes(finding.unfit.what), bytes(finding.doubts);
+    bytes(finding.companion);
 }
 
 void write_entry(ByteWriter& bytes, const HeaderEntry& entry) {

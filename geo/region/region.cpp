@@ -24,6 +24,7 @@
 #include "geo/region/region_sources.h"
 #include "geo/sources/library_faults.h"
 #include "geo/sources/raster_library.h"
+#include "geo/together/contradictions.h"
 #include "geo/together/feather.h"
 #include "geo/together/lattices.h"
 
@@ -157,6 +158,7 @@ Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent
     }
     for (MeasuredSource& one : measured) sources[one.source].report.resampling = one.error.finish();
     region.seams = surface.seams();
+    add_note(region.notes, note_of_contradictions(sources));
     region.field.H_m = std::move(surface.heights());
 
     region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
@@ -249,6 +251,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     if (progress) progress(1.0, "region read");
     Region region = joined(std::move(regions));
     for (const Error& error : empty) add_note(region.notes, "left out: " + error.what);
+    add_note(region.notes, note_of_contradicting_grids(region));
     if (request.feather_m > 0.0 && !region.beside.empty()) ORO_CHECK(feather(region, request.feather_m));
     return region;
 }

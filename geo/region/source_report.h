@@ -82,6 +82,12 @@ struct SeamReport {
     std::uint64_t shared_posts{};
     std::uint64_t disagreeing_posts{};
     double largest_difference_m{};
+    // Posts of the region for which a source has a height, its own or interpolated, and one that wins over
+    // it, too; those where they differ by more than elevation data is accurate (seams.h), and by how much.
+    // Not kept in a baked region, which keeps the note on them.
+    std::uint64_t compared_posts{};
+    std::uint64_t contradicting_posts{};
+    double largest_contradiction_m{};
 };
 
 // Lowest and highest of the values that a file stores, in metres: its scale, offset and unit applied, before

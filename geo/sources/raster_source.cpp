@@ -17,6 +17,7 @@
 #include "geo/sources/elevation_band.h"
 #include "geo/sources/height_unit.h"
 #include "geo/sources/place_doubts.h"
+#include "geo/sources/raster_content.h"
 #include "geo/sources/raster_crs.h"
 #include "geo/sources/raster_library.h"
 #include "geo/sources/raster_parts.h"
@@ -153,6 +154,15 @@ Result<Source> described(const SourcePath& path, const Opened& opened, const Tol
     return source;
 }
 
+// Whole numbers of 0 to 255 that nothing calls heights.
+bool is_of_bytes(const Source& source, GDALDatasetH dataset) {
+    const GDALRasterBandH band = GDALGetRasterBand(dataset, source.band);
+    if (GDALGetRasterDataType(band) != GDT_Byte || source.signed_bytes) return false;
+    if (source.scale_m != 1.0 || source.offset_m != 0.0) return false;
+    return source.report.height_unit.from == UnitFrom::assumed &&
+           source.report.vertical_datum.from != DatumFrom::crs;
+}
+
 }  // namespace
 
 Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told) {
@@ -179,7 +189,15 @@ Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told) 
         if (finding.unfit.kind == ErrorKind::usage) return finding.unfit;
         return finding;
     }
+    std::string holds = holds_by_tags(opened->dataset.get());
+    if (holds.empty()) holds = holds_by_name_and_values(path.name, opened->dataset.get());
+    if (!holds.empty()) {
+        finding.unfit = named({ErrorKind::failed, "", "holds " + holds + ", no elevation"});
+        finding.companion = true;
+        return finding;
+    }
     finding.source = std::move(*source);
+    finding.source->bytes = is_of_bytes(*finding.source, opened->dataset.get());
     finding.source->report.files = opened->parts.files;
     doubts.insert(doubts.begin(), opened->parts.doubts.begin(), opened->parts.doubts.end());
     for (const std::string& doubt : doubts) finding.doubts.push_back(path.shown + ": " + doubt);

@@ -18,6 +18,9 @@ struct Finding {
     std::optional<Source> source;
     Error unfit;  // without a source: several bands, a palette, no place, no CRS or an unknown one or unit
     std::vector<std::string> doubts;  // what a user must know, one line each
+    // It belongs to data of heights, and holds something else than heights: left out beside others, refused
+    // by itself.
+    bool companion{};
 };
 
 // Looks at a raster's header and at the files that it is made of: where its posts lie and what its values
