@@ -103,6 +103,7 @@ Result<void> run_compare(const CompareOptions& options) {
         options.view_file, {}, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     ORO_CHECK(check_unchanged(view, region, options.data_changed, options.quiet));
+    say_notes(region, options.quiet);
     if (!options.out.empty()) {
         ORO_CHECK(spare_inputs({options.out}, view, region));
         ORO_CHECK(spare_view({options.out}, options.view_file));
@@ -149,6 +150,7 @@ Result<void> run_compare(const CompareOptions& options) {
         nlohmann::ordered_json json = compare_json(options, view, path, *gpu, pixels, verification, unseen);
         json["error"]["resampling"] = resampling_json(region_resampling(region));
         json["light"] = light_json(view.model.air, true_camera(view, region).eye.h_m);
+        json["notes"] = all_notes(region);
         std::printf("%s\n", json_text(json, true).c_str());
     }
     return {};

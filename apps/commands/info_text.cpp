@@ -319,7 +319,7 @@ std::string info_text(const Region& region) {
     text += line("outside", outside_text(region));
     text += line("missing", missing_text(region));
     text += line("overlaps", overlaps(region.seams));
-    for (const std::string& note : region.notes) text += line("note", note);
+    for (const std::string& note : own_notes(region)) text += line("note", note);
     return text + files_text(region.sources, Posts::read);
 }
 

@@ -112,6 +112,7 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     ORO_CHECK(region.health());
     bar.clear();
     say_notes(region, options.quiet);
+    report.notes = all_notes(region);
     report.place = eye;
     report.H_m = eye.h_m - N_m;
     if (const auto ground = truth->ground().h_m(eye.lat_deg, eye.lon_deg))

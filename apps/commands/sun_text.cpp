@@ -157,6 +157,7 @@ ordered_json sun_json(const SunReport& report) {
                     "azimuth_deg", report.noon.azimuth_deg, "elevation_deg", report.noon.elevation_deg);
     json["light"] = nullptr;
     if (report.air) json["light"] = light_json(*report.air, report.place.h_m);
+    json["notes"] = report.notes;
     return json;
 }
 

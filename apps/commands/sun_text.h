@@ -45,6 +45,7 @@ struct SunReport {
     };
     std::optional<Night> night;
     std::optional<Light> terrain;
+    std::vector<std::string> notes;  // on the terrain
     std::int64_t noon_utc_s{};
     SunPosition noon;
 };

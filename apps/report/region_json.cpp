@@ -93,7 +93,7 @@ ordered_json region_json(const Region& region) {
     json["seams"] = seam_fields<ordered_json>(region.seams);
     json["seam_rule"] = "the finer spacing wins; among equals the first in the byte order of file names";
     json["missing_cells"] = region.missing_cells;
-    json["notes"] = region.notes;
+    json["notes"] = own_notes(region);
     return json;
 }
 
@@ -164,10 +164,38 @@ std::string note_of_voids(const Region& region) {
     return note;
 }
 
+std::string note_of_assumed_heights(const Region& region) {
+    std::string first;
+    std::size_t count = 0;
+    for (const SourceReport& source : region.sources) {
+        const DatumFrom from = source.vertical_datum.from;
+        if (from != DatumFrom::assumed_unstated && from != DatumFrom::assumed_unreadable) continue;
+        if (count++ == 0) first = source.path;
+    }
+    if (count == 0) return "";
+    if (count > 1) first += " and " + counted(count - 1, "more file", "more files");
+    return first + (count == 1 ? " does" : " do") +
+           " not say what the heights refer to: EGM96 heights are assumed (--source-vertical tells what they "
+           "are, when files are read)";
+}
+
+std::vector<std::string> own_notes(const Region& region) {
+    std::vector<std::string> notes = region.notes;
+    if (std::string assumed = note_of_assumed_heights(region); !assumed.empty())
+        notes.push_back(std::move(assumed));
+    return notes;
+}
+
+std::vector<std::string> all_notes(const Region& region) {
+    std::vector<std::string> notes = own_notes(region);
+    if (std::string holes = note_of_voids(region); !holes.empty()) notes.push_back(std::move(holes));
+    for (const Region& other : region.beside)
+        for (std::string& note : all_notes(other)) notes.push_back(std::move(note));
+    return notes;
+}
+
 void say_notes(const Region& region, bool quiet) {
-    for (const std::string& note : region.notes) say(quiet, "note: " + note);
-    if (const std::string holes = note_of_voids(region); !holes.empty()) say(quiet, "note: " + holes);
-    for (const Region& other : region.beside) say_notes(other, quiet);
+    for (const std::string& note : all_notes(region)) say(quiet, "note: " + note);
 }
 
 std::string attribution_of(const Region& region) {

@@ -3,6 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <string>
+#include <vector>
+
 #include "geo/measures/region_resampling.h"
 #include "geo/region/region.h"
 
@@ -22,7 +25,14 @@ nlohmann::ordered_json file_json(const Region& region);
 
 // A line about the region's posts without a height, by why, if it has any.
 std::string note_of_voids(const Region& region);
-// Its notes and that one on standard error, unless quiet.
+// A line about files whose vertical datum is assumed, because neither they nor their names nor the request
+// say it; "" for none. Of this grid alone.
+std::string note_of_assumed_heights(const Region& region);
+// The region's notes and that one; of this grid alone.
+std::vector<std::string> own_notes(const Region& region);
+// All of these, of all its grids.
+std::vector<std::string> all_notes(const Region& region);
+// The same on standard error, unless quiet.
 void say_notes(const Region& region, bool quiet);
 
 // All attributions of a region, each once, joined by "; ".

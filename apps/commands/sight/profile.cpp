@@ -158,9 +158,13 @@ Result<void> run_profile(const ProfileOptions& options) {
     for (const std::string& note : profile.line.notes) say(options.quiet, "note: " + note);
     say_notes(ground->region, options.quiet);
     if (!options.out.empty()) ORO_CHECK(write(options, profile));
-    std::fputs(options.json ? (json_text(profile_json(profile), true) + "\n").c_str()
-                            : profile_text(profile).c_str(),
-               stdout);
+    if (options.json) {
+        nlohmann::ordered_json json = profile_json(profile);
+        json["notes"] = all_notes(ground->region);
+        std::printf("%s\n", json_text(json, true).c_str());
+    } else {
+        std::fputs(profile_text(profile).c_str(), stdout);
+    }
     if (!options.out.empty()) say(options.quiet, "wrote " + options.out);
     return {};
 }
