@@ -28,8 +28,9 @@
 namespace oro {
 namespace {
 
-nlohmann::ordered_json compare_json(const CompareOptions& options, const View& view, RasterPath path,
-                                    const Gpu& gpu, const std::optional<PictureDifference>& pixels,
+nlohmann::ordered_json compare_json(const CompareOptions& options, const View& view, const Region& region,
+                                    RasterPath path, const Gpu& gpu,
+                                    const std::optional<PictureDifference>& pixels,
                                     const Verification& verification, const UnseenGround& unseen) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["view"] = options.view_file;
@@ -46,7 +47,10 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     json["pixels"] = nullptr;
     if (pixels) json["pixels"] = pixels_json(*pixels);
     json["error"] = verification_json(verification);
+    json["error"]["resampling"] = resampling_json(region_resampling(region));
     json["unseen"] = unseen_json(unseen);
+    json["light"] = light_json(view.model.air, true_camera(view, region).eye.h_m);
+    json["notes"] = all_notes(region);
     return json;
 }
 
@@ -147,10 +151,8 @@ Result<void> run_compare(const CompareOptions& options) {
                        .c_str(),
                    stderr);
     if (options.json) {
-        nlohmann::ordered_json json = compare_json(options, view, path, *gpu, pixels, verification, unseen);
-        json["error"]["resampling"] = resampling_json(region_resampling(region));
-        json["light"] = light_json(view.model.air, true_camera(view, region).eye.h_m);
-        json["notes"] = all_notes(region);
+        const nlohmann::ordered_json json =
+            compare_json(options, view, region, path, *gpu, pixels, verification, unseen);
         std::printf("%s\n", json_text(json, true).c_str());
     }
     return {};
