@@ -5,6 +5,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/drawing/finer_levels.h"
+#include "apps/eye/standpoint.h"
 #include "apps/report/json_text.h"
 #include "apps/window/flight.h"
 #include "core/base/parallel.h"
