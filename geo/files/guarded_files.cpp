@@ -15,6 +15,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/base/files_read.h"
+
 namespace oro {
 namespace {
 
@@ -92,6 +94,7 @@ class LocalFiles final : public VSIFilesystemHandler {
             errno = EINVAL;
             return nullptr;
         }
+        if (there) remember_file_read(name, status);
         errno = 0;
         VSIVirtualHandle* const file = files_->Open(name, access, set_error, options);
         const int reason = errno;
