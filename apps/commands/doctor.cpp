@@ -159,8 +159,7 @@ void print_device(std::size_t number, const Finding& finding) {
     print_line(indent + "--pipeline auto" + (finding.choice ? " takes " : ": ") + finding.choice_text());
     print_line(indent + "pictures in parts of up to " + std::to_string(d.max_picture_side_px) +
                " px a side, " + memory_text(d.memory_bytes) + " of memory");
-    if (d.kind == VK_PHYSICAL_DEVICE_TYPE_CPU)
-        print_line(indent + "draws without a GPU: correct, but slow");
+    if (d.kind == VK_PHYSICAL_DEVICE_TYPE_CPU) print_line(indent + "draws without a GPU: correct, but slow");
 }
 
 void print_doctor(const std::vector<Finding>& devices, const std::string& no_device,

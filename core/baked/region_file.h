@@ -82,7 +82,8 @@ struct EncodedPage {
 // afterwards. (One with pages in it, that another bake left behind, stays.)
 class BakeHold {
   public:
-    // Errors: another program writes the file; it is there, and must not be replaced; somebody else's .partial.
+    // Errors: another program writes the file; it is there, and must not be replaced; somebody else's
+    // .partial.
     static Result<BakeHold> take(const std::string& path, bool overwrite);
     BakeHold(BakeHold&&) noexcept = default;
     BakeHold& operator=(BakeHold&&) = delete;

@@ -52,9 +52,9 @@ std::string change_between(const StateAtOpening& before, const StateAtOpening& n
 }
 
 Error changed_while_read(const std::string& path, const std::string& how) {
-    return {ErrorKind::failed, path,
-            "was changed while it was read (" + how +
-                "): nothing is made of it; try again when it is complete"};
+    return {
+        ErrorKind::failed, path,
+        "was changed while it was read (" + how + "): nothing is made of it; try again when it is complete"};
 }
 
 // Times of files move on with the system's clock ticks, which may be 10 ms long: a file whose last change is

@@ -18,8 +18,8 @@ class WindowReader {
         : image_(image),
           dataset_(dataset),
           window_(window),
-          watch_(reading_limit_s + 1e-7 * window.rows * static_cast<double>(window.columns) *
-                                       share_held(band(0), window)) {}
+          watch_(reading_limit_s +
+                 1e-7 * window.rows * static_cast<double>(window.columns) * share_held(band(0), window)) {}
 
     // False where a band could not be read. T: of one byte, or float. held_as: as WindowRequest has it.
     template <class T>

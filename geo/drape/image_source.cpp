@@ -86,8 +86,8 @@ Result<std::vector<float>> sample_of(const ImageSource& image, GDALDatasetH data
         if (!read_window({band, band, all, columns, rows, GRIORA_NearestNeighbour}, watch, values) ||
             !read_window({mask, follows ? band : mask, all, columns, rows, GRIORA_NearestNeighbour}, watch,
                          valid))
-            return fault("cannot be read: " + (watch.fault().empty() ? messages.last("the file is damaged")
-                                                                     : watch.fault()));
+            return fault("cannot be read: " +
+                         (watch.fault().empty() ? messages.last("the file is damaged") : watch.fault()));
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (valid[i] != 0 && std::isfinite(values[i])) sample.push_back(values[i]);
         }

@@ -55,7 +55,8 @@ class PartReader {
 
     // Of the whole raster's columns (or rows) where a column of the buffer begins.
     [[nodiscard]] double column_at(int column) const {
-        return request_.window.column + static_cast<double>(column) * request_.window.columns / request_.columns;
+        return request_.window.column +
+               static_cast<double>(column) * request_.window.columns / request_.columns;
     }
     [[nodiscard]] double row_at(int row) const {
         return request_.window.row + static_cast<double>(row) * request_.window.rows / request_.rows;

@@ -48,8 +48,8 @@ std::string in_one_line(std::string text) {
     return text;
 }
 
-// What may be said in the environment: it makes GDAL faster, or tells where its own files are and where others
-// may be for a while. None of it changes what a file means.
+// What may be said in the environment: it makes GDAL faster, or tells where its own files are and where
+// others may be for a while. None of it changes what a file means.
 constexpr std::array free_options{"GDAL_CACHEMAX",
                                   "GDAL_NUM_THREADS",
                                   "GDAL_MAX_DATASET_POOL_SIZE",
@@ -78,8 +78,8 @@ void pin_options() {
         if (const char* const value = std::getenv(name)) kept.emplace_back(name, value);
     constexpr const char* directives = "/vsimem/orograph-gdalrc";
     static std::string text = "[directives]\nignore-env-vars=yes\n";
-    VSILFILE* const file = VSIFileFromMemBuffer(directives, reinterpret_cast<GByte*>(text.data()),
-                                                text.size(), FALSE);
+    VSILFILE* const file =
+        VSIFileFromMemBuffer(directives, reinterpret_cast<GByte*>(text.data()), text.size(), FALSE);
     if (file != nullptr) VSIFCloseL(file);
     CPLLoadConfigOptionsFromFile(directives, FALSE);
     VSIUnlink(directives);

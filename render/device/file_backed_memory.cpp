@@ -51,8 +51,8 @@ Result<void> check_room_in_file(const Gpu& gpu, const VkMemoryAllocateInfo& info
     vkUnmapMemory(gpu.device(), handle);
     if (there) return {};
     return Error{ErrorKind::failed, gpu.report().name,
-                 "has no room for " + std::to_string((info.allocationSize + 1023) >> 10U) + " KiB of " + name +
-                     ": it keeps its memory in a file, and files may have " +
+                 "has no room for " + std::to_string((info.allocationSize + 1023) >> 10U) + " KiB of " +
+                     name + ": it keeps its memory in a file, and files may have " +
                      std::to_string(limit >> 10U) + " KiB here (ulimit -f)"};
 }
 

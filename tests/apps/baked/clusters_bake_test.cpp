@@ -154,15 +154,15 @@ TEST_F(ClustersBake, DamageIsOneLine) {
 
 // One of them makes the file; the others say why they do not, and leave nothing.
 TEST_F(ClustersBake, EightAtOnceLeaveOneFile) {
-    const std::string session = R"(
+    const std::string session = R"sh(
         out=$1; shift
         for i in 1 2 3 4 5 6 7 8; do "$@" & done
         wait
-        ls "$(dirname "$out")")";
+        ls "$(dirname "$out")")sh";
     for (const Words& more : {Words{}, Words{"--overwrite"}}) {
         SCOPED_TRACE(more.size());
-        Words words{"bash", "-c", session, "bash", out_, OROGRAPH_PROGRAM, "bake", part_, "--mesh",
-                    "clusters", "--out", out_, "-q"};
+        Words words{"bash",   "-c",       session, "bash", out_, OROGRAPH_PROGRAM, "bake", part_,
+                    "--mesh", "clusters", "--out", out_,   "-q"};
         words.insert(words.end(), more.begin(), more.end());
         const Outcome outcome = run_program(words);
         EXPECT_EQ(outcome.out, "tile.oro\n") << outcome.err;

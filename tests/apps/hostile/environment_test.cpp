@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "tests/apps/program.h"
 #include "tests/apps/said_json.h"
@@ -13,6 +14,12 @@ using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::run_program;
 using oro::test::write_bytes;
+
+Circumstances with(const std::vector<std::string>& environment) {
+    Circumstances circumstances;
+    circumstances.environment = environment;
+    return circumstances;
+}
 
 // A raster whose posts are points: GDAL moves it by half a post where GTIFF_POINT_GEO_IGNORE is set.
 class Environment : public testing::Test {
@@ -39,25 +46,27 @@ TEST_F(Environment, ChangesNothingThatAFileMeans) {
           "GTIFF_HONOUR_NEGATIVE_SCALEY=YES", "GTIFF_REPORT_COMPD_CS=NO", "GTIFF_SRS_SOURCE=EPSG",
           "GDAL_GEOREF_SOURCES=NONE", "OSR_STRIP_TOWGS84=NO", "GTIFF_DIRECT_IO=YES",
           "GDAL_DRIVER_PATH=/nowhere", "VRT_VIRTUAL_OVERVIEWS=YES"})
-        EXPECT_EQ(told({.environment = {option}}), plain) << option;
+        EXPECT_EQ(told(with({option})), plain) << option;
 }
 
 TEST_F(Environment, FilesOfOptionsChangeNothing) {
     const std::string plain = told(), options = "[configoptions]\nGTIFF_POINT_GEO_IGNORE=YES\n";
     write_bytes(folder / "rc", options);
-    EXPECT_EQ(told({.environment = {"GDAL_CONFIG_FILE=" + (folder / "rc").string()}}), plain);
+    EXPECT_EQ(told(with({"GDAL_CONFIG_FILE=" + (folder / "rc").string()})), plain);
     fs::create_directory(folder / ".gdal");
     write_bytes(folder / ".gdal" / "gdalrc", options);
-    EXPECT_EQ(told({.environment = {"HOME=" + folder.string(), "GDAL_CONFIG_FILE"}}), plain);
+    EXPECT_EQ(told(with({"HOME=" + folder.string(), "GDAL_CONFIG_FILE"})), plain);
 }
 
-// A kilobyte for GDAL's cache makes it slow, and is heard: options of that kind stay the user's.
+// Options that make GDAL faster stay the user's.
 TEST_F(Environment, MayMakeGdalFaster) {
-    EXPECT_EQ(told({.environment = {"GDAL_CACHEMAX=16", "GDAL_NUM_THREADS=2"}}), told());
+    EXPECT_EQ(told(with({"GDAL_CACHEMAX=16", "GDAL_NUM_THREADS=2"})), told());
 }
 
 TEST_F(Environment, DoctorPrintsNoControlCharacters) {
-    const Circumstances odd{.environment = {"OROGRAPH_DATA=/\x1b[31m\xc2\x9b" "31m\xe2\x80\xae/Z\xfcrich"}};
+    const Circumstances odd =
+        with({"OROGRAPH_DATA=/\x1b[31m\xc2\x9b"
+              "31m\xe2\x80\xae/Z\xfcrich"});
     for (const oro::test::Words& words : {oro::test::Words{"doctor"}, oro::test::Words{"doctor", "--json"}}) {
         const Outcome outcome = run_orograph(words, odd);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -1,8 +1,9 @@
-// --overwrite: nothing that a command reads is replaced by what it writes, whatever it is to the command and by
-// whatever name.
+// --overwrite: nothing that a command reads is replaced by what it writes, whatever it is to the command and
+// by whatever name.
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/apps/program.h"
@@ -52,26 +53,27 @@ TEST_F(InputsSpared, SourcesOfADrapedVrtOfVrts) {
     run({"gdalbuildvrt", "-q", path("inner.vrt"), path("image.tif")});
     run({"gdalbuildvrt", "-q", path("outer.vrt"), path("inner.vrt")});
     fs::create_hard_link(path("inner.vrt"), path("inner.png"));
-    for (const char* out : {"image.tif", "inner.png"})
-        expect_spared(small({"shot", land, "--drape", path("outer.vrt"), "--out", path(out)}), path(out));
+    for (const auto& [out, named] : {std::pair{"image.tif", "image.tif"}, {"inner.png", "inner.vrt"}})
+        expect_spared(small({"shot", land, "--drape", path("outer.vrt"), "--out", path(out)}), path(named));
 }
 
-// image.tif takes its place from image.tfw, which a map has beside it, too.
+// image.tiff takes its place from image.tfw, which a map called image.tif has beside it, too.
 TEST_F(InputsSpared, TheWorldFileOfADrape) {
     run({"gdal_translate", "-q", "-co", "PROFILE=BASELINE", "-co", "TFW=YES", bundled(), path("image.tif")});
-    write_bytes(path("image.tif.aux.xml"), "<PAMDataset><SRS>EPSG:4269</SRS></PAMDataset>");
+    fs::rename(path("image.tif"), path("image.tiff"));
+    fs::remove(path("image.tif.aux.xml"));
+    write_bytes(path("image.tiff.aux.xml"), "<PAMDataset><SRS>EPSG:4269</SRS></PAMDataset>");
     ASSERT_TRUE(fs::exists(path("image.tfw")));
-    fs::create_hard_link(path("image.tfw"), path("map.tfw"));
-    expect_spared(small({"shot", land, "--ortho", "--drape", path("image.tif"), "--out", path("map.tif")}),
-                  "map.tfw");
+    expect_spared(small({"shot", land, "--ortho", "--drape", path("image.tiff"), "--out", path("image.tif")}),
+                  "image.tfw");
 }
 
 TEST_F(InputsSpared, TheViewAsASideOutput) {
     ASSERT_EQ(run_orograph(small({"shot", land, "--out", path("first.png")})).exit_code, 0);
     fs::rename(path("first.png"), path("v.error.png"));
-    expect_spared({"shot", "--view", path("v.error.png"), "--verify", "--out", path("v.png"), "-q",
-                   "--overwrite"},
-                  "v.error.png");
+    expect_spared(
+        {"shot", "--view", path("v.error.png"), "--verify", "--out", path("v.png"), "-q", "--overwrite"},
+        "v.error.png");
     ASSERT_EQ(run_orograph(small({"shot", land, "--out", path("w.height.tif")})).exit_code, 0);
     expect_spared(
         {"shot", "--view", path("w.height.tif"), "--layers", "--out", path("w.png"), "-q", "--overwrite"},
@@ -82,12 +84,14 @@ TEST_F(InputsSpared, TheViewOfShotAndPanorama) {
     ASSERT_EQ(run_orograph(small({"shot", land, "--out", path("p.png")})).exit_code, 0);
     fs::create_symlink("p.png", path("q.png"));
     for (const char* out : {"p.png", "q.png"})
-        expect_spared({"shot", "--view", path("p.png"), "--tau", "4", "--out", path(out), "-q", "--overwrite"},
-                      "p.png");
+        expect_spared(
+            {"shot", "--view", path("p.png"), "--tau", "4", "--out", path(out), "-q", "--overwrite"},
+            "p.png");
     // Without --out the picture goes back to where it came from: that is what is asked for.
-    EXPECT_EQ(run_orograph({"shot", "--view", path("p.png"), "--tau", "4", "-q", "--overwrite"}).exit_code, 0);
-    const Words around{"panorama", land,     "--at",        "36.53,-84.23", "--out", path("around.png"),
-                       "--width",  "400",    "--elevation", "-10,10",       "-q"};
+    EXPECT_EQ(run_orograph({"shot", "--view", path("p.png"), "--tau", "4", "-q", "--overwrite"}).exit_code,
+              0);
+    const Words around{"panorama", land,  "--at",        "36.53,-84.23", "--out", path("around.png"),
+                       "--width",  "400", "--elevation", "-10,10",       "-q"};
     ASSERT_EQ(run_orograph(around).exit_code, 0);
     expect_spared(
         {"panorama", "--view", path("around.png"), "--out", path("around.png"), "-q", "--overwrite"},
@@ -95,9 +99,8 @@ TEST_F(InputsSpared, TheViewOfShotAndPanorama) {
 }
 
 TEST_F(InputsSpared, NamesLinesStylesAndColours) {
-    const std::string line =
-        R"({"type":"Feature","properties":{"name":"a"},"geometry":{"type":"LineString",)"
-        R"("coordinates":[[-84.3,36.5],[-84.2,36.6]]}})";
+    const std::string line = R"({"type":"Feature","properties":{"name":"a"},"geometry":{"type":"LineString",)"
+                             R"("coordinates":[[-84.3,36.5],[-84.2,36.6]]}})";
     for (const char* name : {"line.geojson", "other.geojson"}) write_bytes(path(name), line);
     fs::create_hard_link(path("other.geojson"), path("linked.png"));
     expect_spared({"profile", land, "--along", path("line.geojson"), "--out", path("line.geojson"),

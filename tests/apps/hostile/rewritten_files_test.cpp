@@ -52,8 +52,8 @@ TEST(RewrittenFiles, MayBeImagesAndNames) {
                                   R"({"type":"Point","coordinates":[-84.3,36.5]}})");
     for (const auto& [option, file] : {std::pair{"--drape", image}, std::pair{"--names", names}}) {
         SCOPED_TRACE(option);
-        expect_refusal(run_beside_writer(file, {"shot", bundled(), option, file, "--style", "default", "--size",
-                                                "64x48", "--out", folder / "a.png", "-q"}),
+        expect_refusal(run_beside_writer(file, {"shot", bundled(), option, file, "--style", "default",
+                                                "--size", "64x48", "--out", folder / "a.png", "-q"}),
                        failed, {file, "was changed while it was read"});
         EXPECT_EQ(names_in(folder), (Words{"image.tif", "names.geojson"}));
     }

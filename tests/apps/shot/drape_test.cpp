@@ -165,15 +165,41 @@ TEST_F(Drape, ThatCannotLieOverGroundIsOneLine) {
 TEST_F(Drape, OfAnEmptyGiantIsQuick) {
     for (const char* type : {"Byte", "UInt16"}) {
         fs::remove(path("giant.tif"));
-        ASSERT_EQ(run_program({"gdal_create", "-q", "-of", "GTiff", "-outsize", "128000", "128000", "-bands", "3",
-                               "-ot", type, "-co", "SPARSE_OK=TRUE", "-co", "TILED=YES", "-co",
-                               "BLOCKXSIZE=4096", "-co", "BLOCKYSIZE=4096", "-co", "COMPRESS=DEFLATE", "-a_srs",
-                               "EPSG:4269", "-a_ullr", "-85", "37", "-84", "36", path("giant.tif")})
+        ASSERT_EQ(run_program({"gdal_create",
+                               "-q",
+                               "-of",
+                               "GTiff",
+                               "-outsize",
+                               "128000",
+                               "128000",
+                               "-bands",
+                               "3",
+                               "-ot",
+                               type,
+                               "-co",
+                               "SPARSE_OK=TRUE",
+                               "-co",
+                               "TILED=YES",
+                               "-co",
+                               "BLOCKXSIZE=4096",
+                               "-co",
+                               "BLOCKYSIZE=4096",
+                               "-co",
+                               "COMPRESS=DEFLATE",
+                               "-a_srs",
+                               "EPSG:4269",
+                               "-a_ullr",
+                               "-85",
+                               "37",
+                               "-84",
+                               "36",
+                               path("giant.tif")})
                       .exit_code,
                   0);
         ASSERT_LT(fs::file_size(path("giant.tif")), 40'000U);
         const auto start = std::chrono::steady_clock::now();
-        const Outcome drawn = shoot({land, "--drape", path("giant.tif"), "--out", path("p.png"), "--overwrite"});
+        const Outcome drawn =
+            shoot({land, "--drape", path("giant.tif"), "--out", path("p.png"), "--overwrite"});
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
         EXPECT_LT(took.count(), 20.0) << type;

@@ -9,16 +9,16 @@ namespace oro {
 namespace {
 
 TEST(OneLine, KeepsWhatPeopleRead) {
-    for (const std::string text :
-         {"N46E008.hgt", "Größe – 100 °", "Eiger 3’967 m", "富士山", "Гора Эльбрус", "جبل", "ལྷོ་རྩེ", "🏔",
-          "葛\U000E0100城"})
+    for (const std::string text : {"N46E008.hgt", "Größe – 100 °", "Eiger 3’967 m", "富士山", "Гора Эльбрус",
+                                   "جبل", "ལྷོ་རྩེ", "🏔", "葛\U000E0100城"})
         EXPECT_EQ(one_line(text), text);
 }
 
 TEST(OneLine, ShowsAQuestionMarkForEachUnseenCharacter) {
     for (const std::string unseen :
-         {"\x01", "\n", "\x1b", "\x7f", "\u0080", "\u0085", "\u009b", "\u009f", "\u00ad", "\u061c", "\u200b",
-          "\u200c", "\u200d", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u202e", "\u2060", "\u2066",
+         {"\x01",   "\n",     "\x1b",   "\x7f",   "\u0080", "\u0085",     "\u009b",
+          "\u009f", "\u00ad", "\u061c", "\u200b", "\u200c", "\u200d",     "\u200e",
+          "\u200f", "\u2028", "\u2029", "\u202a", "\u202e", "\u2060",     "\u2066",
           "\u2069", "\u3164", "\ufeff", "\ufff9", "\uffff", "\U000E0041", "\U0001FFFE"})
         EXPECT_EQ(one_line("a" + unseen + "b"), "a?b") << testing::PrintToString(unseen);
     EXPECT_EQ(one_line(std::string("a\0b", 3)), "a?b");
@@ -26,12 +26,12 @@ TEST(OneLine, ShowsAQuestionMarkForEachUnseenCharacter) {
 
 TEST(OneLine, ReplacesBytesThatAreNoUtf8) {
     const std::string r = "\xEF\xBF\xBD";
-    EXPECT_EQ(one_line("Z\xfcrich"), "Z" + r + "rich");              // Latin-1
-    EXPECT_EQ(one_line("\xc0\xaf"), r + r);                         // an overlong '/'
-    EXPECT_EQ(one_line("\xed\xa0\x80"), r + r + r);                 // a surrogate
-    EXPECT_EQ(one_line("\xf4\x90\x80\x80"), r + r + r + r);         // past 10FFFF
-    EXPECT_EQ(one_line("a\xe2\x82"), "a" + r);                      // cut off
-    EXPECT_EQ(one_line("\xe2\x82(\x9b"), r + "(" + r);              // the lone C1 byte of a Latin-1 CSI
+    EXPECT_EQ(one_line("Z\xfcrich"), "Z" + r + "rich");      // Latin-1
+    EXPECT_EQ(one_line("\xc0\xaf"), r + r);                  // an overlong '/'
+    EXPECT_EQ(one_line("\xed\xa0\x80"), r + r + r);          // a surrogate
+    EXPECT_EQ(one_line("\xf4\x90\x80\x80"), r + r + r + r);  // past 10FFFF
+    EXPECT_EQ(one_line("a\xe2\x82"), "a" + r);               // cut off
+    EXPECT_EQ(one_line("\xe2\x82(\x9b"), r + "(" + r);       // the lone C1 byte of a Latin-1 CSI
 }
 
 TEST(OneLine, CutsBetweenLetters) {
