@@ -94,7 +94,8 @@ class LocalFiles final : public VSIFilesystemHandler {
             errno = EINVAL;
             return nullptr;
         }
-        if (there) remember_file_read(name, status);
+        // What a library writes for us it gets by its descriptor: an output, which it may read again.
+        if (there && !std::string_view(name).starts_with("/proc/self/fd/")) remember_file_read(name, status);
         errno = 0;
         VSIVirtualHandle* const file = files_->Open(name, access, set_error, options);
         const int reason = errno;
