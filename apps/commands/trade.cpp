@@ -12,9 +12,11 @@
 #include "apps/commands/commands.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/eye/asked_summit.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/summit_words.h"
 #include "apps/trade/trade_measurement.h"
 #include "apps/trade/trade_report.h"
 #include "apps/trade/trade_settings.h"
@@ -166,6 +168,8 @@ Result<void> run_trade(const TradeOptions& options) {
         options.view_file, view_options, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     say_changes(view, options.quiet);
+    ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));
+    say_summit(summit, options.quiet);
     ORO_CHECK(spare_inputs({csv, html}, view, region));
     if (!options.view_file.empty()) ORO_CHECK(spare_view({csv, html}, options.view_file));
     if (!view.has_geoid)
