@@ -107,6 +107,7 @@ int run_command_line(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() != 0) return told(oro::refusal_of(app, e, words));
+        if (const auto no_command = oro::refusal_of_command(app, words)) return told(*no_command);
         app.exit(e);
         return exit_code({});
     }

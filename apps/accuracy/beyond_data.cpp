@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "apps/command_line/refusals.h"
+#include "apps/eye/overview.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -16,20 +17,23 @@ namespace {
 
 constexpr std::size_t most_names = 12;
 
-KnownGround known_ground(const Region& region) {
+KnownGround known_ground(const View& view, const Region& region) {
     std::vector<DegreeCell> missing;
     for (const std::string& name : region.missing_cells) {
         if (const auto box = parse_tile_range(name); box.ok())
             missing.push_back(degree_cell_at(box->south_deg + 0.5, box->west_deg + 0.5));
     }
-    return KnownGround(region.field, missing, region.outside > 0);
+    std::optional<DegreeBox> part;
+    if (const auto& box = view.region.box)
+        part = DegreeBox{box->west_deg, box->south_deg, box->east_deg, box->north_deg};
+    return KnownGround(region.field, missing, region.outside > 0, part);
 }
 
 UnseenGround unseen_over(const View& view, const Region& region, const TrueSurface& surface,
                          const Sight& sight, double ceiling_m) {
     const Camera camera = true_camera(view, region);
     return unseen_ground(
-        unseen_picture(surface, known_ground(region), sight, camera, ceiling_m, thread_count()), camera,
+        unseen_picture(surface, known_ground(view, region), sight, camera, ceiling_m, thread_count()), camera,
         ceiling_m);
 }
 
@@ -46,9 +50,15 @@ std::string names(const UnseenGround& unseen) {
     return "(missing: " + text + ")";
 }
 
-std::string columns(const UnseenGround& unseen) {
-    return grouped(static_cast<std::uint64_t>(unseen.columns_beyond)) + " of " +
+std::string columns(const UnseenGround& unseen, int beyond) {
+    return grouped(static_cast<std::uint64_t>(beyond)) + " of " +
            counted(static_cast<std::uint64_t>(unseen.columns), "column", "columns");
+}
+
+nlohmann::ordered_json names_json(const std::vector<UnseenCell>& cells) {
+    nlohmann::ordered_json names = nlohmann::ordered_json::array();
+    for (const UnseenCell& cell : cells) names.push_back(name_of(cell.cell));
+    return names;
 }
 
 // Whole numbers, away from 0.
@@ -70,7 +80,8 @@ Result<double> unseen_ceiling(const std::optional<double>& option_m) {
 Result<UnseenGround> unseen_in(const View& view, const Region& region, const TrueScene& truth,
                                double ceiling_m) {
     if (!region.beside.empty()) return unseen_in(view, region, ceiling_m);
-    const UnseenGround unseen = unseen_over(view, region, truth.surface(), truth.sight(), ceiling_m);
+    UnseenGround unseen = unseen_over(view, region, truth.surface(), truth.sight(), ceiling_m);
+    unseen.all_in_view = is_whole_in_view(view, region);
     ORO_CHECK(region.field.health());
     return unseen;
 }
@@ -85,30 +96,39 @@ Result<UnseenGround> unseen_in(const View& view, const Region& whole, double cei
         lifted->N_of_posts_m = region.N_of_posts_left_out_m;
     }
     const TrueSurface surface(lifted ? *lifted : region.field, view.exaggeration, thread_count());
-    const UnseenGround unseen = unseen_over(view, region, surface, true_sight(view, region), ceiling_m);
-    ORO_CHECK(region.field.health());
+    UnseenGround unseen = unseen_over(view, region, surface, true_sight(view, region), ceiling_m);
+    unseen.all_in_view = is_whole_in_view(view, whole);
+    ORO_CHECK(whole.health());
     return unseen;
 }
 
 std::string unseen_sentence(const UnseenGround& unseen) {
-    if (unseen.columns_beyond == 0) return {};
-    return columns(unseen) + (unseen.columns == 1 ? " looks" : " look") + " beyond the data " +
-           names(unseen) + ": ground there, up to " + whole(unseen.ceiling_m) + " m, could be up to " +
-           whole(unseen.bound_px) + " px higher than drawn";
+    if (unseen.columns_beyond == 0 || unseen.all_in_view) return {};
+    return columns(unseen, unseen.columns_beyond) + (unseen.columns == 1 ? " looks" : " look") +
+           " beyond the data " + names(unseen) + ": ground there, up to " + whole(unseen.ceiling_m) +
+           " m, could be up to " + whole(unseen.bound_px) + " px higher than drawn";
 }
 
 std::string unseen_ending(const UnseenGround& unseen) {
-    if (unseen.columns_beyond == 0) return {};
-    return "In " + columns(unseen) + " ground beyond the data could be up to " + whole(unseen.bound_px) +
-           " px higher " + names(unseen) + ".";
+    if (unseen.columns_beyond == 0 || unseen.all_in_view) return {};
+    return "In " + columns(unseen, unseen.columns_beyond) + " ground beyond the data could be up to " +
+           whole(unseen.bound_px) + " px higher " + names(unseen) + ".";
+}
+
+std::string beyond_part_ending(const UnseenGround& unseen) {
+    if (unseen.columns_beyond_part == 0 || unseen.all_in_view) return {};
+    return "The part of the data that you chose ends here: in " +
+           columns(unseen, unseen.columns_beyond_part) + " ground beyond it could be up to " +
+           whole(unseen.part_bound_px) + " px higher.";
 }
 
 nlohmann::ordered_json unseen_json(const UnseenGround& unseen) {
-    nlohmann::ordered_json missing = nlohmann::ordered_json::array();
-    for (const UnseenCell& cell : unseen.missing) missing.push_back(name_of(cell.cell));
+    nlohmann::ordered_json part = json_object("columns_beyond", unseen.columns_beyond_part, "bound_px",
+                                              unseen.part_bound_px, "cells", names_json(unseen.beyond_part));
     return json_object("kind", "unseen", "ceiling_m", unseen.ceiling_m, "columns", unseen.columns,
                        "columns_beyond", unseen.columns_beyond, "bound_px", unseen.bound_px, "missing",
-                       std::move(missing));
+                       names_json(unseen.missing), "chosen_part_ends", std::move(part), "all_data_in_view",
+                       unseen.all_in_view);
 }
 
 }  // namespace oro

@@ -23,11 +23,15 @@ Result<UnseenGround> unseen_in(const View& view, const Region& region, const Tru
 Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m);
 
 // "640 of 640 columns look beyond the data (missing: N46E010): ground there, up to 9,000 m, could be up to
-// 312 px higher than drawn"; "" where none does. At most 12 cells are named.
+// 312 px higher than drawn"; "" where none does, and where the picture shows all of the data: then it shows
+// where they end. At most 12 cells are named. Nothing is said of ground beyond a part that was chosen.
 std::string unseen_sentence(const UnseenGround& unseen);
 // "In 640 of 640 columns ground beyond the data could be up to 312 px higher (missing: N46E010)."; ""
 // likewise.
 std::string unseen_ending(const UnseenGround& unseen);
+// "The part of the data that you chose ends here: in 640 of 640 columns ground beyond it could be up to 312
+// px higher."; "" likewise. For plan alone.
+std::string beyond_part_ending(const UnseenGround& unseen);
 nlohmann::ordered_json unseen_json(const UnseenGround& unseen);
 
 }  // namespace oro

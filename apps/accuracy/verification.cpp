@@ -102,7 +102,8 @@ std::string verification_text(const Verification& verification, const View& view
             table_line("  surface, px", ground.summary_surface_px) +
             table_line("  seen, px", seen.summary_px) + table_line("  skyline, px", skyline.summary_px);
     text += "99 %: 99 of 100 are off by no more than this.\n" + allowed_line(verification, view);
-    if (unseen.columns_beyond > 0) text += "Where the data end: " + unseen_sentence(unseen) + "\n";
+    if (const std::string beyond = unseen_sentence(unseen); !beyond.empty())
+        text += "Where the data end: " + beyond + "\n";
     return text;
 }
 

@@ -273,6 +273,9 @@ void add_profile(CLI::App& app, ProfileOptions& options) {
     line.number("--step", options.step_m, "METRES",
                 "Ask for heights so far apart. Default: wherever the line passes from one triangle of the "
                 "ground to the next: between those the ground is straight.");
+    line.number("--climb-threshold", options.climb_threshold_m, "METRES",
+                "Rises and falls of so many metres or more make the ascent and the descent, as guides count "
+                "them, 0 to 10000 (default 10). The sum of every one is told beside them.");
     line.option("--out", options.out, "FILE",
                 "The file to write: .csv, .svg or .geojson. Without it the sums alone are told.");
     line.flag("--overwrite", options.overwrite, "Replace a file that is there.");

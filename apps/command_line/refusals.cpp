@@ -129,6 +129,12 @@ Error of_count(const CLI::App& command, const std::vector<std::string>& words) {
     return refused(words.back(), "", last ? missing_words(*last) : "a value must follow");
 }
 
+Error of_no_command(const std::string& word, const std::vector<std::string>& names) {
+    const std::string near = nearest_words(word, names);
+    return refused(word, "",
+                   "is no command" + (near.empty() ? "; these are " + joined(names, " and ") : near));
+}
+
 Error of_missing(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
         if (option->get_required() && option->count() == 0)
@@ -212,14 +218,21 @@ void need_no_value(CLI::Option& option) {
     });
 }
 
+std::optional<Error> refusal_of_command(const CLI::App& app, const std::vector<std::string>& words) {
+    const std::vector<std::string> names = command_names(app);
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        if (words[i].starts_with('-')) continue;
+        if (std::ranges::find(names, words[i]) != names.end()) return std::nullopt;
+        return of_no_command(words[i], names);
+    }
+    return std::nullopt;
+}
+
 Error refusal_of(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
     if (const auto* of_value = dynamic_cast<const RefusedValue*>(&error)) return of_value->error();
     const std::vector<std::string> names = command_names(app);
-    if (words.size() > 1 && !words[1].starts_with('-') && std::ranges::find(names, words[1]) == names.end()) {
-        const std::string near = nearest_words(words[1], names);
-        return refused(words[1], "",
-                       "is no command" + (near.empty() ? "; these are " + joined(names, " and ") : near));
-    }
+    if (words.size() > 1 && !words[1].starts_with('-') && std::ranges::find(names, words[1]) == names.end())
+        return of_no_command(words[1], names);
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) return of_left_over(app);
     if (app.get_subcommands().empty()) return before_command(words.size() > 1 ? words[1] : "");
     const CLI::App& command = *app.get_subcommands().front();

@@ -1,6 +1,7 @@
 // Words for what is wrong with a command line: one line each, "--option value: what to do instead".
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ void need_number(CLI::Option& option);
 void need_whole_number(const CLI::App& command, CLI::Option& option, int low, int high);
 // For options that have no value: --json=perhaps.
 void need_no_value(CLI::Option& option);
+
+// Of a command line that asks for help or for the version: the first word that is no option must be a
+// command, or the answer is a usage error. Nothing where it is one, or where there is no such word.
+std::optional<Error> refusal_of_command(const CLI::App& app, const std::vector<std::string>& words);
 
 // What the parser has refused, in words. `words` is the command line.
 Error refusal_of(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words);

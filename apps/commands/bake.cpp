@@ -15,6 +15,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
 #include "apps/view/view.h"
 #include "core/baked/bake.h"
 #include "core/baked/file_pages.h"
@@ -92,6 +93,7 @@ struct BakeResult {
     std::optional<ClusterBakeReport> clusters;
     double read_s{};
     double build_s{};
+    std::vector<std::string> notes;  // of the region
 
     [[nodiscard]] double bytes_per_post() const {
         return static_cast<double>(bytes) / static_cast<double>(posts);
@@ -129,6 +131,7 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
         json["clusters"] = json_object("levels", baked.clusters->levels, "triangles",
                                        baked.clusters->triangles, "build_s", baked.clusters->build_s);
     json["times_s"] = json_object("read", baked.read_s, "build_and_write", baked.build_s);
+    json["notes"] = baked.notes;
     std::printf("%s\n", json_text(json, true).c_str());
 }
 
@@ -230,7 +233,8 @@ Result<void> run_bake(const BakingOptions& options) {
     for (Region& other : region.beside) ORO_CHECK(take_into_memory(other));
     baked.read_s = seconds_since(reading);
     bar.clear();
-    for (const std::string& note : region.notes) say(options.quiet, "note: " + note);
+    say_notes(region, options.quiet);
+    baked.notes = all_notes(region);
     const auto building = Clock::now();
     ORO_TRY(baked.report, bake_all(region, options, bar, baked.clusters));
     baked.build_s = seconds_since(building);

@@ -28,8 +28,9 @@
 namespace oro {
 namespace {
 
-nlohmann::ordered_json compare_json(const CompareOptions& options, const View& view, RasterPath path,
-                                    const Gpu& gpu, const std::optional<PictureDifference>& pixels,
+nlohmann::ordered_json compare_json(const CompareOptions& options, const View& view, const Region& region,
+                                    RasterPath path, const Gpu& gpu,
+                                    const std::optional<PictureDifference>& pixels,
                                     const Verification& verification, const UnseenGround& unseen) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["view"] = options.view_file;
@@ -46,7 +47,10 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     json["pixels"] = nullptr;
     if (pixels) json["pixels"] = pixels_json(*pixels);
     json["error"] = verification_json(verification);
+    json["error"]["resampling"] = resampling_json(region_resampling(region));
     json["unseen"] = unseen_json(unseen);
+    json["light"] = light_json(view.model.air, true_camera(view, region).eye.h_m);
+    json["notes"] = all_notes(region);
     return json;
 }
 
@@ -103,6 +107,7 @@ Result<void> run_compare(const CompareOptions& options) {
         options.view_file, {}, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     ORO_CHECK(check_unchanged(view, region, options.data_changed, options.quiet));
+    say_notes(region, options.quiet);
     if (!options.out.empty()) {
         ORO_CHECK(spare_inputs({options.out}, view, region));
         ORO_CHECK(spare_view({options.out}, options.view_file));
@@ -146,9 +151,8 @@ Result<void> run_compare(const CompareOptions& options) {
                        .c_str(),
                    stderr);
     if (options.json) {
-        nlohmann::ordered_json json = compare_json(options, view, path, *gpu, pixels, verification, unseen);
-        json["error"]["resampling"] = resampling_json(region_resampling(region));
-        json["light"] = light_json(view.model.air, true_camera(view, region).eye.h_m);
+        const nlohmann::ordered_json json =
+            compare_json(options, view, region, path, *gpu, pixels, verification, unseen);
         std::printf("%s\n", json_text(json, true).c_str());
     }
     return {};

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/report/figures.h"
+#include "apps/report/region_json.h"
 #include "apps/report/resampling_words.h"
 #include "core/baked/region_format.h"
 #include "core/earth/ellipsoid.h"
@@ -84,8 +85,11 @@ bool is_on_degrees(const SourceReport& source) {
            fills(source.box.north_deg - source.box.south_deg, source.rows, source.lat_spacing_deg);
 }
 
-// "92.63 m north-south and 63.97 m east-west", at the source's middle; "30 m" in a projection.
+// "92.63 m north-south and 63.97 m east-west", at the source's middle; "30 m of its CRS (29.98 m on the
+// ground)".
 std::string spacing_text(const SourceReport& source) {
+    if (const auto own_m = projected_spacing_m(source))
+        return text_of("%.6g m of its CRS (", *own_m) + distance_text(source.spacing_m) + " on the ground)";
     if (!is_on_degrees(source)) return distance_text(source.spacing_m);
     const double middle_deg = 0.5 * (source.box.south_deg + source.box.north_deg);
     const double parallel_m =
@@ -154,9 +158,11 @@ std::string one_file(const SourceReport& source, Posts posts) {
     if (const std::string datum = horizontal_words(source.horizontal_datum); !datum.empty())
         text += line("datum", datum);
     text += line("heights", datum_words(source.vertical_datum) + ", in " + short_unit(source.height_unit));
-    text += line("posts", text_of("%d x %d, every %.6g x %.6g degrees (", source.columns, source.rows,
-                                  source.lon_spacing_deg, source.lat_spacing_deg) +
-                              spacing_text(source) + ")");
+    const std::string degrees =
+        text_of("%.6g x %.6g degrees (", source.lon_spacing_deg, source.lat_spacing_deg);
+    text += line("posts", text_of("%d x %d, every ", source.columns, source.rows) +
+                              (!projected_spacing_m(source) ? degrees + spacing_text(source) + ")"
+                                                            : spacing_text(source)));
     text += line("box", box_text(source.box.west_deg, source.box.south_deg, source.box.east_deg,
                                  source.box.north_deg));
     text += posts == Posts::read ? heights_lines(source) : line("H", "not read");
@@ -259,8 +265,20 @@ std::string levels_text(const RegionFile& file, const ClusterOutline& graph) {
     return text;
 }
 
-std::string baked_text(const RegionFile& file, const ClusterFile* clusters) {
+// "5,660,000 bytes: 1,780,000 of the grid (1.23 for each post), 3,880,000 of the clusters"
+std::string size_text(const RegionFile& file, const ClusterFile* clusters) {
     const auto posts = static_cast<double>(file.outline().grid.post_count());
+    const std::string each = text_of("%.2f for each post", static_cast<double>(file.bytes()) / posts);
+    const std::uint64_t whole = bytes_of_file(file);
+    if (clusters)
+        return counted(whole, "byte", "bytes") + ": " + grouped(file.bytes()) + " of the grid (" + each +
+               "), " + grouped(clusters->bytes()) + " of the clusters";
+    if (whole != file.bytes())
+        return counted(file.bytes(), "byte", "bytes") + " of the file's " + grouped(whole) + ", " + each;
+    return counted(whole, "byte", "bytes") + ", " + each;
+}
+
+std::string baked_text(const RegionFile& file, const ClusterFile* clusters) {
     const int levels = file.order().levels();
     std::string detail = std::to_string(levels) + ": full detail (" +
                          counted(file.outline().triangles, "triangle", "triangles") + ")";
@@ -276,9 +294,7 @@ std::string baked_text(const RegionFile& file, const ClusterFile* clusters) {
                                      counted(clusters->outline().levels.size(), "level", "levels") +
                                      " above the grid, " + counted(clusters->bytes(), "byte", "bytes"));
     if (clusters) text += levels_text(file, clusters->outline());
-    return text +
-           line("size", counted(file.bytes(), "byte", "bytes") +
-                            text_of(", %.2f for each post", static_cast<double>(file.bytes()) / posts));
+    return text + line("size", size_text(file, clusters));
 }
 
 }  // namespace
@@ -303,7 +319,7 @@ std::string info_text(const Region& region) {
     text += line("outside", outside_text(region));
     text += line("missing", missing_text(region));
     text += line("overlaps", overlaps(region.seams));
-    for (const std::string& note : region.notes) text += line("note", note);
+    for (const std::string& note : own_notes(region)) text += line("note", note);
     return text + files_text(region.sources, Posts::read);
 }
 

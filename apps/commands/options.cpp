@@ -215,7 +215,7 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
                 "Take only a cell of one degree, e.g. N46E008, or a range of them, N46E006:N47E010. Not with "
                 "--bbox.")
         .excludes(&bbox);
-    data.choice("--height-unit", options.height_unit, {"m", "ft", "us-ft", "cm"},
+    data.choice("--height-unit", options.height_unit, {"m", "ft", "us-ft", "cm", "dm", "mm"},
                 "Take heights in this unit, whatever a file says. Default: the file's, or metres where it "
                 "says nothing. ft is the international foot, us-ft the US survey foot.");
     data.option("--source-crs", options.source_crs, "CRS",

@@ -168,6 +168,7 @@ struct ProfileOptions {
     std::string along;
     std::optional<int> line;  // of a file with several, from 1
     std::optional<double> step_m;
+    double climb_threshold_m{10.0};
     std::string out;
     bool overwrite{false};
     bool json{false};

@@ -185,7 +185,9 @@ Result<void> run_plan(const PlanOptions& options) {
     ORO_TRY(const UnseenGround unseen, unseen_in(view, region, *truth, ceiling_m));
     ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region, *pages.front()));
     if (options.json) {
-        std::printf("%s\n", json_text(plan_json(budget, view, choice, unseen, meshes), true).c_str());
+        ordered_json json = plan_json(budget, view, choice, unseen, meshes);
+        json["notes"] = all_notes(region);
+        std::printf("%s\n", json_text(json, true).c_str());
         return {};
     }
     std::fputs(plan_text(budget, view, eye_of(view, region), choice, unseen, meshes).c_str(), stdout);

@@ -92,15 +92,29 @@ std::string rows(const Budget& budget, EffectGroup group, const View& view) {
 
 // Pixels alone: how many metres unknown ground rises nobody can say.
 std::string unseen_row(const UnseenGround& unseen, double tolerance_px) {
-    if (unseen.columns_beyond == 0) return {};
-    const std::string nothing = left_aligned(std::string(before_point - 1, ' ') + "-", size_columns);
-    std::string text = left_aligned("ground beyond the data", name_columns) +
-                       left_aligned("yes", flag_columns) +
-                       left_aligned(yes_or_no(unseen.bound_px <= tolerance_px), flag_columns) + nothing +
-                       nothing + point_aligned(unseen.bound_px, before_point);
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text + "  in " + grouped(static_cast<std::uint64_t>(unseen.columns_beyond)) + " of " +
-           counted(static_cast<std::uint64_t>(unseen.columns), "column", "columns") + "\n";
+    if (unseen.all_in_view) return {};
+    std::string text;
+    const auto add = [&](const char* name, int columns, double bound_px) {
+        if (columns == 0) return;
+        const std::string nothing = left_aligned(std::string(before_point - 1, ' ') + "-", size_columns);
+        text += left_aligned(name, name_columns) + left_aligned("yes", flag_columns) +
+                left_aligned(yes_or_no(bound_px <= tolerance_px), flag_columns) + nothing + nothing +
+                point_aligned(bound_px, before_point);
+        text.erase(text.find_last_not_of(' ') + 1);
+        text += "  in " + grouped(static_cast<std::uint64_t>(columns)) + " of " +
+                counted(static_cast<std::uint64_t>(unseen.columns), "column", "columns") + "\n";
+    };
+    add("ground beyond the data", unseen.columns_beyond, unseen.bound_px);
+    add("ground beyond the chosen part", unseen.columns_beyond_part, unseen.part_bound_px);
+    return text;
+}
+
+// Where the data, or the part of them that was chosen, end in view; a line each.
+std::string unseen_lines(const UnseenGround& unseen) {
+    std::string text;
+    for (const std::string& line : {unseen_ending(unseen), beyond_part_ending(unseen)})
+        if (!line.empty()) text += "\n" + line;
+    return text;
 }
 
 // What the heights that are drawn lost before: no effect of drawing, and measured, not predicted.
@@ -143,9 +157,11 @@ std::string advice(const Budget& budget, const View& view, const AccuracyChoice&
     const std::string predicted =
         about_beside(budget.tolerance_px, choice.predicted_px) + " px (" + choice.bundle.options + ")";
     std::string text = "Good to " + about_beside(budget.tolerance_px, budget.total.worst_px) + " px";
-    if (unseen.columns_beyond > 0) text += " where the data reach";
+    const std::string ends = unseen_lines(unseen);
+    if (!ends.empty()) text += " where the data reach";
     text += (within ? ": within the tolerance of " : ": more than the tolerance of ") + tolerance + ".";
-    if (unseen.columns_beyond > 0) text += "\n" + unseen_ending(unseen);
+    text += ends;
+    if (unseen.all_in_view) text += "\nAll of the data are in the picture, which shows where they end.";
     if (is_drawn_as(choice.bundle, view))
         text += choice.holds ? "\nThat is what " + option + " draws, the cheapest within " + tolerance + "."
                              : "\nThat is what " + option + " draws, and nothing else is closer.";
@@ -213,7 +229,7 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
     if (budget.empty) {
         std::string nothing =
             eye_text(view, eye) + "nothing of the region is in view: there is nothing to predict\n";
-        if (unseen.columns_beyond > 0) nothing += unseen_sentence(unseen) + "\n";
+        if (const std::string beyond = unseen_sentence(unseen); !beyond.empty()) nothing += beyond + "\n";
         return nothing;
     }
     char text[240];

@@ -33,9 +33,13 @@ Result<std::int64_t> parse_zone(const std::string& text) {
     return *utc - *there;
 }
 
-// The first second of the day there: by the zone, or from midnight by the mean sun.
-Result<std::int64_t> day_begin(const SunOptions& options, double lon_deg, std::int64_t east_s) {
-    const std::int64_t ahead_s = options.zone ? east_s : std::llround(lon_deg * day_s / 360.0);
+// How far clocks there are ahead of UTC: by the zone, or by the mean sun.
+std::int64_t ahead_of_utc_s(const SunOptions& options, double lon_deg, std::int64_t east_s) {
+    return options.zone ? east_s : std::llround(lon_deg * day_s / 360.0);
+}
+
+// The first second of the day there.
+Result<std::int64_t> day_begin(const SunOptions& options, std::int64_t ahead_s) {
     if (!options.date) {
         const std::int64_t there_s = time_now_s() + ahead_s;
         return there_s - (there_s % day_s + day_s) % day_s - ahead_s;
@@ -52,6 +56,17 @@ SunReport::Light light_of(const SunDayEvents& events, double from_utc_s, const G
         light.crossings.push_back({std::llround(crossing.time_utc_s), crossing.rising,
                                    sun_position(crossing.time_utc_s, place).azimuth_deg});
     return light;
+}
+
+// The first night after a noon, over a plain horizon.
+std::optional<SunReport::Night> night_after(double noon_utc_s, const Geodetic& place) {
+    const SunDayEvents events = sun_day(noon_utc_s, place);
+    for (std::size_t i = 0; i + 1 < events.crossings.size(); ++i) {
+        const SunCrossing &from = events.crossings[i], &to = events.crossings[i + 1];
+        if (!from.rising && to.rising)
+            return SunReport::Night{std::llround(from.time_utc_s), std::llround(to.time_utc_s)};
+    }
+    return std::nullopt;
 }
 
 // How far the grid reaches from a place in a direction, in whole kilometres; along a sphere, which is within
@@ -90,13 +105,14 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     const Region& around = widest_at(region, eye.lat_deg, eye.lon_deg);
     const double N_m = around.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     const SunOverTerrain sun(truth->ground(), eye, view.model.air, N_m);
-    const auto from_utc_s = static_cast<double>(report.from_utc_s);
+    const auto from_utc_s = static_cast<double>(report.light_from_utc_s);
     report.terrain = light_of(sun_day(from_utc_s, sun, thread_count()), from_utc_s, eye);
     for (SunReport::Crossing& crossing : report.terrain->crossings)
         crossing.data_reach_m = data_reach_m(around.field.grid, eye, crossing.azimuth_deg);
     ORO_CHECK(region.health());
     bar.clear();
     say_notes(region, options.quiet);
+    report.notes = all_notes(region);
     report.place = eye;
     report.H_m = eye.h_m - N_m;
     if (const auto ground = truth->ground().h_m(eye.lat_deg, eye.lon_deg))
@@ -140,20 +156,25 @@ Result<void> run_sun(const SunOptions& options) {
         ORO_TRY(report.east_s, parse_zone(*options.zone));
         report.zone = *options.zone;
     }
-    ORO_TRY(report.from_utc_s, day_begin(options, place->lon_deg, report.east_s));
+    const std::int64_t ahead_s = ahead_of_utc_s(options, place->lon_deg, report.east_s);
+    ORO_TRY(report.from_utc_s, day_begin(options, ahead_s));
+    constexpr std::size_t date_length = 10;
+    report.date = time_text(report.from_utc_s + ahead_s).substr(0, date_length);
     if (const std::string note = note_of_year(report.from_utc_s); !note.empty()) say(options.quiet, note);
+    // Over a plain horizon as almanacs have it: whatever the place's height.
+    const Geodetic plain{place->lat_deg, place->lon_deg, 0.0};
+    const double noon_utc_s = solar_noon_utc_s(static_cast<double>(report.from_utc_s), plain);
+    report.noon_utc_s = std::llround(noon_utc_s);
+    report.noon = sun_position(noon_utc_s, plain);
+    report.light_from_utc_s = report.noon_utc_s - day_s / 2;
     if (options.region.paths.empty()) {
         ORO_CHECK(leave_terrain_out(options));
     } else {
         ORO_CHECK(look_over_terrain(options, report));
     }
-    const auto from_utc_s = static_cast<double>(report.from_utc_s);
-    // Over a plain horizon as almanacs have it: whatever the place's height.
-    const Geodetic plain{place->lat_deg, place->lon_deg, 0.0};
+    const auto from_utc_s = static_cast<double>(report.light_from_utc_s);
     report.plain = light_of(sun_day(from_utc_s, plain), from_utc_s, plain);
-    const double noon_utc_s = solar_noon_utc_s(from_utc_s, plain);
-    report.noon_utc_s = std::llround(noon_utc_s);
-    report.noon = sun_position(noon_utc_s, plain);
+    report.night = night_after(static_cast<double>(report.noon_utc_s), plain);
     std::fputs(options.json ? (json_text(sun_json(report), true) + "\n").c_str() : sun_text(report).c_str(),
                stdout);
     return {};

@@ -116,12 +116,16 @@ ordered_json light_json_of(const SunReport& report, const SunReport::Light& ligh
 
 std::string sun_text(const SunReport& report) {
     std::string text = place_text(report);
-    text += "Day: 24 hours from " + time_there(report, report.from_utc_s) + "\n";
+    text += "Day: " + report.date + ", 24 hours around solar noon, from " +
+            time_there(report, report.light_from_utc_s) + "\n";
     if (report.terrain)
         text += light_text(report, *report.terrain, "Over the terrain (where the data end, over the sea)",
                            "the sun shows all day", "the sun does not show");
     text += light_text(report, report.plain, "Over a plain horizon", "polar day: the sun does not set",
                        "polar night: the sun does not rise");
+    if (report.night)
+        text += "    night        " + time_there(report, report.night->from_utc_s) + " to " +
+                time_there(report, report.night->to_utc_s) + "\n";
     char noon[80];
     std::snprintf(noon, sizeof noon, ", %.1f degrees high", report.noon.elevation_deg);
     return text + "Solar noon: " + time_there(report, report.noon_utc_s) + noon + "\n";
@@ -135,16 +139,25 @@ ordered_json sun_json(const SunReport& report) {
     if (report.H_m) place["h_m"] = report.place.h_m;
     if (report.H_m) place["H_m"] = *report.H_m;
     if (report.above_ground_m) place["above_ground_m"] = *report.above_ground_m;
+    json["date"] = report.date;
     json["from"] = time_there(report, report.from_utc_s);
     json["from_utc_s"] = report.from_utc_s;
+    json["light_from"] = time_there(report, report.light_from_utc_s);
+    json["light_from_utc_s"] = report.light_from_utc_s;
     json["terrain"] = nullptr;
     if (report.terrain) json["terrain"] = light_json_of(report, *report.terrain);
     json["plain"] = light_json_of(report, report.plain);
+    json["night"] = nullptr;
+    if (report.night)
+        json["night"] = json_object(
+            "from", time_there(report, report.night->from_utc_s), "from_utc_s", report.night->from_utc_s,
+            "to", time_there(report, report.night->to_utc_s), "to_utc_s", report.night->to_utc_s);
     json["noon"] =
         json_object("time", time_there(report, report.noon_utc_s), "time_utc_s", report.noon_utc_s,
                     "azimuth_deg", report.noon.azimuth_deg, "elevation_deg", report.noon.elevation_deg);
     json["light"] = nullptr;
     if (report.air) json["light"] = light_json(*report.air, report.place.h_m);
+    json["notes"] = report.notes;
     return json;
 }
 

@@ -22,18 +22,30 @@ struct SunReport {
     };
     struct Light {
         SunDay day{};
-        double sunlight_s{};  // of the 24 hours
+        double sunlight_s{};  // of the 24 hours around noon
         std::vector<Crossing> crossings;
     };
     Geodetic place;                        // h is 0 where there is no terrain
     std::optional<double> H_m;             // of the eye, and so are the next two: with terrain
     std::optional<double> above_ground_m;  // nothing where there is no ground below
     std::optional<Air> air;
-    std::int64_t from_utc_s{};  // the day: 24 hours from here on
-    std::int64_t east_s{};      // of UTC, for times that are told
+    std::string date;           // "2026-06-21", there
+    std::int64_t from_utc_s{};  // the day that was asked for: its midnight
+    // Light is looked for in the 24 hours around that day's solar noon: a day with its own evening, whatever
+    // the clock says then, and no night inside.
+    std::int64_t light_from_utc_s{};
+    std::int64_t east_s{};  // of UTC, for times that are told
     std::string zone{"Z"};
     Light plain;
+    // Over a plain horizon: from this day's sunset to the next sunrise; nothing where either is not within a
+    // day.
+    struct Night {
+        std::int64_t from_utc_s{};
+        std::int64_t to_utc_s{};
+    };
+    std::optional<Night> night;
     std::optional<Light> terrain;
+    std::vector<std::string> notes;  // on the terrain
     std::int64_t noon_utc_s{};
     SunPosition noon;
 };

@@ -15,6 +15,7 @@
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
 #include "apps/trade/trade_measurement.h"
 #include "apps/trade/trade_report.h"
 #include "apps/trade/trade_settings.h"
@@ -166,6 +167,7 @@ Result<void> run_trade(const TradeOptions& options) {
         options.view_file, view_options, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     say_changes(view, options.quiet);
+    say_notes(region, options.quiet);
     ORO_CHECK(spare_inputs({csv, html}, view, region));
     if (!options.view_file.empty()) ORO_CHECK(spare_view({csv, html}, options.view_file));
     if (!view.has_geoid)

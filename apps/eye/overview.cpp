@@ -96,7 +96,44 @@ void frame(Camera& camera, const Middle& middle, double heading_deg, double pitc
     }
 }
 
+// Whether a camera's picture shows a point.
+bool is_in_frame(const Camera& camera, const glm::dmat3& view_from_ecef, const glm::dvec3& eye_m,
+                 const Ecef& point) {
+    const glm::dvec3 seen = view_from_ecef * (point.m - eye_m);
+    const glm::dvec2 tangent = camera.half_fov_tangent();
+    return seen.z < 0.0 && std::abs(seen.x) <= -seen.z * tangent.x && std::abs(seen.y) <= -seen.z * tangent.y;
+}
+
+// Few posts that tell most pictures of a place from one of all at once.
+std::vector<Ecef> corner_points(const HeightField& field, double exaggeration) {
+    std::vector<Ecef> points;
+    const int last_row = field.grid.rows() - 1, last_column = field.grid.columns() - 1;
+    for (const int row : {0, last_row})
+        for (const int column : {0, last_column})
+            if (!is_void(field.H_at_post_m(row, column)))
+                points.push_back(post_ecef(field, row, column, exaggeration));
+    return points;
+}
+
 }  // namespace
+
+bool is_whole_in_view(const View& view, const Region& region) {
+    if (view.map || view.panorama) return false;
+    const Camera& camera = view.camera;
+    const glm::dmat3 view_from_ecef = camera.view_from_ecef();
+    const glm::dvec3 eye_m = ecef_from_geodetic(camera.eye).m;
+    const auto shows = [&](const std::vector<Ecef>& points) {
+        return std::ranges::all_of(
+            points, [&](const Ecef& point) { return is_in_frame(camera, view_from_ecef, eye_m, point); });
+    };
+    std::vector<const Region*> grids{&region};
+    for (const Region& other : region.beside) grids.push_back(&other);
+    for (const Region* const grid : grids)
+        if (!shows(corner_points(grid->field, view.exaggeration))) return false;
+    std::vector<Ecef> rim;
+    for (const Region* const grid : grids) add_rim_points(grid->field, view.exaggeration, rim);
+    return !rim.empty() && shows(rim);
+}
 
 Result<void> see_whole_region(View& view, const ViewOptions& options, const Region& region) {
     std::vector<Ecef> points = inner_points(region.field, view.exaggeration);

@@ -19,4 +19,8 @@ inline constexpr double overview_fov_deg = 30.0;
 // Errors: every post is void (no_data); an eye beyond view_limits (usage).
 Result<void> see_whole_region(View& view, const ViewOptions& options, const Region& region);
 
+// True when a view on a plane shows all of the region's rim: a picture in which the data are seen to end.
+// Places are taken without the air's bending.
+[[nodiscard]] bool is_whole_in_view(const View& view, const Region& region);
+
 }  // namespace oro

@@ -1,11 +1,16 @@
 #include "apps/report/region_json.h"
 
+#include <cmath>
+#include <filesystem>
+#include <optional>
 #include <set>
+#include <system_error>
 
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/progress_bar.h"
 #include "core/baked/region_format.h"
+#include "core/earth/ellipsoid.h"
 #include "geo/files/foreign_text.h"
 #include "geo/region/source_fields.h"
 #include "geo/region/source_words.h"
@@ -28,6 +33,9 @@ ordered_json source_json(const SourceReport& s) {
     json["posts"] = json_object("rows", s.rows, "columns", s.columns);
     json["spacing"] =
         json_object("lat_deg", s.lat_spacing_deg, "lon_deg", s.lon_spacing_deg, "metres", s.spacing_m);
+    // Of a projected CRS, as that counts it; not known of baked ones.
+    json["spacing"]["crs_metres"] = nullptr;
+    if (const auto spacing_m = projected_spacing_m(s)) json["spacing"]["crs_metres"] = *spacing_m;
     json["bbox"] = box_json(s.box);
     json["H_m"] = nullptr;  // where all its posts are void
     if (!s.is_all_void()) json["H_m"] = json_object("lowest", s.lowest_m, "highest", s.highest_m);
@@ -85,7 +93,7 @@ ordered_json region_json(const Region& region) {
     json["seams"] = seam_fields<ordered_json>(region.seams);
     json["seam_rule"] = "the finer spacing wins; among equals the first in the byte order of file names";
     json["missing_cells"] = region.missing_cells;
-    json["notes"] = region.notes;
+    json["notes"] = own_notes(region);
     return json;
 }
 
@@ -103,6 +111,22 @@ ordered_json graph_json(const ClusterFile& file, std::uint64_t finest) {
     return json;
 }
 
+std::optional<double> projected_spacing_m(const SourceReport& source) {
+    const double nominal_deg = source.nominal_spacing_deg;
+    if (nominal_deg <= 0.0) return std::nullopt;
+    // Degrees of a CRS are those of the report; metres are fewer degrees of its parallel than of the equator.
+    constexpr double same = 1.0e-4;
+    const double share = source.lat_spacing_deg * source.lon_spacing_deg / (nominal_deg * nominal_deg);
+    if (std::abs(share - 1.0) < same) return std::nullopt;
+    return radians_from_deg(nominal_deg).rad * wgs84_a_m;
+}
+
+std::uint64_t bytes_of_file(const RegionFile& file) {
+    std::error_code fault;
+    const std::uintmax_t bytes = std::filesystem::file_size(file.path(), fault);
+    return fault ? file.bytes() : bytes;
+}
+
 ordered_json file_json(const Region& region) {
     if (!region.file) return nullptr;
     const RegionFile& file = *region.file;
@@ -113,7 +137,9 @@ ordered_json file_json(const Region& region) {
     json["levels"] = file.order().levels();
     json["pages"] = file.order().count();
     json["triangles"] = file.outline().triangles;
-    json["bytes"] = file.bytes();
+    // Of all that the file holds, and of this grid in it.
+    json["bytes"] = bytes_of_file(file);
+    json["grid_bytes"] = file.bytes();
     if (region.clusters) json["clusters"] = graph_json(*region.clusters, file.outline().triangles);
     json["bytes_per_post"] =
         static_cast<double>(file.bytes()) / static_cast<double>(region.field.grid.post_count());
@@ -138,10 +164,38 @@ std::string note_of_voids(const Region& region) {
     return note;
 }
 
+std::string note_of_assumed_heights(const Region& region) {
+    std::string first;
+    std::size_t count = 0;
+    for (const SourceReport& source : region.sources) {
+        const DatumFrom from = source.vertical_datum.from;
+        if (from != DatumFrom::assumed_unstated && from != DatumFrom::assumed_unreadable) continue;
+        if (count++ == 0) first = source.path;
+    }
+    if (count == 0) return "";
+    if (count > 1) first += " and " + counted(count - 1, "more file", "more files");
+    return first + (count == 1 ? " does" : " do") +
+           " not say what the heights refer to: EGM96 heights are assumed (--source-vertical tells what they "
+           "are, when files are read)";
+}
+
+std::vector<std::string> own_notes(const Region& region) {
+    std::vector<std::string> notes = region.notes;
+    if (std::string assumed = note_of_assumed_heights(region); !assumed.empty())
+        notes.push_back(std::move(assumed));
+    return notes;
+}
+
+std::vector<std::string> all_notes(const Region& region) {
+    std::vector<std::string> notes = own_notes(region);
+    if (std::string holes = note_of_voids(region); !holes.empty()) notes.push_back(std::move(holes));
+    for (const Region& other : region.beside)
+        for (std::string& note : all_notes(other)) notes.push_back(std::move(note));
+    return notes;
+}
+
 void say_notes(const Region& region, bool quiet) {
-    for (const std::string& note : region.notes) say(quiet, "note: " + note);
-    if (const std::string holes = note_of_voids(region); !holes.empty()) say(quiet, "note: " + holes);
-    for (const Region& other : region.beside) say_notes(other, quiet);
+    for (const std::string& note : all_notes(region)) say(quiet, "note: " + note);
 }
 
 std::string attribution_of(const Region& region) {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -68,12 +69,23 @@ std::optional<double> number_in(std::string_view word) {
     return value;
 }
 
+// How colours go from one height to the next, as QGIS's tables say it; all others mix them.
+enum class Classes {
+    mixed,
+    up_to,  // each colour holds from the height before, up to its own
+    exact,  // at its own height alone
+};
+
 // What a line says: its colour, and where it holds.
 struct Entry {
     enum class Kind { height, percentage, no_data };
     Kind kind{Kind::height};
     double value{};
     ColourCodes colour;
+};
+struct Table {
+    std::vector<Entry> entries;
+    Classes classes{Classes::mixed};
 };
 
 // A word of the file in quotes, as it can be shown: of foreign bytes and control characters marks alone, and
@@ -118,15 +130,32 @@ std::string read_entry(const std::vector<std::string>& words, Entry& entry) {
             return quoted(first) + " is no percentage from 0 to 100";
         entry.value = *value;
     } else {
-        const auto value = number_in(first);
-        if (!value || std::abs(*value) > largest_m) return quoted(first) + " is no height in metres";
+        // The class above all heights.
+        const bool above_all = lower(first) == "inf" || lower(first) == "+inf";
+        const auto value = above_all ? std::numeric_limits<double>::infinity() : number_in(first);
+        if (!value || (!above_all && std::abs(*value) > largest_m))
+            return quoted(first) + " is no height in metres";
         entry.value = *value;
     }
     return read_colour(words, entry.colour);
 }
 
-Result<std::vector<Entry>> read_entries(const std::string& text, const std::string& file) {
-    std::vector<Entry> entries;
+// The reason, where the words of QGIS's line are none.
+std::string read_classes(const std::vector<std::string>& words, Classes& classes) {
+    const std::string how = words.size() > 1 ? lower(words[1]) : "";
+    static constexpr std::array<std::pair<std::string_view, Classes>, 3> known{
+        {{"interpolated", Classes::mixed}, {"discrete", Classes::up_to}, {"exact", Classes::exact}}};
+    for (const auto& [word, meant] : known) {
+        if (how != word) continue;
+        classes = meant;
+        return "";
+    }
+    return "INTERPOLATION is INTERPOLATED, DISCRETE or EXACT, not " +
+           quoted(words.size() > 1 ? words[1] : "");
+}
+
+Result<Table> read_table(const std::string& text, const std::string& file) {
+    Table table;
     std::istringstream in(text);
     std::size_t number = 0;
     for (std::string line; std::getline(in, line);) {
@@ -136,11 +165,48 @@ Result<std::vector<Entry>> read_entries(const std::string& text, const std::stri
         const std::vector<std::string> words = words_of(line);
         if (words.empty() || words[0].starts_with('#') || words[0].starts_with('/')) continue;
         Entry entry;
-        if (const std::string reason = read_entry(words, entry); !reason.empty())
-            return Error{ErrorKind::failed, where, reason};
-        entries.push_back(entry);
+        const bool is_head = lower(words[0]) == "interpolation";
+        const std::string reason = is_head ? read_classes(words, table.classes) : read_entry(words, entry);
+        if (!reason.empty()) return Error{ErrorKind::failed, where, reason};
+        if (!is_head) table.entries.push_back(entry);
     }
-    return entries;
+    return table;
+}
+
+using Stops = std::vector<std::pair<float, ColourCodes>>;
+
+// A class ends so far above its height that what rounding adds to a height of its own still has its colour:
+// heights are kept in steps of 2^-11 m.
+float just_above(double H_m) {
+    const auto at = static_cast<float>(H_m + 0x1p-11);
+    return std::nextafter(at, std::numeric_limits<float>::infinity());
+}
+
+// The stops of a style, which mixes between two and steps where one stands twice; ascending. What no class
+// holds is `outside`.
+Stops stops_of(const std::vector<std::pair<double, ColourCodes>>& heights, Classes classes,
+               ColourCodes outside) {
+    Stops stops;
+    const auto step = [&](float at, ColourCodes below, ColourCodes above) {
+        stops.emplace_back(at, below);
+        stops.emplace_back(at, above);
+    };
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const auto& [H_m, colour] = heights[i];
+        const bool is_last = i + 1 == heights.size();
+        if (std::isinf(H_m)) {
+            // QGIS mixes none of it in: an infinite height is infinitely far.
+            if (stops.empty() && classes != Classes::exact) stops.emplace_back(0.0F, colour);
+        } else if (classes == Classes::mixed) {
+            stops.emplace_back(static_cast<float>(H_m), colour);
+        } else if (classes == Classes::up_to) {
+            step(just_above(H_m), colour, is_last ? outside : heights[i + 1].second);
+        } else {
+            step(-just_above(-H_m), outside, colour);
+            step(just_above(H_m), colour, outside);
+        }
+    }
+    return stops;
 }
 
 gpu::FrameStyle flat_map() {
@@ -160,14 +226,15 @@ gpu::FrameStyle flat_map() {
 
 Result<gpu::FrameStyle> style_of_colour_table(const std::string& text, const std::string& file,
                                               const std::function<HeightRange()>& range) {
-    ORO_TRY(const std::vector<Entry> entries, read_entries(text, file));
+    ORO_TRY(const Table table, read_table(text, file));
     gpu::FrameStyle style = flat_map();
+    ColourCodes background = paper;
     std::optional<HeightRange> heights;
-    std::vector<std::pair<double, ColourCodes>> stops;
-    for (const Entry& entry : entries) {
+    std::vector<std::pair<double, ColourCodes>> coloured;
+    for (const Entry& entry : table.entries) {
         double H_m = entry.value;
         if (entry.kind == Entry::Kind::no_data) {
-            style.no_data_colour = linear_light(entry.colour);
+            background = entry.colour;
             continue;
         }
         if (entry.kind == Entry::Kind::percentage) {
@@ -175,16 +242,19 @@ Result<gpu::FrameStyle> style_of_colour_table(const std::string& text, const std
             const double lowest_m = heights->lowest_m, highest_m = heights->highest_m;
             H_m = lowest_m + (highest_m - lowest_m) * entry.value / 100.0;
         }
-        stops.emplace_back(H_m, entry.colour);
+        coloured.emplace_back(H_m, entry.colour);
     }
+    style.no_data_colour = linear_light(background);
+    std::ranges::stable_sort(coloured, {}, &std::pair<double, ColourCodes>::first);
+    const Stops stops = stops_of(coloured, table.classes, background);
     if (stops.empty()) return Error{ErrorKind::failed, file, "no line holds a height and a colour"};
-    if (stops.size() > gpu::tint_stops_max)
+    if (stops.size() > gpu::tint_stops_max) {
+        const std::size_t stops_each = stops.size() / coloured.size();
         return Error{ErrorKind::failed, file,
-                     std::to_string(stops.size()) + " heights; a style has room for " +
-                         std::to_string(gpu::tint_stops_max)};
-    std::ranges::stable_sort(stops, {}, &std::pair<double, ColourCodes>::first);
-    for (const auto& [H_m, colour] : stops)
-        style.tints[style.tint_count++] = {static_cast<float>(H_m), unit_codes(colour)};
+                     std::to_string(coloured.size()) + " heights; a style has room for " +
+                         std::to_string(gpu::tint_stops_max / std::max<std::size_t>(1, stops_each))};
+    }
+    for (const auto& [H_m, colour] : stops) style.tints[style.tint_count++] = {H_m, unit_codes(colour)};
     return style;
 }
 

@@ -18,6 +18,7 @@
 #include "apps/styles/style_json.h"
 #include "apps/view/model_names.h"
 #include "core/light/sun_position.h"
+#include "geo/files/text_encoding.h"
 
 namespace oro {
 namespace {
@@ -126,7 +127,9 @@ Result<Style> load_style(const View& view, const HeightField& field) {
         return Error{!is_path && no_such ? ErrorKind::usage : ErrorKind::failed, "--style " + name,
                      text.error().line()};
     }
-    ORO_TRY(Style style, read_style(*text, path, field));
+    const auto plain = utf8_text(*text);
+    if (!plain.ok()) return Error{ErrorKind::failed, path, plain.error().what};
+    ORO_TRY(Style style, read_style(*plain, path, field));
     if (view.visibility_km) {
         if (style.frame.air.on == 0)
             return Error{ErrorKind::usage, "--visibility", "is for styles with air; " + name + " has none"};

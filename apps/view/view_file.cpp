@@ -15,6 +15,7 @@
 #include "apps/view/view_paths.h"
 #include "core/light/utc_time.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/text_encoding.h"
 #include "geo/pictures/picture.h"
 #include "geo/sources/raster_source.h"
 #include "render/device/raster_request.h"
@@ -194,7 +195,7 @@ void read_region(const nlohmann::json& json, RegionRequest& region) {
     if (!json_field(json, "bbox").is_null()) region.box = read_box(json);
     region.height_unit = json_string(json, "height_unit");
     if (!region.height_unit.empty() && !metres_in(region.height_unit))
-        throw JsonFault{"'height_unit' is '" + region.height_unit + "', none of m, ft, us-ft, cm"};
+        throw JsonFault{"'height_unit' is '" + region.height_unit + "', none of m, ft, us-ft, cm, dm, mm"};
     // Where nothing was told there is none.
     if (json.contains("source_crs")) region.source_crs = json_string(json, "source_crs");
     if (const auto fault = fault_of_source_crs(region.source_crs)) throw JsonFault{"'source_crs' " + *fault};
@@ -372,8 +373,10 @@ Result<View> view_from_json(const std::string& text, const std::string& where) {
 Result<View> read_view(const std::string& path) {
     const std::size_t dot = path.find_last_of('.');
     const std::string ending = dot == std::string::npos ? "" : lower_case(path.substr(dot));
-    ORO_TRY(const std::string text, ending == ".json" ? read_text_file(path) : read_view_json(path));
-    ORO_TRY(View view, view_from_json(text, path));
+    ORO_TRY(std::string bytes, ending == ".json" ? read_text_file(path) : read_view_json(path));
+    const auto text = utf8_text(std::move(bytes));
+    if (!text.ok()) return Error{text.error().kind, path, text.error().what};
+    ORO_TRY(View view, view_from_json(*text, path));
     ORO_CHECK(lead_from_working_folder(view, path));
     return view;
 }

@@ -191,7 +191,7 @@ Result<void> take_picture(Viewer& viewer) {
     say(viewer.options.quiet && written.ok(), viewer.message);
     if (!written.ok() || viewer.options.quiet) return {};
     ORO_TRY(const UnseenGround unseen, unseen_in(viewer.view, viewer.region, usual_unseen_ceiling_m));
-    if (unseen.columns_beyond > 0) say(false, "note: " + unseen_sentence(unseen));
+    if (const std::string note = unseen_sentence(unseen); !note.empty()) say(false, "note: " + note);
     return {};
 }
 

@@ -1,5 +1,6 @@
 #include "core/sight/ground_profile.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace oro {
@@ -46,8 +47,78 @@ void add_profile(const TrueGround& ground, const Way& way, double from_m, double
     if (to_m > from_m) add(to_m);
 }
 
-ProfileSums sums_of(const std::vector<ProfilePoint>& points) {
+namespace {
+
+// One part of a line, as its heights come.
+class Turns {
+  public:
+    explicit Turns(double threshold_m) : threshold_m_(threshold_m) {}
+
+    void add(double H_m) {
+        switch (way_) {
+            case Way::unbegun:
+                low_m_ = high_m_ = H_m;
+                way_ = Way::level;
+                return;
+            case Way::level:
+                low_m_ = std::min(low_m_, H_m);
+                high_m_ = std::max(high_m_, H_m);
+                if (is_enough(H_m - low_m_)) way_ = Way::up;
+                if (is_enough(high_m_ - H_m)) way_ = Way::down;
+                return;
+            case Way::up:
+                if (H_m > high_m_) high_m_ = H_m;
+                if (!is_enough(high_m_ - H_m)) return;
+                climb_.up_m += high_m_ - low_m_;
+                low_m_ = H_m;
+                way_ = Way::down;
+                return;
+            case Way::down:
+                if (H_m < low_m_) low_m_ = H_m;
+                if (!is_enough(H_m - low_m_)) return;
+                climb_.down_m += high_m_ - low_m_;
+                high_m_ = H_m;
+                way_ = Way::up;
+                return;
+        }
+    }
+    void end() {
+        if (way_ == Way::up) climb_.up_m += high_m_ - low_m_;
+        if (way_ == Way::down) climb_.down_m += high_m_ - low_m_;
+        way_ = Way::unbegun;
+    }
+    [[nodiscard]] const Climb& climb() const { return climb_; }
+
+  private:
+    enum class Way { unbegun, level, up, down };
+    [[nodiscard]] bool is_enough(double change_m) const { return change_m > 0.0 && change_m >= threshold_m_; }
+
+    double threshold_m_;
+    Way way_{Way::unbegun};
+    double low_m_{}, high_m_{};  // of the way since the last turn
+    Climb climb_;
+};
+
+}  // namespace
+
+Climb climb_over(const std::vector<ProfilePoint>& points, double threshold_m) {
+    Turns turns(threshold_m);
+    for (const ProfilePoint& point : points) {
+        if (point.has_ground)
+            turns.add(point.H_m);
+        else
+            turns.end();
+    }
+    turns.end();
+    return turns.climb();
+}
+
+ProfileSums sums_of(const std::vector<ProfilePoint>& points, double climb_threshold_m) {
     ProfileSums sums;
+    const Climb climb = climb_over(points, climb_threshold_m);
+    sums.climb_threshold_m = climb_threshold_m;
+    sums.climbed_m = climb.up_m;
+    sums.went_down_m = climb.down_m;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const ProfilePoint& here = points[i];
         if (here.has_ground) {

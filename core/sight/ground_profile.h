@@ -32,10 +32,24 @@ ProfilePoint profile_point(const TrueGround& ground, const Geodetic& place, doub
 struct ProfileSums {
     double ascent_m{};   // of H, from point to point where both have ground
     double descent_m{};  // 0 or more
+    // The same of rises and falls of climb_threshold_m or more alone (climb_over()).
+    double climb_threshold_m{};
+    double climbed_m{};
+    double went_down_m{};
     // Numbers of the first of the highest and of the lowest points; nothing where none has ground.
     std::optional<std::size_t> highest, lowest;
     double without_data_m{};  // between points of which one has no ground
 };
-ProfileSums sums_of(const std::vector<ProfilePoint>& points);
+// `climb_threshold_m`: 0 or more.
+ProfileSums sums_of(const std::vector<ProfilePoint>& points, double climb_threshold_m);
+
+// How far a line climbs and goes down as guides and receivers count it: the line turns where it has come back
+// by the threshold or more from its highest (lowest) place since its last turn, and each way between two
+// turns counts whole. What goes up and down by less is left out. Of a line in parts, each by itself.
+struct Climb {
+    double up_m{};
+    double down_m{};  // 0 or more
+};
+Climb climb_over(const std::vector<ProfilePoint>& points, double threshold_m);
 
 }  // namespace oro

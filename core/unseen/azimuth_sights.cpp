@@ -146,11 +146,12 @@ void AzimuthSights::add(const Azimuth& azimuth, const Stretch& stretch, double t
         const double inside = std::min(0.5 * (stretch.begin_rad + stretch.end_rad),
                                        std::max(0.5 * (begin + end), stretch.begin_rad + inside_rad));
         const Geodetic place = azimuth.track.place_at(inside);
-        const DegreeCell cell = degree_cell_at(place.lat_deg, place.lon_deg);
-        if (found.size() > already && found.back().cell == cell)
+        const UnseenPlace unseen = known_.unseen_at(place.lat_deg, place.lon_deg);
+        if (found.size() > already && found.back().place == unseen)
             found.back().lines.high_rad = top;
         else
-            found.push_back({{found.size() > already ? found.back().lines.high_rad : floor_rad, top}, cell});
+            found.push_back(
+                {{found.size() > already ? found.back().lines.high_rad : floor_rad, top}, unseen});
     }
 }
 
@@ -165,7 +166,7 @@ std::vector<BeyondData> AzimuthSights::beyond(const Azimuth& azimuth, const std:
         const bool at_eye = stretch.begin_rad == 0.0;
         if (at_eye && below_ceiling) {
             const Geodetic place = azimuth.track.place_at(std::min(inside_rad, 0.5 * stretch.end_rad));
-            found.push_back({{-quarter_rad, quarter_rad}, degree_cell_at(place.lat_deg, place.lon_deg)});
+            found.push_back({{-quarter_rad, quarter_rad}, known_.unseen_at(place.lat_deg, place.lon_deg)});
             break;
         }
         const double top_angle = std::clamp(highest_rad, stretch.begin_rad, stretch.end_rad);

@@ -20,7 +20,7 @@ struct ElevationInterval {
 // Lines of elevations in (low, high] come into `cell` first of all where there are no data.
 struct BeyondData {
     ElevationInterval lines;
-    DegreeCell cell;
+    UnseenPlace place;
 };
 
 class AzimuthSights {

@@ -13,6 +13,21 @@ constexpr int most_blocks = 128;
 // A place on the edge of the region may come out this many posts beyond it.
 constexpr double edge_slack_posts = 1.0e-6;
 
+// Sides of a grid on latitudes and longitudes stand for those of a part that are within two posts of them:
+// the grid's posts need not lie on the part's rim.
+DegreeBox with_sides_of(const PostGrid& grid, DegreeBox part) {
+    constexpr double posts = 2.0;
+    const double lat_deg = posts * grid.lat.spacing_deg(), lon_deg = posts * grid.lon.spacing_deg();
+    const auto take = [](double& side, double of_grid, double slack_deg) {
+        if (std::abs(std::remainder(side - of_grid, 360.0)) <= slack_deg) side = of_grid;
+    };
+    take(part.west_deg, grid.west_deg(), lon_deg);
+    take(part.east_deg, grid.east_deg(), lon_deg);
+    take(part.south_deg, grid.south_deg(), lat_deg);
+    take(part.north_deg, grid.north_deg(), lat_deg);
+    return part;
+}
+
 }  // namespace
 
 DegreeCell degree_cell_at(double lat_deg, double lon_deg) {
@@ -21,8 +36,10 @@ DegreeCell degree_cell_at(double lat_deg, double lon_deg) {
     return {lat, lon >= 180 ? lon - 360 : lon};
 }
 
-KnownGround::KnownGround(const HeightField& field, std::span<const DegreeCell> missing, bool has_rims)
-    : grid_(field.grid), missing_(missing.begin(), missing.end()) {
+KnownGround::KnownGround(const HeightField& field, std::span<const DegreeCell> missing, bool has_rims,
+                         const std::optional<DegreeBox>& part)
+    : grid_(field.grid), part_(part), missing_(missing.begin(), missing.end()) {
+    if (part_ && !grid_.net) part_ = with_sides_of(grid_, *part_);
     parallels_deg_ = {grid_.south_deg(), grid_.north_deg()};
     meridians_deg_ = {grid_.west_deg(), grid_.east_deg()};
     // The whole degrees of missing cells, each once.
@@ -108,6 +125,17 @@ void KnownGround::find_rims(const HeightField& field) {
         parallels_deg_.push_back(grid_.lat.at_deg(std::int64_t{row} * posts_a_block_));
     for (int column = 1; column < block_columns_; ++column)
         meridians_deg_.push_back(grid_.lon.at_deg(std::int64_t{column} * posts_a_block_));
+}
+
+bool KnownGround::is_beyond_part(double lat_deg, double lon_deg) const {
+    if (!part_) return false;
+    if (lat_deg < part_->south_deg || lat_deg > part_->north_deg) return true;
+    const auto turned_deg = [](double angle_deg) {
+        return angle_deg - 360.0 * std::floor(angle_deg / 360.0);
+    };
+    const double wide_deg = part_->east_deg - part_->west_deg;
+    if (wide_deg >= 360.0) return false;
+    return turned_deg(lon_deg - part_->west_deg) > turned_deg(wide_deg);
 }
 
 bool KnownGround::holds(double lat_deg, double lon_deg) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
@@ -18,8 +19,22 @@ struct DegreeCell {
     int lon_deg{};
     auto operator<=>(const DegreeCell&) const = default;
 };
+// Where there are no data: in which cell, and whether because a part was chosen that ends before.
+struct UnseenPlace {
+    DegreeCell cell;
+    bool is_beyond_part{};
+    auto operator<=>(const UnseenPlace&) const = default;
+};
 // The cell that a place is in; the poles belong to the cells beside them.
 DegreeCell degree_cell_at(double lat_deg, double lon_deg);
+
+// A part of the Earth in degrees; west > east crosses the antimeridian.
+struct DegreeBox {
+    double west_deg{};
+    double south_deg{};
+    double east_deg{};
+    double north_deg{};
+};
 
 // Between two neighbouring parallels of parallels_deg() and two neighbouring meridians of meridians_deg()
 // there are data everywhere or nowhere.
@@ -31,11 +46,20 @@ class KnownGround {
     // cell: blocks of posts (at most 128 along an axis) that hold a void post and are so joined count as
     // without data, whole. That errs towards no data, by a block, and for voids at the very edge. Looks at
     // every post then, else at none.
-    KnownGround(const HeightField& field, std::span<const DegreeCell> missing, bool has_rims);
+    // `part`: what was chosen of the data, nothing where all of them were.
+    KnownGround(const HeightField& field, std::span<const DegreeCell> missing, bool has_rims,
+                const std::optional<DegreeBox>& part = {});
 
     // True where there are data, or a void post of a source. Any whole turn of the longitude. The edges count
     // as inside.
     [[nodiscard]] bool holds(double lat_deg, double lon_deg) const;
+    // True of a place outside the part that was chosen: there may be data, which nobody asked for. A side of
+    // the part is where the grid ends, when that is within two posts of it.
+    [[nodiscard]] bool is_beyond_part(double lat_deg, double lon_deg) const;
+    // Of a place without data.
+    [[nodiscard]] UnseenPlace unseen_at(double lat_deg, double lon_deg) const {
+        return {degree_cell_at(lat_deg, lon_deg), is_beyond_part(lat_deg, lon_deg)};
+    }
     // In no order; longitudes in any whole turn.
     [[nodiscard]] const std::vector<double>& parallels_deg() const { return parallels_deg_; }
     [[nodiscard]] const std::vector<double>& meridians_deg() const { return meridians_deg_; }
@@ -46,6 +70,7 @@ class KnownGround {
     [[nodiscard]] bool beside_nothing(int block_row, int block_column) const;
 
     PostGrid grid_;
+    std::optional<DegreeBox> part_;
     std::set<DegreeCell> missing_;
     std::vector<double> parallels_deg_;
     std::vector<double> meridians_deg_;

@@ -108,7 +108,7 @@ struct Azimuths {
     };
     struct Beyond {
         Tangents lines;
-        DegreeCell cell;
+        UnseenPlace place;
     };
     std::int32_t first{};
     std::vector<Tangents> wanted;
@@ -148,7 +148,7 @@ struct Azimuths {
                 ground_below[number] = tangent_of(look.ground_below_rad);
                 for (const BeyondData& some : look.beyond)
                     beyond[number].push_back(
-                        {{tangent_of(some.lines.low_rad), tangent_of(some.lines.high_rad)}, some.cell});
+                        {{tangent_of(some.lines.low_rad), tangent_of(some.lines.high_rad)}, some.place});
             }
         });
     }
@@ -175,7 +175,7 @@ UnseenPicture unseen_picture(const TrueSurface& surface, const KnownGround& know
     Azimuths azimuths(directions.all());
     azimuths.look(sights, directions, threads);
 
-    std::map<DegreeCell, std::int32_t> numbers;
+    std::map<UnseenPlace, std::int32_t> numbers;
     picture.kind.reserve(directions.all().size());
     for (const Direction& direction : directions.all()) {
         const auto azimuth = static_cast<std::size_t>(direction.azimuth - azimuths.first);
@@ -186,8 +186,8 @@ UnseenPicture unseen_picture(const TrueSurface& surface, const KnownGround& know
             kind = UnseenPicture::data;
             if (direction.tangent <= some.lines.low) continue;
             const auto next = static_cast<std::int32_t>(numbers.size());
-            const auto [number, fresh] = numbers.try_emplace(some.cell, next);
-            if (fresh) picture.cells.push_back(some.cell);
+            const auto [number, fresh] = numbers.try_emplace(some.place, next);
+            if (fresh) picture.cells.push_back(some.place);
             kind = number->second;
             break;
         }
@@ -223,29 +223,40 @@ UnseenGround unseen_ground(const UnseenPicture& picture, const Camera& camera, d
     unseen.ceiling_m = ceiling_m;
     unseen.columns = camera.width_px;
     unseen.column_px.resize(static_cast<std::size_t>(picture.columns));
-    for (const DegreeCell& cell : picture.cells) unseen.missing.push_back({cell, 0.0, 0});
+    std::vector<UnseenCell> looked_into;
+    for (const UnseenPlace& place : picture.cells) looked_into.push_back({place.cell, 0.0, 0});
     const double row_px = static_cast<double>(camera.height_px) / picture.rows;
-    std::int64_t beyond = 0;
+    std::int64_t beyond = 0, beyond_part = 0;
     std::vector<std::int32_t> cells;
     for (int column = 0; column < picture.columns; ++column) {
         cells.clear();
         const double bound_px = row_px * longest_run(picture, column, cells);
         unseen.column_px[static_cast<std::size_t>(column)] = static_cast<float>(bound_px);
-        unseen.bound_px = std::max(unseen.bound_px, bound_px);
-        beyond += bound_px > 0.0;
-        for (const std::int32_t cell : cells) {
-            UnseenCell& missing = unseen.missing[static_cast<std::size_t>(cell)];
-            missing.bound_px = std::max(missing.bound_px, bound_px);
-            ++missing.columns;
+        bool into_missing = false, into_rest = false;
+        for (const std::int32_t number : cells) {
+            const auto cell = static_cast<std::size_t>(number);
+            (picture.cells[cell].is_beyond_part ? into_rest : into_missing) = true;
+            looked_into[cell].bound_px = std::max(looked_into[cell].bound_px, bound_px);
+            ++looked_into[cell].columns;
         }
+        if (into_missing) unseen.bound_px = std::max(unseen.bound_px, bound_px);
+        if (into_rest) unseen.part_bound_px = std::max(unseen.part_bound_px, bound_px);
+        beyond += into_missing ? 1 : 0;
+        beyond_part += into_rest ? 1 : 0;
     }
     // Rounded up: one column of those looked at stands for as many as there are to each.
-    unseen.columns_beyond =
-        static_cast<int>((beyond * camera.width_px + picture.columns - 1) / picture.columns);
-    std::ranges::sort(unseen.missing, [](const UnseenCell& a, const UnseenCell& b) {
-        if (a.bound_px != b.bound_px) return a.bound_px > b.bound_px;
-        return a.columns != b.columns ? a.columns > b.columns : a.cell < b.cell;
-    });
+    const auto of_all = [&](std::int64_t columns) {
+        return static_cast<int>((columns * camera.width_px + picture.columns - 1) / picture.columns);
+    };
+    unseen.columns_beyond = of_all(beyond);
+    unseen.columns_beyond_part = of_all(beyond_part);
+    for (std::size_t i = 0; i < looked_into.size(); ++i)
+        (picture.cells[i].is_beyond_part ? unseen.beyond_part : unseen.missing).push_back(looked_into[i]);
+    for (std::vector<UnseenCell>* const some : {&unseen.missing, &unseen.beyond_part})
+        std::ranges::sort(*some, [](const UnseenCell& a, const UnseenCell& b) {
+            if (a.bound_px != b.bound_px) return a.bound_px > b.bound_px;
+            return a.columns != b.columns ? a.columns > b.columns : a.cell < b.cell;
+        });
     return unseen;
 }
 

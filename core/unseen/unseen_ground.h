@@ -46,7 +46,7 @@ struct UnseenPicture {
     int rows{};
     // Row by row; from 0 on: unknown ground could be seen, first in cells[kind].
     std::vector<std::int32_t> kind;
-    std::vector<DegreeCell> cells;
+    std::vector<UnseenPlace> cells;
 
     [[nodiscard]] std::int32_t at(int column, int row) const {
         return kind[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -72,11 +72,19 @@ struct UnseenCell {
 struct UnseenGround {
     double ceiling_m{};
     int columns{};         // of the picture
-    int columns_beyond{};  // of them those that look beyond the data
-    double bound_px{};     // the largest of any column; never below what any unknown ground could do, but for
-                           // what `unseen_picture` may miss; up to two pixels above it
+    int columns_beyond{};  // of them those that look beyond the data: into cells that are missing
+    double bound_px{};  // the largest of those columns; never below what any unknown ground could do, but for
+                        // what `unseen_picture` may miss; up to two pixels above it
     std::vector<UnseenCell>
         missing;  // largest bound first, then most columns; each without data where it is entered
+    // The same three of columns that look beyond the part of the data that was chosen. A column may look
+    // beyond both; its bound then counts for both.
+    int columns_beyond_part{};
+    double part_bound_px{};
+    std::vector<UnseenCell> beyond_part;
+    // The picture shows all of the data, and so their end: nobody takes that for a skyline. Told by whoever
+    // knows the picture's frame (apps/accuracy/beyond_data.h).
+    bool all_in_view{};
     std::vector<float> column_px;  // of each column that was looked at; 0: none
 };
 // `camera`: that of the picture.

@@ -1,6 +1,7 @@
 #include "geo/files/archive_entries.h"
 
 #include <cpl_vsi.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -133,6 +134,28 @@ std::uint64_t zip64_size(Bytes extra, std::uint64_t otherwise) {
     return otherwise;
 }
 
+// Why an entry with these flags and this method cannot be unpacked by GDAL, which knows two methods.
+std::string unreadable_words(std::uint64_t flags, std::uint64_t method) {
+    if ((flags & 1U) != 0) return "is locked with a password: unpack it, and name the file";
+    if (method == 0 || method == 8) return "";
+    struct Method {
+        std::uint64_t number;
+        std::string_view name;
+    };
+    static constexpr std::array<Method, 8> known{{{6, "Implode"},
+                                                  {9, "Deflate64"},
+                                                  {12, "bzip2"},
+                                                  {14, "LZMA"},
+                                                  {93, "Zstandard"},
+                                                  {95, "XZ"},
+                                                  {98, "PPMd"},
+                                                  {99, "AES encryption"}}};
+    const auto* const found = std::ranges::find(known, method, &Method::number);
+    const std::string name =
+        found == known.end() ? "method " + std::to_string(method) : std::string(found->name);
+    return "is packed by " + name + ", and only Deflate is read: unpack it, and name the file";
+}
+
 Error too_many(const Archive& archive, std::uint64_t entries) {
     return archive.fault("it has " + (entries > 0 ? std::to_string(entries) : "more") +
                          " entries, and the limit is " + std::to_string(most_archive_entries) +
@@ -156,7 +179,9 @@ Result<std::vector<ArchiveEntry>> zip_entries(const Archive& archive) {
         const std::uint64_t name = number_at(list, at + 28, 2), extra = number_at(list, at + 30, 2);
         const std::uint64_t all = entry_bytes + name + extra + number_at(list, at + 32, 2);
         if (list.size() - at < all) return damaged();
-        ArchiveEntry entry{plain_name(text_at(list, at + entry_bytes, name)), number_at(list, at + 24, 4)};
+        ArchiveEntry entry{plain_name(text_at(list, at + entry_bytes, name)), number_at(list, at + 24, 4),
+                           unreadable_words(number_at(list, at + 8, 2), number_at(list, at + 10, 2)),
+                           static_cast<std::uint32_t>(number_at(list, at + 16, 4))};
         if (entry.bytes == in_zip64_32)
             entry.bytes = zip64_size(Bytes(list).subspan(at + entry_bytes + name, extra), entry.bytes);
         if (!entry.name.ends_with('/')) entries.push_back(std::move(entry));
@@ -231,7 +256,8 @@ class TarWalk {
                 continue;
             }
             if (type == '0' || type == '\0' || type == '7')
-                found.push_back({plain_name(long_name_.empty() ? name_of(header) : long_name_), *size});
+                found.push_back(
+                    {plain_name(long_name_.empty() ? name_of(header) : long_name_), *size, "", 0});
             long_name_.clear();
             ORO_CHECK(skip(*size + padding(*size)));
         }
@@ -312,6 +338,28 @@ Result<std::vector<ArchiveEntry>> archive_entries(const std::string& file, const
     }
     VSIFSeekL(archive.file.get(), 0, SEEK_SET);
     return TarWalk(archive).entries();
+}
+
+Result<std::string> unpacked(const std::string& file, const std::string& shown, const ArchiveEntry& entry) {
+    start_gdal();
+    const std::string where = shown + "/" + entry.name;
+    if (!entry.unreadable.empty()) return Error{ErrorKind::failed, where, entry.unreadable};
+    const GdalMessages messages;
+    const File opened(VSIFOpenL(("/vsizip/{" + file + "}/" + entry.name).c_str(), "rb"));
+    const Error damaged{ErrorKind::failed, where, "cannot be unpacked: it is damaged"};
+    if (!opened) return damaged;
+    std::string bytes(entry.bytes, '\0');
+    const std::size_t got = VSIFReadL(bytes.data(), 1, bytes.size(), opened.get());
+    if (got != bytes.size() || !messages.last("").empty()) return damaged;
+    // GDAL compares checksums of what was packed alone.
+    uLong sum = crc32(0, nullptr, 0);
+    for (std::size_t at = 0; at < bytes.size();) {
+        const auto part = static_cast<uInt>(std::min<std::size_t>(bytes.size() - at, std::size_t{1} << 30U));
+        sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes.data() + at), part);
+        at += part;
+    }
+    if (sum != entry.checksum) return damaged;
+    return bytes;
 }
 
 }  // namespace oro

@@ -20,6 +20,8 @@ enum class ArchiveKind { zip, tar };
 struct ArchiveEntry {
     std::string name;  // with '/' between folders, as GDAL names it
     std::uint64_t bytes{};
+    std::string unreadable;  // why it cannot be unpacked here (a password, a rare way of packing), or ""
+    std::uint32_t checksum{};  // CRC-32 of its bytes, of a .zip
 };
 
 // Names and unpacked sizes of the files (not folders) in an archive, in its own order. `file` is a real path,
@@ -28,5 +30,8 @@ struct ArchiveEntry {
 // above.
 Result<std::vector<ArchiveEntry>> archive_entries(const std::string& file, const std::string& shown,
                                                   ArchiveKind kind);
+
+// All bytes of an entry of a .zip. Errors: one that is unreadable, or is damaged.
+Result<std::string> unpacked(const std::string& file, const std::string& shown, const ArchiveEntry& entry);
 
 }  // namespace oro

@@ -161,6 +161,12 @@ class Search {
         for (const ArchiveEntry& entry : entries) {
             const std::string_view name = last_part(entry.name);
             if (!may_hold_elevation(name)) continue;
+            if (!entry.unreadable.empty()) {
+                const Error locked{ErrorKind::failed, shown + "/" + entry.name, entry.unreadable};
+                if (named || unreadable_ == nullptr) return locked;
+                unreadable_->push_back(locked);
+                continue;
+            }
             SourcePath source = described(root + entry.name, shown + "/" + entry.name, name, false);
             source.archive = std::string(last_part(shown));
             found_.push_back(std::move(source));

@@ -14,6 +14,7 @@
 #include "geo/files/source_paths.h"
 #include "geo/listing/header_cache.h"
 #include "geo/posts/own_posts.h"
+#include "geo/region/companions.h"
 #include "geo/region/region_grid.h"
 #include "geo/region/region_sources.h"
 #include "geo/sources/hgt_source.h"
@@ -153,6 +154,20 @@ std::optional<Error> fault_of_grid(std::span<const Source> sources, const Region
     return grid.error();
 }
 
+// Takes out what only the others show to be no elevation.
+void leave_out_companions_of(FileListing& listing, std::vector<Source>& sources) {
+    const std::vector<CompanionSource> companions = companions_among(sources);
+    for (auto one = companions.rbegin(); one != companions.rend(); ++one) {
+        const auto source = sources.begin() + static_cast<std::ptrdiff_t>(one->source);
+        const auto file = std::ranges::find(listing.files, source->report.path, &ListedFile::path);
+        if (file != listing.files.end()) {
+            file->report.reset();
+            file->reason = one->why;
+        }
+        sources.erase(source);
+    }
+}
+
 // What stands in the way of a region of these, as far as headers tell.
 void find_obstacle(const RegionRequest& request, std::vector<Source> sources, FileListing& listing) {
     const auto damaged = std::ranges::find_if(listing.files, &ListedFile::damaged);
@@ -223,12 +238,13 @@ Result<FileListing> list_files(const RegionRequest& request, const ListingCache&
             sources.push_back(std::move(*look.finding.source));
             file.report.emplace();  // filled below, when its datum is known
         } else {
-            file.damaged = look.damage.has_value() || paths[i].named;
+            file.damaged = look.damage.has_value() || (paths[i].named && !look.finding.companion);
             file.reason = reason_of(look.damage ? *look.damage : look.finding.unfit, paths[i].shown);
         }
         listing.files.push_back(std::move(file));
     }
     if (listing.looked_at > 0) headers.write(kept, stamp);
+    leave_out_companions_of(listing, sources);
     std::vector<std::string> notes;
     ORO_CHECK(find_horizontal_datums(sources, false, notes));
     auto next = sources.begin();

@@ -31,8 +31,9 @@ struct ListingCache {
     std::string stamp;
 };
 
-// Reads no post. Files that by their names lie outside a box are not listed. Errors: a path that is not
-// there, or has nothing in it; what was told of files and PROJ does not know.
+// Reads no post, but a few rows of files that share a grid (geo/region/companions.h). Files that by their
+// names lie outside a box are not listed. Errors: a path that is not there, or has nothing in it; what was
+// told of files and PROJ does not know.
 Result<FileListing> list_files(const RegionRequest& request, const ListingCache& cache,
                                const Progress& progress);
 

@@ -17,7 +17,7 @@
 namespace oro {
 namespace {
 
-constexpr std::string_view format = "orograph headers 1";
+constexpr std::string_view format = "orograph headers 2";
 
 std::int64_t nanoseconds(const timespec& time) {
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
@@ -35,6 +35,7 @@ template <class Bytes, class Entry>
 void entry_fields(Bytes& bytes, Entry& entry) {
     auto& finding = entry.finding;
     bytes(finding.unfit.kind), bytes(finding.unfit.where), bytes(finding.unfit.what), bytes(finding.doubts);
+    bytes(finding.companion);
 }
 
 void write_entry(ByteWriter& bytes, const HeaderEntry& entry) {

@@ -53,12 +53,37 @@ Result<std::array<double, 4>> four_numbers(const std::string& text) {
 
 }  // namespace
 
+std::string bounding_box_text(const BoundingBox& box) {
+    std::string text;
+    for (const double angle : {box.west_deg, box.south_deg, box.east_deg, box.north_deg}) {
+        std::string number = std::to_string(angle);
+        number.erase(number.find_last_not_of('0') + 1);
+        if (number.ends_with('.')) number.pop_back();
+        text += (text.empty() ? "" : ",") + number;
+    }
+    return text;
+}
+
+std::optional<BoundingBox> with_latitude_first(const BoundingBox& box) {
+    const BoundingBox other{box.south_deg, box.west_deg, box.north_deg, box.east_deg};
+    const auto within = [](double angle, double most) { return std::abs(angle) <= most; };
+    if (!within(other.south_deg, 90.0) || !within(other.north_deg, 90.0) || !within(other.west_deg, 180.0) ||
+        !within(other.east_deg, 180.0) || !(other.south_deg < other.north_deg) ||
+        other.west_deg == other.east_deg)
+        return std::nullopt;
+    return other;
+}
+
 Result<BoundingBox> parse_bounding_box(const std::string& text) {
     ORO_TRY(const auto numbers, four_numbers(text));
     const BoundingBox box{numbers[0], numbers[1], numbers[2], numbers[3]};
     for (const double lat_deg : {box.south_deg, box.north_deg}) {
-        if (std::abs(lat_deg) > 90.0)
-            return usage(text, "a latitude is beyond 90 degrees; the order is west,south,east,north");
+        if (std::abs(lat_deg) <= 90.0) continue;
+        const auto swapped = with_latitude_first(box);
+        return usage(
+            text,
+            "a latitude is beyond 90 degrees; the order is west,south,east,north" +
+                (swapped ? ": longitude comes first, " + bounding_box_text(*swapped) + " may be meant" : ""));
     }
     for (const double lon_deg : {box.west_deg, box.east_deg}) {
         if (std::abs(lon_deg) > 180.0)

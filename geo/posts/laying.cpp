@@ -108,6 +108,7 @@ Result<Laid> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, c
         if (!is_read) ORO_CHECK(placed.read(first, std::min(strip, end - first)));
         report.voids += placed.block().voids;
         report.implausible += placed.block().implausible;
+        source.values.add(placed.block().values);
         found.stored.add(placed.block());
         const std::size_t beyond_before = shift.beyond_grid();
         for (int number = first; number < std::min(first + strip, end); ++number)
@@ -149,9 +150,6 @@ Result<void> note_findings(SourceReport& report, std::uint64_t lent, std::uint64
         if (strict) return Error{ErrorKind::failed, report.path, what};
         add_note(notes, what + ": EGM96 stands in there");
     }
-    if (report.implausible > 0)
-        add_note(notes, report.path + ": " + std::to_string(report.implausible) +
-                            " heights below -12,000 m or above 9,000 m are taken as void");
     return {};
 }
 

@@ -326,6 +326,7 @@ Result<void> lay_rows(Source& source, const OwnPart& part, const OwnLaying& layi
     for (int first = window.row; first < window.row + window.rows; first += strip) {
         const int rows = std::min(strip, window.row + window.rows - first);
         ORO_TRY(const PostBlock block, read_posts(source, {first, window.column, rows, window.columns}));
+        source.values.add(block.values);
         stored.add(block);
         report.voids += block.voids;
         report.implausible += block.implausible;

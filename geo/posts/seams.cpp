@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <numeric>
 #include <string_view>
 
@@ -64,6 +66,37 @@ std::vector<std::size_t> by_precedence(std::span<const Source> sources) {
     return by_precedence(ranks);
 }
 
+std::string note_of_contradictions(std::span<const Source> sources) {
+    constexpr std::size_t most_named = 4;
+    // Between posts that are much farther apart, mountains rise that coarse data does not have.
+    constexpr double like_spacing = 4.0;
+    double finest_m = std::numeric_limits<double>::infinity();
+    for (const Source& source : sources) finest_m = std::min(finest_m, source.report.spacing_m);
+    std::string names;
+    std::size_t count = 0;
+    double largest_m = 0.0;
+    for (const Source& source : sources) {
+        const SeamReport& seams = source.report.seams;
+        if (2 * seams.contradicting_posts <= seams.compared_posts) continue;
+        if (seams.shared_posts < seams.compared_posts && source.report.spacing_m > like_spacing * finest_m)
+            continue;
+        largest_m = std::max(largest_m, seams.largest_contradiction_m);
+        if (++count > most_named) continue;
+        names += (names.empty() ? "" : ", ") + source.report.path + " (" +
+                 std::to_string(seams.contradicting_posts) + " of " + std::to_string(seams.compared_posts) +
+                 " shared posts)";
+    }
+    if (count == 0) return "";
+    if (count > most_named) names += " and " + std::to_string(count - most_named) + " more files";
+    char by[80];
+    std::snprintf(by, sizeof by,
+                  "files contradict each other by more than %.0f m, up to %.1f m: ", contradiction_m,
+                  largest_m);
+    return by + names +
+           " against what wins over it; one holds no elevation, or counts in another unit or from another "
+           "datum, or lies elsewhere";
+}
+
 JoinedSurface::JoinedSurface(const PostGrid& grid)
     : grid_(grid), heights_(grid.post_count(), void_height_m), marks_(grid.post_count(), 0) {}
 
@@ -86,11 +119,16 @@ std::uint64_t JoinedSurface::lay(int row, int first_column, std::span<const floa
             if (own_posts) marks |= own_mark;
             continue;
         }
+        const double difference =
+            std::abs(static_cast<double>(heights[c]) - static_cast<double>(heights_[post]));
+        ++of_source.compared_posts;
+        if (difference > contradiction_m) {
+            ++of_source.contradicting_posts;
+            of_source.largest_contradiction_m = std::max(of_source.largest_contradiction_m, difference);
+        }
         if (!own_posts || !(marks & own_mark)) continue;
         if (!(marks & shared_mark)) ++seams_.shared_posts;
         marks |= shared_mark;
-        const double difference =
-            std::abs(static_cast<double>(heights[c]) - static_cast<double>(heights_[post]));
         ++of_source.shared_posts;
         of_source.disagreeing_posts += difference > 0.0;
         of_source.largest_difference_m = std::max(of_source.largest_difference_m, difference);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,6 +28,13 @@ Precedence precedence_of(const SourceReport& source);
 // of file names, then of whole paths.
 std::vector<std::size_t> by_precedence(std::span<const Precedence> sources);
 std::vector<std::size_t> by_precedence(std::span<const Source> sources);
+
+// By how much two files may differ at a post and both be right: what the least accurate data of the whole
+// Earth state of nine posts in ten (SRTM, 16 m, LE90: Farr and others, 2007, doi 10.1029/2005RG000183).
+inline constexpr double contradiction_m = 16.0;
+// One note on the sources that differ by more, at more than half of the posts which they share with those
+// that win over them; "" for none.
+std::string note_of_contradictions(std::span<const Source> sources);
 
 // The heights of a region while its sources are laid into it.
 class JoinedSurface {

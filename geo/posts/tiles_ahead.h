@@ -11,7 +11,7 @@
 
 namespace oro {
 
-// Threads that read .hgt tiles ahead, each a whole tile (at most 52 MB of heights). Other formats are read
+// Threads that read .hgt tiles ahead, each a whole tile (at most 207 MB of heights). Other formats are read
 // when they are laid: their files may be of any size. Where no thread is to be had, nothing is read ahead.
 class TilesAhead {
   public:

@@ -15,6 +15,7 @@
 #include "geo/posts/laying.h"
 #include "geo/posts/own_posts.h"
 #include "geo/posts/seams.h"
+#include "geo/posts/value_notes.h"
 #include "geo/posts/voids.h"
 #include "geo/region/baked_region.h"
 #include "geo/region/lying_apart.h"
@@ -23,22 +24,12 @@
 #include "geo/region/region_sources.h"
 #include "geo/sources/library_faults.h"
 #include "geo/sources/raster_library.h"
+#include "geo/together/contradictions.h"
 #include "geo/together/feather.h"
 #include "geo/together/lattices.h"
 
 namespace oro {
 namespace {
-
-std::string text_of(const BoundingBox& box) {
-    std::string text;
-    for (const double angle : {box.west_deg, box.south_deg, box.east_deg, box.north_deg}) {
-        std::string number = std::to_string(angle);
-        number.erase(number.find_last_not_of('0') + 1);
-        if (number.ends_with('.')) number.pop_back();
-        text += (text.empty() ? "" : ",") + number;
-    }
-    return text;
-}
 
 std::string list_of(const std::vector<std::string>& paths) {
     std::string text;
@@ -48,7 +39,8 @@ std::string list_of(const std::vector<std::string>& paths) {
 
 Error no_sources(const RegionRequest& request, const std::string& first_skipped) {
     const std::string where = list_of(request.paths);
-    if (request.box) return {ErrorKind::no_data, where, "no elevation data in " + text_of(*request.box)};
+    if (request.box)
+        return {ErrorKind::no_data, where, "no elevation data in " + bounding_box_text(*request.box)};
     return {ErrorKind::no_data, where,
             "no elevation data" + (first_skipped.empty() ? "" : " (" + first_skipped + ")")};
 }
@@ -71,7 +63,7 @@ void add_doubts(const RegionRequest& request, std::span<const Source> sources, c
                             " says nothing here: each file states its own");
     if (request.box && request.box->west_deg > request.box->east_deg &&
         grid.east_deg() - grid.west_deg() > 180.0)
-        add_note(notes, "west is greater than east in " + text_of(*request.box) +
+        add_note(notes, "west is greater than east in " + bounding_box_text(*request.box) +
                             ": that crosses the antimeridian, and most of the way round the Earth");
 }
 
@@ -166,13 +158,16 @@ Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent
     }
     for (MeasuredSource& one : measured) sources[one.source].report.resampling = one.error.finish();
     region.seams = surface.seams();
+    add_note(region.notes, note_of_contradictions(sources));
     region.field.H_m = std::move(surface.heights());
 
     region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
     describe_voids(sources, surface, region);
+    note_values(sources, region.notes);
     if (region.voids == region.field.H_m.size())
         return Error{ErrorKind::no_data, list_of(request.paths),
-                     "no height in " + text_of(posts) + ": " + all_without_height(region)};
+                     "no height in " + bounding_box_text(posts) + ": " + all_without_height(region) +
+                         why_no_height(sources)};
     region.posts_print = posts_print(region.field);
     region.geoid_print = undulation_print(region.field.undulation);
     for (Source& source : sources) region.sources.push_back(std::move(source.report));
@@ -256,6 +251,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     if (progress) progress(1.0, "region read");
     Region region = joined(std::move(regions));
     for (const Error& error : empty) add_note(region.notes, "left out: " + error.what);
+    add_note(region.notes, note_of_contradicting_grids(region));
     if (request.feather_m > 0.0 && !region.beside.empty()) ORO_CHECK(feather(region, request.feather_m));
     return region;
 }
@@ -268,13 +264,35 @@ Result<void> Region::health() const {
     return {};
 }
 
+namespace {
+
+// Of a box without data: whether its numbers, taken as latitude first, are one with data. Then that is said.
+Error with_order_of_box(Error fault, const RegionRequest& request, bool is_baked) {
+    if (fault.kind != ErrorKind::no_data || !request.box) return fault;
+    RegionRequest other = request;
+    other.box = with_latitude_first(*request.box);
+    if (!other.box) return fault;
+    if (is_baked) {
+        if (!open_baked_region(other, {}).ok()) return fault;
+    } else {
+        auto found = look_at_sources(other, {});
+        if (!found.ok() || found->sources.empty() || !choose_extent(found->sources, other.box)) return fault;
+    }
+    fault.what +=
+        ", but in " + bounding_box_text(*other.box) + ": longitude comes first (west,south,east,north)";
+    return fault;
+}
+
+}  // namespace
+
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
     try {
         const bool is_baked = baked_path(request.paths).has_value();
         if (!is_baked) start_gdal();
         Result<Region> region =
             is_baked ? open_baked_region(request, progress) : read_region(request, progress);
-        if (region.ok()) ORO_CHECK(libraries_are_sound());
+        if (!region.ok()) return with_order_of_box(region.error(), request, is_baked);
+        ORO_CHECK(libraries_are_sound());
         return region;
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::failed, "region too large",

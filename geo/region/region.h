@@ -19,8 +19,12 @@
 namespace oro {
 
 // "west,south,east,north". Usage errors for anything else: not four numbers, not finite, out of range, south
-// >= north, no width.
+// >= north, no width; numbers that would be a box with latitude first get the hint that it may be meant.
 Result<BoundingBox> parse_bounding_box(const std::string& text);
+// The same numbers as south,west,north,east, the order of places: nothing where they are no such box.
+std::optional<BoundingBox> with_latitude_first(const BoundingBox& box);
+// As it is written: "8,46,9,47".
+std::string bounding_box_text(const BoundingBox& box);
 // "N46E008", or "N46E006:N47E010" for the box of both corner cells with all between.
 Result<BoundingBox> parse_tile_range(const std::string& text);
 

@@ -22,20 +22,22 @@ enum class SourceFormat { srtm1_hgt, srtm3_hgt, raster };
 
 enum class PostsAre { points, cell_centres };
 
-// Where it is known from what a source's heights refer to. Assumed is EGM96.
+// Whence it is known what a source's heights refer to. Assumed is EGM96.
 enum class DatumFrom {
     crs,
     dted_egm96,  // DTED metadata say so
     dted_egm2008,
-    assumed_for_hgt,     // .hgt files state none
+    hgt_format,          // .hgt files state none: it is SRTM's format, whose heights are of EGM96
     assumed_unstated,    // the file states none
     assumed_unreadable,  // PROJ cannot read what the CRS states
-    told                 // by the request, because the file does not say
+    told,                // by the request, because the file does not say
+    product  // by the file's name: the product that it is of has them (geo/sources/known_products.h)
 };
 
 struct HeightDatum {
     DatumFrom from{DatumFrom::assumed_unstated};
-    std::string name;        // from a CRS or told, as PROJ calls it: "EPSG:5703 NAVD88 height"
+    // From a CRS or told, as PROJ calls it: "EPSG:5703 NAVD88 height"; of a product with the product's name.
+    std::string name;
     bool egm96_stands_in{};  // a grid for it is missing
 };
 
@@ -80,6 +82,12 @@ struct SeamReport {
     std::uint64_t shared_posts{};
     std::uint64_t disagreeing_posts{};
     double largest_difference_m{};
+    // Posts of the region for which a source has a height, its own or interpolated, and one that wins over
+    // it, too; those where they differ by more than elevation data is accurate (seams.h), and by how much.
+    // Not kept in a baked region, which keeps the note on them.
+    std::uint64_t compared_posts{};
+    std::uint64_t contradicting_posts{};
+    double largest_contradiction_m{};
 };
 
 // Lowest and highest of the values that a file stores, in metres: its scale, offset and unit applied, before

@@ -21,7 +21,9 @@ constexpr std::array posts{Words<PostsAre>{PostsAre::points, "points"},
 constexpr std::array datums{
     Words<DatumFrom>{DatumFrom::dted_egm96, "EGM96 height (DTED metadata: E96)"},
     Words<DatumFrom>{DatumFrom::dted_egm2008, "EGM2008 height (DTED metadata: E08)"},
-    Words<DatumFrom>{DatumFrom::assumed_for_hgt, "EGM96 height (assumed: .hgt states none)"},
+    Words<DatumFrom>{DatumFrom::hgt_format, "EGM96 height (by definition of .hgt, SRTM's format)"},
+    // What regions hold that were baked before.
+    Words<DatumFrom>{DatumFrom::hgt_format, "EGM96 height (assumed: .hgt states none)"},
     Words<DatumFrom>{DatumFrom::assumed_unstated, "EGM96 height (assumed: the file states none)"},
     Words<DatumFrom>{DatumFrom::assumed_unreadable,
                      "EGM96 height (assumed: PROJ cannot read what the CRS states of heights)"}};
@@ -32,6 +34,7 @@ constexpr std::array void_methods{
     Words<VoidMethod>{VoidMethod::filled, "filled by inverse-distance interpolation (GDALFillNodata)"}};
 
 constexpr std::string_view as_told = " (as told)";
+constexpr std::string_view by_name = " (by its name)";
 constexpr std::string_view stands_in = "; EGM96 stands in";
 constexpr std::string_view copied = "posts copied";
 constexpr const char* interpolated =
@@ -70,10 +73,11 @@ std::string posts_words(PostsAre which) {
 }
 
 std::string datum_words(const HeightDatum& datum) {
-    const bool is_named = datum.from == DatumFrom::crs || datum.from == DatumFrom::told;
-    return (is_named ? datum.name : words_in(datums, datum.from)) +
-           std::string(datum.from == DatumFrom::told ? as_told : "") +
-           std::string(datum.egm96_stands_in ? stands_in : "");
+    std::string words = words_in(datums, datum.from);
+    if (words.empty()) words = datum.name;
+    if (datum.from == DatumFrom::told) words += as_told;
+    if (datum.from == DatumFrom::product) words += by_name;
+    return words + std::string(datum.egm96_stands_in ? stands_in : "");
 }
 
 std::string horizontal_words(const HorizontalDatum& datum) {
@@ -149,8 +153,11 @@ HeightDatum datum_of_words(const std::string& words) {
     datum.egm96_stands_in = rest.ends_with(stands_in);
     if (datum.egm96_stands_in) rest.remove_suffix(stands_in.size());
     const auto known = fact_in(datums, rest);
-    datum.from = known.value_or(rest.ends_with(as_told) ? DatumFrom::told : DatumFrom::crs);
+    datum.from = known.value_or(rest.ends_with(as_told)   ? DatumFrom::told
+                                : rest.ends_with(by_name) ? DatumFrom::product
+                                                          : DatumFrom::crs);
     if (datum.from == DatumFrom::told) rest.remove_suffix(as_told.size());
+    if (datum.from == DatumFrom::product) rest.remove_suffix(by_name.size());
     if (!known) datum.name = rest;
     return datum;
 }

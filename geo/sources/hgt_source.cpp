@@ -83,8 +83,8 @@ Error wrong_size(const SourcePath& path, std::uint64_t bytes) {
     if (bytes == 0) return Error{ErrorKind::failed, path.shown, "is empty"};
     return Error{ErrorKind::failed, path.shown,
                  "has " + std::to_string(bytes) +
-                     " bytes; a .hgt tile has 2884802 (SRTM3, 1201 x 1201 posts) or 25934402 (SRTM1, 3601 x "
-                     "3601 posts): it is "
+                     " bytes; a .hgt tile has 2884802 (SRTM3, 1201 x 1201 posts), 25934402 (SRTM1, 3601 x "
+                     "3601 posts) or 103708802 (half a second of arc, 7201 x 7201 posts): it is "
                      "truncated or of another kind"};
 }
 
@@ -148,6 +148,7 @@ std::optional<HgtName> parse_hgt_name(std::string_view file_name) {
 std::optional<int> hgt_posts_of_size(std::uint64_t bytes) {
     if (bytes == 2 * 1201 * 1201) return 1201;
     if (bytes == 2 * 3601 * 3601) return 3601;
+    if (bytes == 2 * 7201 * 7201) return 7201;
     return std::nullopt;
 }
 
@@ -167,11 +168,12 @@ Result<Source> inspect_hgt(const SourcePath& path) {
     ORO_TRY(const std::uint64_t bytes, unpacked_size(path));
     const auto posts = hgt_posts_of_size(bytes);
     if (!posts) return wrong_size(path, bytes);
-    const int arc_seconds = 3600 / (*posts - 1);
+    const double arc_seconds = 3600.0 / (*posts - 1);
     if (name.arc_seconds != 0 && name.arc_seconds != arc_seconds)
         return Error{ErrorKind::failed, path.shown,
                      "the name says " + std::to_string(name.arc_seconds) + " arc-second posts, but its " +
-                         std::to_string(bytes) + " bytes are a tile of " + std::to_string(arc_seconds) +
+                         std::to_string(bytes) + " bytes are a tile of " +
+                         (arc_seconds < 1.0 ? "half" : std::to_string(*posts == 3601 ? 1 : 3)) +
                          " arc-second posts"};
     const double per_deg = *posts - 1;
     const double lat = name.tile.lat_deg;
@@ -190,9 +192,12 @@ Result<Source> inspect_hgt(const SourcePath& path) {
     SourceReport& report = source.report;
     report.path = path.shown;
     report.files = {local_file_of(path.file)};
-    report.format = arc_seconds == 1 ? SourceFormat::srtm1_hgt : SourceFormat::srtm3_hgt;
+    report.format = *posts == 3601   ? SourceFormat::srtm1_hgt
+                    : *posts == 1201 ? SourceFormat::srtm3_hgt
+                                     : SourceFormat::raster;
+    if (report.format == SourceFormat::raster) report.driver = "half-second .hgt";
     report.crs = "EPSG:4326 WGS 84";
-    report.vertical_datum.from = DatumFrom::assumed_for_hgt;
+    report.vertical_datum.from = DatumFrom::hgt_format;
     report.attribution = srtm_attribution(path);
     report.rows = report.columns = *posts;
     report.lat_spacing_deg = report.lon_spacing_deg = 1.0 / per_deg;
@@ -235,7 +240,7 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
                 block.highest_stored_m = std::max(block.highest_stored_m, static_cast<double>(value));
             }
             block.voids += empty || implausible;
-            block.implausible += implausible;
+            if (implausible) count_implausible(block, static_cast<double>(value));
             block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(value));
         }
     }

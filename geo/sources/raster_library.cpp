@@ -106,11 +106,22 @@ GdalMessages::~GdalMessages() {
     CPLErrorReset();
 }
 
+namespace {
+
+// GDAL's messages, but for those that name its own source files and say nothing to anybody else.
+std::string words_of(const char* message) {
+    const std::string words = message;
+    const bool of_packing = words.starts_with("In file ") && words.find("gzip.cpp") != std::string::npos;
+    return of_packing ? "packed bytes make no sense, or end early" : words;
+}
+
+}  // namespace
+
 void CPL_STDCALL GdalMessages::take(CPLErr severity, CPLErrorNum number, const char* message) {
     note_gdal_message(severity == CE_Fatal, number == CPLE_OutOfMemory);
     if (message == nullptr) return;
     auto& messages = *static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
-    if (severity >= CE_Failure) messages.text_ = message;
+    if (severity >= CE_Failure) messages.text_ = words_of(message);
     if (severity == CE_Warning && messages.warning_.empty()) messages.warning_ = message;
 }
 

@@ -9,6 +9,8 @@
 #include "geo/sources/hgt_source.h"
 #include "geo/sources/raster_library.h"
 #include "geo/sources/raster_source.h"
+#include "geo/sources/undeclared_voids.h"
+#include "geo/sources/unwritten_parts.h"
 
 namespace oro {
 namespace {
@@ -56,6 +58,50 @@ bool read_values(GDALRasterBandH band, const PostWindow& window, void* to, GDALD
                           window.columns, window.rows, type, 0, 0, &more) == CE_None;
 }
 
+// Marks the posts of some rows, from `row` on, that lie in one of these parts.
+void mark_unwritten(const std::vector<PostWindow>& parts, const PostWindow& rows,
+                    std::vector<unsigned char>& unwritten) {
+    std::ranges::fill(unwritten, static_cast<unsigned char>(0));
+    for (const PostWindow& part : parts) {
+        const int first = std::max(part.row, rows.row),
+                  end = std::min(part.row + part.rows, rows.row + rows.rows);
+        for (int row = first; row < end; ++row) {
+            auto* const from = unwritten.data() + static_cast<std::ptrdiff_t>(row - rows.row) * rows.columns +
+                               (part.column - rows.column);
+            std::fill_n(from, part.columns, static_cast<unsigned char>(1));
+        }
+    }
+}
+
+// Values as GDAL gives them, and what makes them none.
+struct StoredStrip {
+    std::vector<double> values;
+    std::vector<unsigned char> valid;      // by a mask; empty where there is none
+    std::vector<unsigned char> unwritten;  // empty where all is written
+};
+
+void add_post(const Source& source, const NoData& no_data, const StoredStrip& strip, std::size_t i,
+              PostBlock& block) {
+    double value = strip.values[i];
+    if (source.signed_bytes && value > 127.0) value -= 256.0;
+    const bool unwritten = !strip.unwritten.empty() && strip.unwritten[i] != 0;
+    const bool empty = unwritten || no_data.holds(value) || (!strip.valid.empty() && strip.valid[i] == 0);
+    const double height_m = value * source.scale_m + source.offset_m;
+    const bool implausible = !empty && !(height_m >= lowest_plausible_m && height_m <= highest_plausible_m);
+    if (!empty) {
+        block.lowest_stored_m = std::min(block.lowest_stored_m, height_m);
+        block.highest_stored_m = std::max(block.highest_stored_m, height_m);
+    }
+    block.voids += empty || implausible;
+    block.values.unwritten += unwritten;
+    if (implausible) count_implausible(block, value);
+    block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(height_m));
+}
+
+Result<PostBlock> read_stored(const Source& source, const PostWindow& window) {
+    return source.kind == SourceKind::hgt ? read_hgt(source, window) : read_raster(source, window);
+}
+
 }  // namespace
 
 Result<PostBlock> read_raster(const Source& source, const PostWindow& window) {
@@ -69,17 +115,21 @@ Result<PostBlock> read_raster(const Source& source, const PostWindow& window) {
                      watch.fault().empty() ? what + messages.last("the file is damaged") : watch.fault()};
     };
     if (!dataset) return fault("cannot be opened: ");
-    const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+    const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), source.band);
+    if (!band) return fault("has lost its band " + std::to_string(source.band) + ": ");
     const GDALRasterBandH mask = mask_of(band);
     const NoData no_data(band);
+    const std::vector<PostWindow> unwritten = unwritten_parts(dataset.get(), source.band, window);
     const auto columns = static_cast<std::size_t>(window.columns);
     // Whole rows of the file's own blocks at a time, so that each block is unpacked once.
     int block_columns = 0;
     int block_rows = 0;
     GDALGetBlockSize(band, &block_columns, &block_rows);
     const int step = std::clamp(block_rows, 1, 1024);
-    std::vector<double> values(columns * static_cast<std::size_t>(step));
-    std::vector<unsigned char> valid(mask ? values.size() : 0);
+    StoredStrip strip;
+    strip.values.resize(columns * static_cast<std::size_t>(step));
+    if (mask) strip.valid.resize(strip.values.size());
+    if (!unwritten.empty()) strip.unwritten.resize(strip.values.size());
     PostBlock block;
     block.window = window;
     block.height_m.reserve(columns * static_cast<std::size_t>(window.rows));
@@ -87,32 +137,28 @@ Result<PostBlock> read_raster(const Source& source, const PostWindow& window) {
         const int rows = std::min(step, window.rows - r);
         const int row = window.row + r;
         const PostWindow part{row, window.column, rows, window.columns};
-        if (!read_values(band, part, values.data(), GDT_Float64, watch))
+        if (!read_values(band, part, strip.values.data(), GDT_Float64, watch))
             return fault("cannot be read near row " + std::to_string(row) + ": ");
-        if (mask && !read_values(mask, part, valid.data(), GDT_Byte, watch))
+        if (mask && !read_values(mask, part, strip.valid.data(), GDT_Byte, watch))
             return fault("its mask cannot be read near row " + std::to_string(row) + ": ");
         // Some drivers go on after a failure.
         if (!watch.fault().empty() || !messages.last("").empty())
             return fault("cannot be read near row " + std::to_string(row) + ": ");
-        for (std::size_t i = 0; i < columns * static_cast<std::size_t>(rows); ++i) {
-            const bool empty = no_data.holds(values[i]) || (mask && valid[i] == 0);
-            const double height_m = values[i] * source.scale_m + source.offset_m;
-            const bool implausible =
-                !empty && !(height_m >= lowest_plausible_m && height_m <= highest_plausible_m);
-            if (!empty) {
-                block.lowest_stored_m = std::min(block.lowest_stored_m, height_m);
-                block.highest_stored_m = std::max(block.highest_stored_m, height_m);
-            }
-            block.voids += empty || implausible;
-            block.implausible += implausible;
-            block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(height_m));
-        }
+        if (!unwritten.empty()) mark_unwritten(unwritten, part, strip.unwritten);
+        for (std::size_t i = 0; i < columns * static_cast<std::size_t>(rows); ++i)
+            add_post(source, no_data, strip, i, block);
     }
     return block;
 }
 
 Result<PostBlock> read_posts(const Source& source, const PostWindow& window) {
-    return source.kind == SourceKind::hgt ? read_hgt(source, window) : read_raster(source, window);
+    ORO_TRY(PostBlock block, read_stored(source, window));
+    ORO_CHECK(take_out_undeclared(source, block, read_stored));
+    measure_steepness(source, block);
+    block.values.read = block.height_m.size();
+    block.values.lowest_stored_m = block.lowest_stored_m;
+    block.values.highest_stored_m = block.highest_stored_m;
+    return block;
 }
 
 }  // namespace oro

@@ -14,6 +14,10 @@
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
 #include "geo/rasters/map_crs.h"
+#include "geo/sources/elevation_band.h"
+#include "geo/sources/height_unit.h"
+#include "geo/sources/place_doubts.h"
+#include "geo/sources/raster_content.h"
 #include "geo/sources/raster_crs.h"
 #include "geo/sources/raster_library.h"
 #include "geo/sources/raster_parts.h"
@@ -24,21 +28,6 @@ namespace {
 
 std::string text_of(const char* text) {
     return text ? foreign_text(text) : "";
-}
-
-// A reason why these bands are no elevation, or "".
-std::string not_elevation(GDALDatasetH dataset) {
-    const int bands = GDALGetRasterCount(dataset);
-    if (bands == 0) return "holds no raster of its own (a container of several?): name the one to open";
-    const bool alpha =
-        bands == 2 && GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, 2)) == GCI_AlphaBand;
-    if (bands > 1 && !alpha)
-        return "has " + std::to_string(bands) + " bands: an image, no elevation (which has one)";
-    const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
-    if (GDALGetRasterColorTable(band) || GDALGetRasterColorInterpretation(band) == GCI_PaletteIndex)
-        return "has a colour palette: an image, no elevation";
-    if (GDALDataTypeIsComplex(GDALGetRasterDataType(band))) return "holds complex numbers, no elevation";
-    return "";
 }
 
 // What heights refer to: by the CRS, by DTED metadata, as told, or assumed.
@@ -61,42 +50,6 @@ StatedDatum read_vertical(Source& source, GDALDatasetH dataset, OGRSpatialRefere
         return {};
     }
     return told.heights_of(source);
-}
-
-Result<void> read_unit(Source& source, GDALRasterBandH band, const StatedDatum& datum,
-                       const std::string& override_unit) {
-    const std::string stated = text_of(GDALGetRasterUnitType(band));
-    double metres = 1.0;
-    if (!override_unit.empty()) {
-        const auto factor = metres_in(override_unit);
-        if (!factor)
-            return Error{ErrorKind::usage, "height unit '" + override_unit + "'",
-                         "is none of m, ft, us-ft, cm"};
-        metres = *factor;
-        source.report.height_unit = {override_unit, UnitFrom::request};
-    } else if (!stated.empty()) {
-        const auto factor = metres_in(stated);
-        if (!factor)
-            return Error{
-                ErrorKind::failed, "",
-                "gives its heights in '" + stated + "', which is no known unit of height (m, ft, us-ft, cm)"};
-        metres = *factor;
-        source.report.height_unit.name = stated;
-    } else if (!source.vertical_crs.empty() && std::abs(datum.metres_per_unit) != 1.0) {
-        metres = std::abs(datum.metres_per_unit);
-        source.report.height_unit.name = std::abs(metres - 0.3048) < 1e-9   ? "ft"
-                                         : std::abs(metres - 0.3048) < 1e-5 ? "us-ft"
-                                                                            : std::to_string(metres) + " m";
-    } else {
-        source.report.height_unit.from = source.vertical_crs.empty() ? UnitFrom::assumed : UnitFrom::file;
-    }
-    if (datum.metres_per_unit < 0.0) metres = -metres;  // depths
-    int scaled = 0, shifted = 0;
-    const double scale = GDALGetRasterScale(band, &scaled);
-    const double offset = GDALGetRasterOffset(band, &shifted);
-    source.scale_m = (scaled && scale != 0.0 ? scale : 1.0) * metres;
-    source.offset_m = (shifted ? offset : 0.0) * metres;
-    return {};
 }
 
 std::string attribution_of(GDALDatasetH dataset) {
@@ -150,9 +103,12 @@ Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages)
 }
 
 // What an opened raster says of itself; an error without its name where it is no source.
-Result<Source> described(const SourcePath& path, const Dataset& dataset, const ToldOfFiles& told) {
+// `doubts` get what a user must know of it.
+Result<Source> described(const SourcePath& path, const Opened& opened, const ToldOfFiles& told,
+                         std::vector<std::string>& doubts) {
+    const Dataset& dataset = opened.dataset;
     const auto fault = [&](const std::string& what) { return Error{ErrorKind::failed, "", what}; };
-    if (const std::string why = not_elevation(dataset.get()); !why.empty()) return fault(why);
+    ORO_TRY(const ElevationBand band, elevation_band(dataset.get()));
     std::array<double, 6> cell{};
     const bool says_where = GDALGetGeoTransform(dataset.get(), cell.data()) == CE_None;
     const OGRSpatialReferenceH stated = GDALGetSpatialRef(dataset.get());
@@ -168,13 +124,18 @@ Result<Source> described(const SourcePath& path, const Dataset& dataset, const T
     source.kind = SourceKind::raster;
     source.file = path.file;
     source.named = path.named;
+    source.band = band.band;
+    source.signed_bytes = band.signed_bytes;
+    if (!band.doubt.empty()) doubts.push_back(band.doubt);
     source.report.path = path.shown;
     source.report.driver = text_of(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get())));
     source.report.rows = GDALGetRasterYSize(dataset.get());
     source.report.columns = GDALGetRasterXSize(dataset.get());
     if (source.report.rows < 2 || source.report.columns < 2) return fault("has fewer than 2 x 2 posts");
     const StatedDatum datum = read_vertical(source, dataset.get(), crs.get(), told);
-    ORO_CHECK(read_unit(source, GDALGetRasterBand(dataset.get(), 1), datum, told.height_unit));
+    const SpatialReference horizontal = horizontal_part(crs.get());
+    ORO_CHECK(read_height_unit(source, dataset.get(),
+                               {datum, horizontal.get(), told.height_unit, opened.parts.files}, doubts));
     // GDAL's map is for the corners of cells, whatever AREA_OR_POINT says (it has moved "point" files by half
     // a cell); a post is a cell's centre.
     source.crs_from_post = {cell[0] + 0.5 * (cell[1] + cell[2]), cell[1], cell[2],
@@ -183,35 +144,26 @@ Result<Source> described(const SourcePath& path, const Dataset& dataset, const T
         lower_case(text_of(GDALGetMetadataItem(dataset.get(), "AREA_OR_POINT", nullptr))) == "point";
     source.report.posts_are = points ? PostsAre::points : PostsAre::cell_centres;
     source.report.attribution = attribution_of(dataset.get());
-    const SpatialReference horizontal = horizontal_part(crs.get());
     source.crs_told = lacks_crs;
     source.report.crs = crs_name(horizontal.get()) + (lacks_crs ? " (as told)" : "");
     if (const double epoch = OSRGetCoordinateEpoch(crs.get()); epoch > 0.0)
         source.report.horizontal_datum.coordinate_epoch = epoch;
     source.crs_wkt = wkt_of(horizontal.get());
     ORO_CHECK(place_on_earth(source, horizontal.get()));
+    ORO_CHECK(check_place(source, horizontal.get(), doubts));
     return source;
 }
 
-}  // namespace
-
-std::optional<double> metres_in(const std::string& unit) {
-    constexpr double foot = 0.3048;
-    constexpr double us_survey_foot = 1200.0 / 3937.0;
-    const std::string name = lower_case(unit);
-    const auto is = [&](std::initializer_list<std::string_view> names) {
-        return std::ranges::find(names, name) != names.end();
-    };
-    if (is({"m", "metre", "metres", "meter", "meters"})) return 1.0;
-    if (is({"ft", "foot", "feet", "international foot", "ift"})) return foot;
-    if (is({"us-ft", "us_ft", "usft", "ftus", "us survey foot", "us survey feet", "us foot", "foot_us",
-            "survey foot"}))
-        return us_survey_foot;
-    if (is({"cm", "centimetre", "centimetres", "centimeter", "centimeters"})) return 0.01;
-    if (is({"dm", "decimetre", "decimetres", "decimeter", "decimeters"})) return 0.1;
-    if (is({"mm", "millimetre", "millimetres", "millimeter", "millimeters"})) return 0.001;
-    return std::nullopt;
+// Whole numbers of 0 to 255 that nothing calls heights.
+bool is_of_bytes(const Source& source, GDALDatasetH dataset) {
+    const GDALRasterBandH band = GDALGetRasterBand(dataset, source.band);
+    if (GDALGetRasterDataType(band) != GDT_Byte || source.signed_bytes) return false;
+    if (source.scale_m != 1.0 || source.offset_m != 0.0) return false;
+    return source.report.height_unit.from == UnitFrom::assumed &&
+           source.report.vertical_datum.from != DatumFrom::crs;
 }
+
+}  // namespace
 
 Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told) {
     start_gdal();
@@ -229,16 +181,26 @@ Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told) 
         finding.unfit = named(opened->unfit);
         return finding;
     }
-    auto source = described(path, opened->dataset, told);
+    std::vector<std::string> doubts;
+    auto source = described(path, *opened, told, doubts);
     if (!watch.fault().empty()) return named({ErrorKind::failed, "", watch.fault()});
     if (!source) {
         finding.unfit = named(source.error());
         if (finding.unfit.kind == ErrorKind::usage) return finding.unfit;
         return finding;
     }
+    std::string holds = holds_by_tags(opened->dataset.get());
+    if (holds.empty()) holds = holds_by_name_and_values(path.name, opened->dataset.get());
+    if (!holds.empty()) {
+        finding.unfit = named({ErrorKind::failed, "", "holds " + holds + ", no elevation"});
+        finding.companion = true;
+        return finding;
+    }
     finding.source = std::move(*source);
+    finding.source->bytes = is_of_bytes(*finding.source, opened->dataset.get());
     finding.source->report.files = opened->parts.files;
-    for (const std::string& doubt : opened->parts.doubts) finding.doubts.push_back(path.shown + ": " + doubt);
+    doubts.insert(doubts.begin(), opened->parts.doubts.begin(), opened->parts.doubts.end());
+    for (const std::string& doubt : doubts) finding.doubts.push_back(path.shown + ": " + doubt);
     if (const std::string warning = messages.warning(); !warning.empty())
         finding.doubts.push_back(path.shown + ": GDAL warns: " + warning);
     return finding;

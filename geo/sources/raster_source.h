@@ -7,21 +7,20 @@
 
 #include "core/base/result.h"
 #include "geo/files/source_paths.h"
+#include "geo/sources/length_unit.h"
 #include "geo/sources/source.h"
 #include "geo/sources/told_of_files.h"
 
 namespace oro {
-
-// Metres in a unit of height, by any of its usual names ("m", "ft", "us-ft", "cm", "US survey foot", ...);
-// nothing for other words. Source: international foot 0.3048 m and US survey foot 1200/3937 m, NIST Special
-// Publication 811, 2008, B.6.
-std::optional<double> metres_in(const std::string& unit);
 
 // A source, or the reason why a file is none although nothing is wrong with it.
 struct Finding {
     std::optional<Source> source;
     Error unfit;  // without a source: several bands, a palette, no place, no CRS or an unknown one or unit
     std::vector<std::string> doubts;  // what a user must know, one line each
+    // It belongs to data of heights, and holds something else than heights: left out beside others, refused
+    // by itself.
+    bool companion{};
 };
 
 // Looks at a raster's header and at the files that it is made of: where its posts lie and what its values

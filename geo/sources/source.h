@@ -4,6 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,11 +46,43 @@ struct SeamReach {
     double north_deg{};
 };
 
+// So many posts hold one stored value: as the file has it, without scale, offset and unit.
+struct StoredCount {
+    double value{};
+    std::uint64_t posts{};
+};
+
+// Stored values that stand for "no height here" although the file does not declare them: heights in metres,
+// as posts have them. Found once for a whole file, so that every window of it gives the same posts; unset
+// until then. Copies of a source share it.
+struct UndeclaredVoids {
+    std::mutex mutex;
+    std::optional<std::vector<float>> height_m;
+};
+
+// What a user must know of the values that were read of a source; counts are posts.
+struct ValueFindings {
+    std::vector<StoredCount> undeclared;   // taken as void: no tag declares them (undeclared_voids.h)
+    std::vector<StoredCount> implausible;  // stored heights that no terrain has, the first few by value
+    std::uint64_t implausible_posts{};
+    std::uint64_t read{};       // posts in all
+    std::uint64_t unwritten{};  // gaps of a mosaic, and blocks that were never written (unwritten_parts.h)
+    std::uint64_t pairs{};      // neighbouring posts that were compared, and of these
+    std::uint64_t steep{};      // those with a slope of more than 80 degrees between them
+    // Of what is stored, in metres; lowest above highest where nothing is.
+    double lowest_stored_m{std::numeric_limits<double>::infinity()};
+    double highest_stored_m{-std::numeric_limits<double>::infinity()};
+
+    // Adds what was found in another part of the same source.
+    void add(const ValueFindings& part);
+};
+
 struct Source {
     SourceKind kind{SourceKind::raster};
     std::string file;  // as GDAL's virtual file system opens it
     bool named{};      // by the user, not found in a folder
     bool crs_told{};   // by the user: the file states none
+    bool bytes{};      // whole numbers of 0 to 255, and nothing says that they are heights
     SourceReport report;
     LonSpan lon;  // of the posts
     double south_deg{};
@@ -73,6 +108,10 @@ struct Source {
     // The full CRS when it states what heights refer to, as WKT2; "EPSG:5773"-like code when metadata states
     // it; or nothing.
     std::string vertical_crs;
+    int band{1};          // of a raster: which of its bands holds the heights
+    bool signed_bytes{};  // stored bytes above 127 stand for negative numbers, although GDAL gives 0 to 255
+    std::shared_ptr<UndeclaredVoids> undeclared{std::make_shared<UndeclaredVoids>()};
+    ValueFindings values;  // of all posts that were read so far; filled in where posts are laid
 };
 
 // A rectangle of a source's posts.
@@ -92,6 +131,7 @@ struct PostBlock {
     // Of what is stored, in metres as above, implausible heights too; lowest above highest where nothing is.
     double lowest_stored_m{std::numeric_limits<double>::infinity()};
     double highest_stored_m{-std::numeric_limits<double>::infinity()};
+    ValueFindings values;  // for those who tell it; all of the above is in it, too
 
     [[nodiscard]] float at(int row, int column) const {
         return height_m[static_cast<std::size_t>(row - window.row) *
@@ -104,7 +144,14 @@ struct PostBlock {
 inline constexpr double lowest_plausible_m = -12000.0;
 inline constexpr double highest_plausible_m = 9000.0;
 
-// Reads a window of a source's posts. Errors: a file that has changed, is damaged or ends early.
+// A slope of 80 degrees: half of all neighbouring posts are nowhere as steep as that.
+inline constexpr double steep_m_per_m = 5.67;
+
+// Counts one post whose stored value is a height that no terrain has.
+void count_implausible(PostBlock& block, double stored);
+
+// Reads a window of a source's posts. What a file does not declare as no data and is none becomes void, too.
+// Errors: a file that has changed, is damaged or ends early.
 Result<PostBlock> read_posts(const Source& source, const PostWindow& window);
 
 }  // namespace oro

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "geo/rasters/map_crs.h"
+#include "geo/sources/known_products.h"
 #include "geo/sources/raster_crs.h"
 #include "geo/sources/raster_library.h"
 
@@ -19,6 +20,18 @@ std::string with_heights(const std::string& text) {
     const char* const code = OSRGetAuthorityCode(crs.get(), nullptr);
     if (!OSRIsVertical(crs.get()) || !authority || std::string(authority) != "EPSG" || !code) return "";
     return std::string("EPSG:4326+") + code;
+}
+
+// Of a product that is known by the file's name: puts what its heights refer to into the source. They are in
+// metres upwards.
+StatedDatum heights_of_product(Source& source) {
+    if (source.kind == SourceKind::hgt) return {};
+    const auto known = known_file(source.report.path.substr(source.report.path.rfind('/') + 1));
+    if (!known || known->heights_name.empty()) return {};
+    source.vertical_crs = known->heights_crs;
+    source.report.vertical_datum = {
+        DatumFrom::product, std::string(known->heights_name) + ", of " + std::string(known->product), false};
+    return {};
 }
 
 }  // namespace
@@ -58,7 +71,7 @@ Result<ToldOfFiles> told_of_files(const RegionRequest& request) {
 }
 
 StatedDatum ToldOfFiles::heights_of(Source& source) const {
-    if (vertical_crs.empty()) return {};
+    if (vertical_crs.empty()) return heights_of_product(source);
     source.vertical_crs = vertical_crs;
     source.report.vertical_datum = {DatumFrom::told, vertical.name, false};
     return vertical;

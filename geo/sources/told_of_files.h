@@ -18,7 +18,8 @@ struct ToldOfFiles {
     std::string vertical_crs;  // what heights refer to, of those that do not say; "" for nothing
     StatedDatum vertical;      // likewise
 
-    // Of a source that does not say it: puts what its heights refer to into it, where that was told.
+    // Of a source that does not say it: puts what its heights refer to into it, where that was told, or else
+    // where the file's name is one of a known product.
     StatedDatum heights_of(Source& source) const;
 };
 

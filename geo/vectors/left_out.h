@@ -1,42 +1,78 @@
-// What a reader leaves out of a file: how often, and why.
+// What a reader leaves out of a file: how often, why, and where it comes first.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
+#include "geo/files/foreign_text.h"
+
 namespace oro {
+
+// Something that is left out.
+struct LeftOutPart {
+    static constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+
+    std::size_t count{1};
+    std::size_t places{};     // that are lost with it
+    std::size_t at{nowhere};  // byte of the file's text
+    std::string word;         // what stands there, or ""
+};
 
 // Counts by reason, in the order in which reasons first came up.
 class LeftOut {
   public:
-    void add(const std::string& reason, std::size_t count = 1) {
-        const auto known = std::ranges::find(counts_, reason, &std::pair<std::string, std::size_t>::first);
-        if (known != counts_.end())
-            known->second += count;
+    void add(const std::string& reason, const LeftOutPart& part = {}) {
+        places_ += part.places;
+        const auto known = std::ranges::find(reasons_, reason, &Reason::words);
+        if (known == reasons_.end())
+            reasons_.push_back({reason, part});
         else
-            counts_.emplace_back(reason, count);
+            known->part.count += part.count;
     }
-    [[nodiscard]] bool empty() const { return counts_.empty(); }
-    // "FILE: left out 3 features without a geometry"
-    [[nodiscard]] std::vector<std::string> notes(const std::string& file) const {
+    [[nodiscard]] bool empty() const { return reasons_.empty(); }
+    // Of all places that are lost.
+    [[nodiscard]] std::size_t places() const { return places_; }
+    // "FILE: left out 3 features without a geometry, the first in line 5"; lines are counted in the text.
+    [[nodiscard]] std::vector<std::string> notes(const std::string& file, std::string_view text) const {
         std::vector<std::string> lines;
-        for (const auto& [reason, count] : counts_)
-            lines.push_back(file + ": left out " + std::to_string(count) + " " + reason);
+        for (const Reason& reason : reasons_) lines.push_back(file + ": left out " + words_of(reason, text));
         return lines;
     }
-    // All in one: "3 features without a geometry, 1 layer ..."
-    [[nodiscard]] std::string words() const {
+    // All in one: "3 features without a geometry, the first in line 5; 1 layers ..."
+    [[nodiscard]] std::string words(std::string_view text) const {
         std::string all;
-        for (const auto& [reason, count] : counts_)
-            all += (all.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+        for (const Reason& reason : reasons_) all += (all.empty() ? "" : "; ") + words_of(reason, text);
         return all;
     }
 
   private:
-    std::vector<std::pair<std::string, std::size_t>> counts_;
+    struct Reason {
+        std::string words;
+        LeftOutPart part;
+    };
+
+    static std::string words_of(const Reason& reason, std::string_view text) {
+        const LeftOutPart& part = reason.part;
+        std::string words = std::to_string(part.count) + " " + reason.words;
+        if (part.at > text.size()) return words;
+        const auto line = 1 + std::ranges::count(text.substr(0, part.at), '\n');
+        words += (part.count > 1 ? ", the first in line " : ", in line ") + std::to_string(line);
+        return part.word.empty() ? words : words + ": '" + shown(part.word) + "'";
+    }
+    static std::string shown(const std::string& word) {
+        constexpr std::size_t longest = 40;
+        if (word.size() <= longest) return foreign_text(word);
+        std::size_t end = longest;
+        while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0U) == 0x80U) --end;
+        return foreign_text(word.substr(0, end)) + "...";
+    }
+
+    std::vector<Reason> reasons_;
+    std::size_t places_{};
 };
 
 }  // namespace oro

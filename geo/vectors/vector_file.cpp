@@ -1,6 +1,5 @@
 #include "geo/vectors/vector_file.h"
 
-#include <cpl_conv.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -11,13 +10,18 @@
 
 #include "core/base/open_file.h"
 #include "geo/drape/image_source.h"
+#include "geo/files/archive_entries.h"
 #include "geo/files/foreign_text.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/text_encoding.h"
 #include "geo/sources/raster_library.h"
-#include "geo/vectors/geojson_crs.h"
+#include "geo/vectors/geojson_reader.h"
+#include "geo/vectors/gpx_reader.h"
+#include "geo/vectors/kml_reader.h"
 #include "geo/vectors/vector_library.h"
 #include "geo/vectors/vector_shapes.h"
+#include "geo/vectors/xml_text.h"
 
 namespace oro {
 namespace {
@@ -28,9 +32,10 @@ Error fault(const std::string& what) {
     return Error{ErrorKind::failed, "", what};
 }
 
-// What the first bytes and the size of a file say, before OGR is asked.
+// What the first bytes and the size of a file say.
 struct Look {
-    bool is_database{};
+    enum class Form { text, database, packed };
+    Form form{Form::text};
     std::uint64_t bytes{};
 };
 
@@ -53,66 +58,47 @@ Result<Look> look_at(const std::string& file, std::vector<std::string>& notes) {
         std::span(head).first(std::min<std::uint64_t>(head.size(), look.bytes));
     ORO_CHECK(opened.read(0, first));
     const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
-    if (text.starts_with(std::string_view("PK\3\4", 4)))
-        return fault("is packed (KMZ?): unpack it and name what is in it");
-    look.is_database = text == std::string_view("SQLite format 3\0", 16);
-    if (!look.is_database && look.bytes > longest_vector_text)
+    if (text.starts_with(std::string_view("PK\3\4", 4))) look.form = Look::Form::packed;
+    if (text == std::string_view("SQLite format 3\0", 16)) look.form = Look::Form::database;
+    if (look.form == Look::Form::text && look.bytes > longest_vector_text)
         return fault("is longer than 1 GiB, which is the limit; a GeoPackage may be longer");
-    if (look.is_database && size_or_0(file + "-journal") > 0)
+    if (look.form != Look::Form::database) return look;
+    if (size_or_0(file + "-journal") > 0)
         return fault("was left half written (its -journal is there): open it once with what wrote it");
-    if (look.is_database && size_or_0(file + "-wal") > 0)
+    if (size_or_0(file + "-wal") > 0)
         notes.push_back(file + ": its -wal file holds changes that are not read; close what has it open");
     return look;
 }
 
-// An option of GDAL's for this thread, while it lives.
-class ThreadOption {
-  public:
-    ThreadOption(const char* name, const char* value) : name_(name) {
-        CPLSetThreadLocalConfigOption(name, value);
-    }
-    ~ThreadOption() { CPLSetThreadLocalConfigOption(name_, nullptr); }
-    ThreadOption(const ThreadOption&) = delete;
-    ThreadOption& operator=(const ThreadOption&) = delete;
-
-  private:
-    const char* name_;
-};
+// What a file gave, when all of it was looked at. Errors: nothing that could be drawn.
+Result<void> ended(VectorFile& file, const LeftOut& left_out, std::string_view text) {
+    for (std::string& note : left_out.notes(file.file, text)) file.notes.push_back(std::move(note));
+    file.places_left_out = left_out.places();
+    if (!file.layers.empty()) return {};
+    return fault("holds no points, lines or polygons" +
+                 (left_out.empty() ? "" : "; left out: " + left_out.words(text)));
+}
 
 struct FreeFeature {
     void operator()(OGRFeatureH feature) const { OGR_F_Destroy(feature); }
 };
 using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, FreeFeature>;
 
-// One file while it is read.
+// A database while it is read.
 class Reading {
   public:
     Reading(GDALDatasetH dataset, FileWatch& watch, const GdalMessages& messages, VectorFile& file)
-        : dataset_(dataset), watch_(watch), messages_(messages), file_(file) {
-        const std::string driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset));
-        is_gpx_ = driver == "GPX";
-        is_kml_ = driver == "LIBKML";
-        is_geojson_ = driver == "GeoJSON";
-    }
+        : dataset_(dataset), watch_(watch), messages_(messages), file_(file) {}
 
     Result<void> all() {
         for (int i = 0; i < GDALDatasetGetLayerCount(dataset_); ++i) {
             const OGRLayerH layer = GDALDatasetGetLayer(dataset_, i);
-            if (layer == nullptr || tells_again(OGR_L_GetName(layer))) continue;
-            ORO_CHECK(read_layer(layer));
+            if (layer != nullptr) ORO_CHECK(read_layer(layer));
         }
-        for (std::string& note : left_out_.notes(file_.file)) file_.notes.push_back(std::move(note));
-        if (!file_.layers.empty()) return {};
-        return fault("holds no points, lines or polygons" +
-                     (left_out_.empty() ? "" : "; left out: " + left_out_.words()));
+        return ended(file_, left_out_, "");
     }
 
   private:
-    // GPX files give the places of their lines as points once more.
-    [[nodiscard]] bool tells_again(const std::string& layer) const {
-        return is_gpx_ && (layer == "route_points" || layer == "track_points");
-    }
-
     Result<void> read_layer(OGRLayerH handle) {
         VectorLayer layer;
         layer.name = foreign_text(OGR_L_GetName(handle));
@@ -125,7 +111,6 @@ class Reading {
         if (!splitter.ok()) return fault("layer '" + layer.name + "': " + splitter.error().what);
         for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i)
             layer.fields.push_back(foreign_text(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i))));
-        altitude_mode_ = is_kml_ ? layer.field_number("altitudeMode") : -1;
         OGR_L_ResetReading(handle);
         for (std::size_t count = 0;; ++count) {
             if (count % features_between_looks == 0 && watch_.spent()) return fault(watch_.fault());
@@ -139,6 +124,7 @@ class Reading {
         if (!messages_.last("").empty())
             return fault("layer '" + layer.name + "' cannot be read to its end: " + messages_.last(""));
         places_ += splitter->places();
+        file_.ring_ends += splitter->ring_ends();
         if (!layer.shapes.empty()) file_.layers.push_back(std::move(layer));
         return {};
     }
@@ -150,8 +136,9 @@ class Reading {
             return;
         }
         const std::size_t before = layer.shapes.size();
-        splitter.split(geometry, heights_of(feature, splitter), layer.records.size(), layer.shapes,
-                       left_out_);
+        const HeightAbove heights =
+            splitter.heights() == HeightAbove::nothing ? HeightAbove::sea_level : splitter.heights();
+        splitter.split(geometry, {heights, layer.records.size(), &layer.shapes, &left_out_});
         if (layer.shapes.size() > before) layer.records.push_back(record_of(feature, layer.fields.size()));
     }
 
@@ -166,43 +153,89 @@ class Reading {
         return record;
     }
 
-    [[nodiscard]] HeightAbove heights_of(OGRFeatureH feature, const ShapeSplitter& splitter) const {
-        if (is_kml_) {
-            const std::string mode =
-                altitude_mode_ >= 0 ? OGR_F_GetFieldAsString(feature, altitude_mode_) : "";
-            if (mode == "absolute") return HeightAbove::sea_level;
-            return mode == "relativeToGround" ? HeightAbove::ground : HeightAbove::nothing;
-        }
-        if (is_gpx_) return HeightAbove::sea_level;
-        if (splitter.heights() != HeightAbove::nothing) return splitter.heights();
-        return is_geojson_ ? HeightAbove::ellipsoid : HeightAbove::sea_level;
-    }
-
     GDALDatasetH dataset_;
     FileWatch& watch_;
     const GdalMessages& messages_;
     VectorFile& file_;
-    bool is_gpx_{}, is_kml_{}, is_geojson_{};
-    int altitude_mode_{-1};
     LeftOut left_out_;
     std::size_t places_{};
 };
 
-Result<void> read_all(VectorFile& file, const Look& look, FileWatch& watch, const GdalMessages& messages) {
-    const ThreadOption heights("GPX_ELE_AS_25D", "YES");
+Result<void> read_database(VectorFile& file, FileWatch& watch, const GdalMessages& messages) {
     // Nothing is written beside a database, and what it lists is all that is looked at.
     static constexpr std::array<const char*, 3> whole{"IMMUTABLE=YES", "LIST_ALL_TABLES=NO", nullptr};
     const Dataset dataset(GDALOpenEx(file.file.c_str(),
                                      GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                     look.is_database ? database_vector_drivers() : text_vector_drivers(),
-                                     look.is_database ? whole.data() : nullptr, nullptr));
+                                     database_vector_drivers(), whole.data(), nullptr));
     if (!dataset)
         return fault("is no vector file that can be opened here (" + trusted_vector_formats() +
                      "): " + messages.last("unknown format"));
-    // OGR goes on with WGS84 where it does not know a CRS, and with nothing where XML ends too soon.
+    // OGR goes on with WGS84 where it does not know a CRS.
     if (!messages.last("").empty()) return fault("cannot be read: " + messages.last(""));
-    if (!look.is_database) ORO_CHECK(check_geojson_crs(file.file, watch));
     return Reading(dataset.get(), watch, messages, file).all();
+}
+
+Result<std::string> bytes_of_file(const std::string& name) {
+    ORO_TRY(const OpenFile opened, OpenFile::open(name, OpenFile::Use::read));
+    ORO_TRY(const std::uint64_t size, opened.size());
+    std::string bytes(size, '\0');
+    ORO_CHECK(opened.read(0, std::as_writable_bytes(std::span(bytes))));
+    return bytes;
+}
+
+// KML's main file in a packed one: doc.kml, or the first that there is.
+Result<std::string> bytes_of_kmz(const std::string& name) {
+    const auto in_one_line = [](const Error& error) { return fault(error.what); };
+    const auto entries = archive_entries(name, name, ArchiveKind::zip);
+    if (!entries.ok()) return in_one_line(entries.error());
+    const auto is_kml = [](const ArchiveEntry& entry) { return lower_case(entry.name).ends_with(".kml"); };
+    auto main = std::ranges::find(*entries, "doc.kml", &ArchiveEntry::name);
+    if (main == entries->end()) main = std::ranges::find_if(*entries, is_kml);
+    if (main == entries->end()) return fault("is packed and holds no .kml: unpack it and name what is in it");
+    if (main->bytes > longest_vector_text)
+        return fault("holds " + foreign_text(main->name) + ", which is longer than 1 GiB, the limit");
+    const auto bytes = unpacked(name, name, *main);
+    if (!bytes.ok()) return in_one_line(bytes.error());
+    return *bytes;
+}
+
+// What a file of text holds: its root says which format it has.
+Result<void> read_text(VectorFile& file, std::string bytes, FileWatch& watch) {
+    const auto unknown = [](const std::string& why) {
+        return fault("is no vector file that can be opened here (" + trusted_vector_formats() + "): " + why);
+    };
+    const std::string stem = std::filesystem::path(file.file).stem().string();
+    ORO_TRY(const std::string text, utf8_xml(std::move(bytes)));
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    LeftOut left_out;
+    if (first != std::string::npos && text[first] == '<') {
+        const Result<XmlText> xml = XmlText::parse(text);
+        if (!xml.ok()) return fault(xml.error().what);
+        const std::string_view root = local_name(xml->root());
+        static constexpr std::array kml_roots{"kml", "Document", "Folder", "Placemark"};
+        if (root == "gpx") {
+            ORO_CHECK(read_gpx(*xml, watch, file, left_out));
+        } else if (std::ranges::find(kml_roots, root) != kml_roots.end()) {
+            ORO_CHECK(read_kml(*xml, stem, watch, file, left_out));
+        } else {
+            return unknown("is XML whose first element is '" + foreign_text(root) + "'");
+        }
+    } else {
+        const Result<void> read = read_geojson(text, stem, watch, file, left_out);
+        if (!read.ok())
+            return first != std::string::npos && (text[first] == '{' || text[first] == '[')
+                       ? read
+                       : unknown("unknown format");
+    }
+    return ended(file, left_out, text);
+}
+
+Result<void> read_all(VectorFile& file, const Look& look, FileWatch& watch, const GdalMessages& messages) {
+    if (look.form == Look::Form::database) return read_database(file, watch, messages);
+    const bool is_packed = look.form == Look::Form::packed;
+    Result<std::string> bytes = is_packed ? bytes_of_kmz(file.file) : bytes_of_file(file.file);
+    if (!bytes.ok()) return fault(bytes.error().what);
+    return read_text(file, std::move(*bytes), watch);
 }
 
 }  // namespace

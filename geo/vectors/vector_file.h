@@ -59,6 +59,9 @@ struct VectorFile {
     std::vector<VectorLayer> layers;  // those that have shapes
     std::uint64_t print{};            // fingerprint of the file's bytes
     std::vector<std::string> notes;   // what a user must know, one line each: what was left out, and why
+    std::size_t
+        places_left_out{};    // of all places that the file writes, those in no shape; notes tell of them
+    std::size_t ring_ends{};  // places that tell the first of a polygon's ring again at its end
 
     [[nodiscard]] std::size_t count(VectorKind kind) const;
 };
@@ -68,13 +71,14 @@ inline constexpr std::uint64_t longest_vector_text = std::uint64_t{1} << 30U;
 // ... and all shapes of a file have so many places.
 inline constexpr std::size_t most_vector_places = 50'000'000;
 
-// Reads all of a file: GPX (waypoints, routes, tracks), KML, GeoJSON, GeoPackage. Collections are split,
-// curves become lines (an arc one for each degree). Places are turned into WGS84's by PROJ's best operation
-// for the layer's CRS (one that GeoJSON names as it did before RFC 7946, too). Shapes that have no place on
-// the Earth are left out, a line is broken where one of its places is none, and notes tell of it. Opens
-// regular files of this machine, and no other; takes limit_s at most, and a second more for each MiB. Errors:
-// a file that is not there, empty, packed, damaged or of another format; one that has nothing with a place; a
-// CRS that PROJ does not know.
+// Reads all of a file: GPX (waypoints, routes, tracks), KML (with Google's tracks; packed as KMZ, too),
+// GeoJSON, GeoPackage. Collections are split, curves become lines (an arc one for each degree), a KML Model
+// is a point and a GroundOverlay a polygon. Places are turned into WGS84's by PROJ's best operation for the
+// layer's CRS (one that GeoJSON names as it did before RFC 7946, too). Coordinates that are no numbers, and
+// such as have no place on the Earth, are left out, a line is broken where one of its places is none, and
+// notes tell how often, why and in which line first. Opens regular files of this machine, and no other; takes
+// limit_s at most, and a second more for each MiB. Errors: a file that is not there, empty, damaged or of
+// another format (with the line, of text); one that has nothing with a place; a CRS that PROJ does not know.
 Result<VectorFile> read_vectors(const std::string& file, double limit_s = 30.0);
 
 }  // namespace oro

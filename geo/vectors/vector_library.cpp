@@ -29,19 +29,11 @@ int watch_database(sqlite3* database, char**, const void*) {
 void start_vectors() {
     static const bool is_started = [] {
         start_gdal();
-        RegisterOGRGPX();
-        RegisterOGRLIBKML();
-        RegisterOGRGeoJSON();
         RegisterOGRGeoPackage();
         return true;
     }();
     (void)is_started;
     sqlite3_auto_extension(reinterpret_cast<void (*)()>(&watch_database));  // once, however often
-}
-
-const char* const* text_vector_drivers() {
-    static constexpr std::array<const char*, 4> names{"GPX", "LIBKML", "GeoJSON", nullptr};
-    return names.data();
 }
 
 const char* const* database_vector_drivers() {

@@ -1,21 +1,19 @@
-// The vector formats that OGR (the vectors' half of GDAL) reads for this program, and what keeps its
-// databases within their time.
+// What OGR (the vectors' half of GDAL) reads for this program: databases, and what keeps them within their
+// time. Formats of text are read here without it.
 #pragma once
 
 #include <string>
 
 namespace oro {
 
-// As start_gdal(), and registers the drivers of the four vector formats. From then on a query of SQLite ends
+// As start_gdal(), and registers the driver of GeoPackages. From then on a query of SQLite ends
 // when the time of the FileWatch of its thread is spent: a GeoPackage may hold queries that never end.
 // To be called before each file: libraries may forget what SQLite is to do.
 void start_vectors();
 
-// GDAL's names of the formats that are text (GPX, KML, GeoJSON) and of the one that is a database, each
-// ending in a null. All stop with an error where a file is cut.
-const char* const* text_vector_drivers();
+// GDAL's names of the formats that are databases, ending in a null.
 const char* const* database_vector_drivers();
-// The same for people.
+// All formats of vectors that this program reads, for people.
 std::string trusted_vector_formats();
 
 }  // namespace oro

@@ -81,103 +81,151 @@ Result<ShapeSplitter> ShapeSplitter::of(OGRSpatialReferenceH crs) {
     return splitter;
 }
 
-ShapeSplitter::Path ShapeSplitter::places_of(OGRGeometryH geometry, HeightAbove heights, const char*& why) {
-    why = nullptr;
+TextPath ShapeSplitter::path_of(OGRGeometryH geometry, HeightAbove heights) {
+    TextPath path;
     const auto count = static_cast<std::size_t>(std::max(0, OGR_G_GetPointCount(geometry)));
-    x_.assign(count, none), y_.assign(count, none), z_.assign(count, none);
+    path.x.assign(count, none), path.y.assign(count, none), path.z.assign(count, none);
     constexpr int step = sizeof(double);
     const bool has_heights = OGR_G_Is3D(geometry) != 0 && heights != HeightAbove::nothing;
-    OGR_G_GetPoints(geometry, x_.data(), step, y_.data(), step, has_heights ? z_.data() : nullptr, step);
-    done_.assign(count, 1);
-    if (to_wgs84_ && count > 0) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (std::isfinite(x_[i]) && std::isfinite(y_[i])) continue;
-            x_[i] = y_[i] = none;
-            why = "that are no finite numbers";
-        }
-        const GdalMessages unsaid;  // of single places
-        OCTTransformEx(to_wgs84_.get(), static_cast<int>(count), x_.data(), y_.data(), nullptr, done_.data());
-    }
-    Path path(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const bool lost = to_wgs84_ && (done_[i] == 0 || !std::isfinite(x_[i]) || !std::isfinite(y_[i]));
-        const char* const fault =
-            lost ? "that their coordinate reference system has no place for" : fault_of(y_[i], x_[i]);
-        if (fault != nullptr) {
-            if (why == nullptr) why = fault;
-            path[i] = {none, none, none};
-            continue;
-        }
-        const double height_m = z_[i] * metres_per_unit_;
-        path[i] = {y_[i], normalised_lon_deg(x_[i]), std::abs(height_m) <= highest_m ? height_m : none};
-    }
+    OGR_G_GetPoints(geometry, path.x.data(), step, path.y.data(), step, has_heights ? path.z.data() : nullptr,
+                    step);
     return path;
 }
 
-void ShapeSplitter::add(VectorKind kind, std::vector<Path> paths, const Split& to) {
+// x_ and y_ become longitudes and latitudes of WGS84, as far as done_ says so.
+void ShapeSplitter::transform(const TextPath& path) {
+    const std::size_t count = path.size();
+    x_ = path.x, y_ = path.y;
+    done_.assign(count, 1);
+    if (!to_wgs84_ || count == 0) return;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!std::isfinite(x_[i]) || !std::isfinite(y_[i])) x_[i] = y_[i] = none;
+    }
+    const GdalMessages unsaid;  // of single places
+    OCTTransformEx(to_wgs84_.get(), static_cast<int>(count), x_.data(), y_.data(), nullptr, done_.data());
+}
+
+ShapeSplitter::Path ShapeSplitter::places_of(const TextPath& from, const ShapeTarget& to,
+                                             std::vector<Fault>& faults) {
+    transform(from);
+    Path path(from.size());
+    std::size_t written = 0;  // of the faults that the file's words have
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const bool is_finite = std::isfinite(from.x[i]) && std::isfinite(from.y[i]);
+        const bool lost =
+            to_wgs84_ && is_finite && (done_[i] == 0 || !std::isfinite(x_[i]) || !std::isfinite(y_[i]));
+        const char* why =
+            lost ? "that their coordinate reference system has no place for" : fault_of(y_[i], x_[i]);
+        std::string word;
+        if (written < from.faults.size() && from.faults[written].place == i) {
+            why = from.faults[written].why;
+            word = from.faults[written++].word;
+        }
+        if (why != nullptr) {
+            path[i] = {none, none, none};
+            faults.push_back({why, {1, 1, from.at.empty() ? LeftOutPart::nowhere : from.at[i], word}});
+            continue;
+        }
+        const double height_m = to.heights == HeightAbove::nothing ? none : from.z[i] * metres_per_unit_;
+        path[i] = {y_[i], normalised_lon_deg(x_[i]), std::abs(height_m) <= highest_m ? height_m : none};
+    }
+    if (from.faulty_heights > 0)
+        to.left_out->add("heights that are no numbers", {from.faulty_heights, 0, from.faulty_height_at, ""});
+    return path;
+}
+
+void ShapeSplitter::add(VectorKind kind, std::vector<Path> paths, const ShapeTarget& to) {
     for (const Path& path : paths) places_ += path.size();
     to.shapes->push_back({kind, to.heights, std::move(paths), to.record});
 }
 
-void ShapeSplitter::split_point(OGRGeometryH geometry, const Split& to) {
-    const char* why = nullptr;
-    Path path = places_of(geometry, to.heights, why);
-    if (path.size() != 1 || why != nullptr)
-        to.left_out->add(std::string("points ") + (why ? why : "without coordinates"));
-    else
+void ShapeSplitter::add_point(const TextPath& point, const ShapeTarget& to) {
+    const std::size_t at = point.at.empty() ? LeftOutPart::nowhere : point.at.front();
+    if (point.size() != 1) {
+        to.left_out->add(point.size() == 0 ? "points without coordinates" : "points of more than one place",
+                         {1, point.size(), at, ""});
+        return;
+    }
+    std::vector<Fault> faults;
+    Path path = places_of(point, to, faults);
+    if (faults.empty())
         add(VectorKind::point, {std::move(path)}, to);
+    else
+        to.left_out->add(std::string("points ") + faults.front().why, faults.front().part);
 }
 
 // Broken where a place is none: nobody knows how the line goes there.
-void ShapeSplitter::split_line(OGRGeometryH geometry, const Split& to) {
-    const char* why = nullptr;
-    const Path all = places_of(geometry, to.heights, why);
-    const auto lost = static_cast<std::size_t>(
-        std::ranges::count_if(all, [](const VectorPlace& place) { return !there(place); }));
-    if (lost > 0) to.left_out->add(std::string("places of lines ") + why, lost);
+void ShapeSplitter::add_line(const TextPath& line, const ShapeTarget& to) {
+    std::vector<Fault> faults;
+    const Path all = places_of(line, to, faults);
+    for (const Fault& fault : faults)
+        to.left_out->add(std::string("places of lines ") + fault.why, fault.part);
     for (auto at = all.begin(); at != all.end();) {
         at = std::find_if(at, all.end(), there);
         const auto end = std::find_if_not(at, all.end(), there);
         if (end - at > 1)
             add(VectorKind::line, {Path(at, end)}, to);
         else if (end - at == 1)
-            to.left_out->add("lines of a single place");
+            to.left_out->add(
+                "lines of a single place",
+                {1, 1,
+                 line.at.empty() ? LeftOutPart::nowhere : line.at[static_cast<std::size_t>(at - all.begin())],
+                 ""});
         at = end;
     }
 }
 
-void ShapeSplitter::split_polygon(OGRGeometryH geometry, const Split& to) {
-    std::vector<Path> rings;
-    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); ++i) {
-        const char* why = nullptr;
-        Path ring = places_of(OGR_G_GetGeometryRef(geometry, i), to.heights, why);
-        if (why != nullptr) {
-            to.left_out->add(std::string("polygons with places ") + why);
+void ShapeSplitter::add_polygon(const std::vector<TextPath>& rings, const ShapeTarget& to) {
+    std::vector<Path> kept;
+    std::size_t all = 0, ends = 0;
+    for (const TextPath& ring : rings) all += ring.size();
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+        std::vector<Fault> faults;
+        Path ring = places_of(rings[i], to, faults);
+        const std::size_t at = rings[i].at.empty() ? LeftOutPart::nowhere : rings[i].at.front();
+        if (!faults.empty()) {
+            LeftOutPart part = faults.front().part;
+            part.places = all;
+            to.left_out->add(std::string("polygons with places ") + faults.front().why, part);
             return;
         }
         while (ring.size() > 1 && same(ring.front(), ring.back())) ring.pop_back();
         if (ring.size() >= 3) {
-            rings.push_back(std::move(ring));
+            ends += rings[i].size() - ring.size();
+            kept.push_back(std::move(ring));
             continue;
         }
-        to.left_out->add(i == 0 ? "polygons of fewer than three places" : "holes of fewer than three places");
-        if (i == 0) return;
+        if (i == 0) {
+            to.left_out->add("polygons of fewer than three places", {1, all, at, ""});
+            return;
+        }
+        to.left_out->add("holes of fewer than three places", {1, rings[i].size(), at, ""});
+        all -= rings[i].size();
     }
-    if (!rings.empty()) add(VectorKind::polygon, std::move(rings), to);
+    if (kept.empty()) return;
+    ring_ends_ += ends;
+    add(VectorKind::polygon, std::move(kept), to);
 }
 
-void ShapeSplitter::split_flat(OGRGeometryH geometry, const Split& to) {
+void ShapeSplitter::split_polygon(OGRGeometryH geometry, const ShapeTarget& to) {
+    std::vector<TextPath> rings;
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); ++i)
+        rings.push_back(path_of(OGR_G_GetGeometryRef(geometry, i), to.heights));
+    add_polygon(rings, to);
+}
+
+void ShapeSplitter::split_flat(OGRGeometryH geometry, const ShapeTarget& to) {
     if (OGR_G_IsEmpty(geometry) != 0) {
         to.left_out->add("geometries without coordinates");
         return;
     }
     switch (wkbFlatten(OGR_G_GetGeometryType(geometry))) {
         case wkbPoint:
-            split_point(geometry, to);
+            add_point(path_of(geometry, to.heights), to);
             return;
         case wkbLineString:
         case wkbLinearRing:
-            split_line(geometry, to);
+            add_line(path_of(geometry, to.heights), to);
             return;
         case wkbPolygon:
         case wkbTriangle:
@@ -198,9 +246,7 @@ void ShapeSplitter::split_flat(OGRGeometryH geometry, const Split& to) {
     }
 }
 
-void ShapeSplitter::split(OGRGeometryH geometry, HeightAbove heights, std::size_t record,
-                          std::vector<VectorShape>& shapes, LeftOut& left_out) {
-    const Split to{heights, record, &shapes, &left_out};
+void ShapeSplitter::split(OGRGeometryH geometry, const ShapeTarget& to) {
     if (OGR_G_HasCurveGeometry(geometry, 1) == 0) {
         split_flat(geometry, to);
         return;
@@ -209,7 +255,7 @@ void ShapeSplitter::split(OGRGeometryH geometry, HeightAbove heights, std::size_
     if (flat)
         split_flat(flat.get(), to);
     else
-        left_out.add("curves that cannot be followed");
+        to.left_out->add("curves that cannot be followed");
 }
 
 }  // namespace oro

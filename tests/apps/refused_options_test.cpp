@@ -28,6 +28,22 @@ void expect_lines(const std::vector<Refused>& all) {
     }
 }
 
+// Found: exit code 0, and the program's help.
+TEST(RefusedOptions, NoCommandIsOneForHelpEither) {
+    const std::string these =
+        "; these are shot, panorama, view, compare, plan, trade, sun, sight, profile, viewshed, bake, info "
+        "and "
+        "doctor";
+    expect_lines({{{"nonsense", "--help"}, "nonsense: is no command" + these},
+                  {{"nonsense", "-h"}, "nonsense: is no command" + these},
+                  {{"--help", "nonsense"}, "nonsense: is no command" + these},
+                  {{"nonsense", "--version"}, "nonsense: is no command" + these},
+                  {{"shoot", "--help"}, "shoot: is no command: did you mean shot?"}});
+    EXPECT_EQ(run_orograph({"--help"}).exit_code, 0);
+    EXPECT_EQ(run_orograph({"--version"}).exit_code, 0);
+    EXPECT_EQ(run_orograph({"shot", "nonsense", "--help"}).exit_code, 0);
+}
+
 TEST(RefusedOptions, Choices) {
     const std::string file = bundled();
     expect_lines(
@@ -39,7 +55,7 @@ TEST(RefusedOptions, Choices) {
          {{"shot", file, "--drape-values", "bright"},
           "--drape-values bright: choose auto, codes or reflectance"},
          {{"shot", file, "--pipeline", "cpu"}, "--pipeline cpu: choose auto, mesh or compute"},
-         {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft or cm"},
+         {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft, cm, dm or mm"},
          {{"info", file, "--source-crs", "EPSG:999999"},
           "--source-crs EPSG:999999: is no coordinate reference system that PROJ knows; e.g. EPSG:2056"},
          {{"info", file, "--source-crs", "EPSG:5728"},

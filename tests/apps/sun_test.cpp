@@ -52,6 +52,42 @@ TEST(SunCommand, WithoutAZoneTheDayIsThePlacesOwn) {
     }
 }
 
+// Found: a day from midnight to midnight begins, in the far north and in other zones, with the end of the
+// evening before. That was told as the last light, and the night after it as "hidden". US Naval Observatory's
+// rule (upper limb, 34 minutes of refraction) by NOAA's solar equations (Meeus, low accuracy): Mosjoen, 65.84
+// N 13.19 E, 2026-06-12 in +02:00: set 00:37, rise 01:38, set 00:42 of the 13th, rise 01:33.
+TEST(SunCommand, TheEveningIsThatOfTheDay) {
+    const Words north{"--at", "65.84,13.19", "--date", "2026-06-12", "--zone", "+02:00"};
+    const auto sun = told(north);
+    const auto time = [](const nlohmann::json& crossing) { return crossing["time"].get<std::string>(); };
+    EXPECT_EQ(sun["date"], "2026-06-12");
+    EXPECT_EQ(time(sun["plain"]["first_light"]).substr(0, 13), "2026-06-12T01") << sun["plain"];
+    EXPECT_EQ(time(sun["plain"]["last_light"]).substr(0, 13), "2026-06-13T00") << sun["plain"];
+    EXPECT_GT(sun["plain"]["last_light"]["time_utc_s"], sun["noon"]["time_utc_s"]);
+    EXPECT_LT(sun["plain"]["first_light"]["time_utc_s"], sun["noon"]["time_utc_s"]);
+    EXPECT_EQ(sun["night"]["from_utc_s"], sun["plain"]["last_light"]["time_utc_s"]);
+    EXPECT_EQ(sun["night"]["to"].get<std::string>().substr(0, 13), "2026-06-13T01");
+    Words words = north;
+    words.insert(words.begin(), "sun");
+    const Outcome text = run_orograph(words);
+    EXPECT_EQ(text.out.find("hidden"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("    night        2026-06-13T00:"), std::string::npos) << text.out;
+    // The same day by a clock that is far from the place's.
+    const auto utc = told({"--at", "61.2,-149.9", "--date", "2026-06-21", "--zone", "Z"});
+    EXPECT_EQ(time(utc["plain"]["first_light"]).substr(0, 13), "2026-06-21T12") << utc["plain"];
+    EXPECT_EQ(time(utc["plain"]["last_light"]).substr(0, 13), "2026-06-22T07") << utc["plain"];
+}
+
+// The same over terrain: what is hidden is so by day.
+TEST(SunCommand, NightIsNotHiddenByTerrain) {
+    for (const char* zone : {"-04:00", "Z", "+09:00"}) {
+        const Outcome text = run_orograph({"sun", bundled(), "--at", "36.5,-84.2", "--above", "300", "--date",
+                                           "2026-06-21", "--zone", zone});
+        EXPECT_EQ(text.exit_code, 0) << text.err;
+        EXPECT_EQ(text.out.find("hidden"), std::string::npos) << zone << text.out;
+    }
+}
+
 TEST(SunCommand, PolarDayAndNightAreToldPlainly) {
     const Outcome day = run_orograph({"sun", "--at", "78.2,15.6", "--date", "2026-06-21"});
     EXPECT_NE(day.out.find("polar day: the sun does not set\n"), std::string::npos) << day.out;

@@ -13,7 +13,7 @@ SourceReport tile(const std::string& path) {
     source.path = path;
     source.format = SourceFormat::srtm3_hgt;
     source.crs = "EPSG:4326 WGS 84";
-    source.vertical_datum.from = DatumFrom::assumed_for_hgt;
+    source.vertical_datum.from = DatumFrom::hgt_format;
     source.attribution = "somebody";
     source.rows = source.columns = 1201;
     source.lat_spacing_deg = source.lon_spacing_deg = 1.0 / 1200.0;
@@ -135,6 +135,25 @@ TEST(InfoText, LengthsAreInWordsAndUnitsShort) {
     // In a projection posts are as far apart both ways, and do not fill a box of degrees.
     coarse.lon_spacing_deg = 0.3625;
     expect_words(info_text(region_of({coarse})), {"degrees (27.67 km)\n"});
+}
+
+// Found: of a file in LV95 (EPSG:2056) the spacing was told in degrees.
+TEST(InfoText, OfAProjectedFileTheSpacingIsTheCrssOwn) {
+    SourceReport projected = tile("lv95.tif");
+    // 30 m of the equator, 6,378,137 m from the Earth's middle; at 46.5 N of a meridian (6,369.06 km) and a
+    // parallel.
+    projected.nominal_spacing_deg = 0.000269494585;
+    projected.lat_spacing_deg = 0.000269770;
+    projected.lon_spacing_deg = 0.000390693;
+    projected.spacing_m = 29.9876;
+    expect_words(info_text(region_of({projected})),
+                 {"posts       1201 x 1201, every 30 m of its CRS (29.99 m on the ground)\n"});
+    expect_words(info_text(region_of({projected, projected})),
+                 {"1201 x 1201 posts, every 30 m of its CRS (29.99 m on the ground); "});
+    // Degrees of another datum stay degrees.
+    SourceReport degrees = tile("nad27.tif");
+    degrees.nominal_spacing_deg = 1.0 / 1200.0;
+    expect_words(info_text(region_of({degrees})), {"every 0.000833333 x 0.000833333 degrees (92.63 m"});
 }
 
 TEST(InfoText, FilledPostsAndPlacementsAreTold) {

@@ -43,6 +43,36 @@ TEST(UnseenWords, TwelveCellsAreNamed) {
     EXPECT_EQ(unseen_json(beyond(14)).at("missing").size(), 14U);
 }
 
+// Found: of a part that was chosen, tiles that are there were called missing.
+TEST(UnseenWords, APartThatWasChosenIsNotMissing) {
+    UnseenGround part = beyond(0);
+    part.columns_beyond = 0;
+    part.bound_px = 0.0;
+    part.columns_beyond_part = 320;
+    part.part_bound_px = 99.5;
+    part.beyond_part.push_back({{46, 8}, 99.5, 320});
+    EXPECT_EQ(unseen_sentence(part) + unseen_ending(part), "");
+    EXPECT_EQ(
+        beyond_part_ending(part),
+        "The part of the data that you chose ends here: in 320 of 640 columns ground beyond it could be up "
+        "to 100 px higher.");
+    const auto json = unseen_json(part);
+    EXPECT_EQ(json.at("missing").size(), 0U);
+    EXPECT_EQ(json.at("chosen_part_ends").at("columns_beyond"), 320);
+    EXPECT_EQ(json.at("chosen_part_ends").at("bound_px"), 99.5);
+    EXPECT_EQ(json.at("chosen_part_ends").at("cells"), nlohmann::json::array({"N46E008"}));
+    EXPECT_EQ(beyond_part_ending(beyond(1)), "");
+}
+
+// Found: a picture of all of a tile, which shows its end, said that ground could be 720 px higher.
+TEST(UnseenWords, NothingIsSaidOfAPictureOfAllTheData) {
+    UnseenGround all = beyond(3);
+    all.all_in_view = true;
+    EXPECT_EQ(unseen_sentence(all) + unseen_ending(all) + beyond_part_ending(all), "");
+    EXPECT_EQ(unseen_json(all).at("all_data_in_view"), true);
+    EXPECT_EQ(unseen_json(all).at("missing").size(), 3U);
+}
+
 TEST(UnseenWords, NothingIsSaidOfNothing) {
     UnseenGround none = beyond(0);
     none.columns_beyond = 0;

@@ -86,6 +86,70 @@ TEST_F(ColourTables, KnowGdaldemsNamesOfColours) {
     }
 }
 
+// The codes of a table's colour at a height, as the shader mixes stops: it takes the first that is above.
+std::array<int, 3> colour_at(const gpu::FrameStyle& style, float H_m) {
+    gpu::uint above = 0;
+    while (above < style.tint_count && !(H_m < style.tints[above].at)) ++above;
+    const gpu::TintStop &high = style.tints[std::min(above, style.tint_count - 1)],
+                        &low = style.tints[above == 0 ? 0 : above - 1];
+    const float share = high.at > low.at ? std::clamp((H_m - low.at) / (high.at - low.at), 0.0F, 1.0F) : 0.0F;
+    std::array<int, 3> codes{};
+    for (int c = 0; c < 3; ++c)
+        codes[static_cast<std::size_t>(c)] = static_cast<int>(
+            std::lround(255.0F * (low.colour[c] + share * (high.colour[c] - low.colour[c]))));
+    return codes;
+}
+
+using Codes = std::array<int, 3>;
+constexpr Codes outside{244, 243, 238}, blue{43, 131, 186}, green{171, 221, 164}, yellow{255, 255, 191},
+    red{215, 25, 28};
+
+// QGIS 3 (QgsColorRampShader::shade): the colour of the first class that is not below the height.
+TEST(ColourTableText, ClassesOfQgisHoldUpToTheirHeight) {
+    const std::string table =
+        "# QGIS Generated Color Map Export File\nINTERPOLATION:DISCRETE\n250,43,131,186,255,<= 250\n"
+        "400,171,221,164,255,250 - 400\n550,255,255,191,255,400 - 550\n";
+    const auto style =
+        style_of_colour_table(table + "inf,215,25,28,255,> 550\n", "t", [] { return HeightRange{}; });
+    ASSERT_TRUE(style.ok()) << style.error().line();
+    for (const auto& [H_m, codes] : {std::pair{-100.0F, blue},
+                                     {250.0F, blue},
+                                     {250.01F, green},
+                                     {399.0F, green},
+                                     {400.0F, green},
+                                     {401.0F, yellow},
+                                     {550.0F, yellow},
+                                     {551.0F, red},
+                                     {9000.0F, red}})
+        EXPECT_EQ(colour_at(*style, H_m), codes) << H_m;
+    // Without a class above all, what is higher has no colour.
+    const auto open = style_of_colour_table(table, "t", [] { return HeightRange{}; });
+    ASSERT_TRUE(open.ok()) << open.error().line();
+    EXPECT_EQ(colour_at(*open, 550.0F), yellow);
+    EXPECT_EQ(colour_at(*open, 551.0F), outside);
+}
+
+TEST(ColourTableText, QgisMixesColoursAndHasExactOnes) {
+    const auto mixed = style_of_colour_table(
+        "\nINTERPOLATION:INTERPOLATED\n250,43,131,186,255,250\n400,171,221,164,255,400\ninf,215,25,28,255,> "
+        "400\n",
+        "t", [] { return HeightRange{}; });
+    ASSERT_TRUE(mixed.ok()) << mixed.error().line();
+    EXPECT_EQ(colour_at(*mixed, 250.0F), blue);
+    EXPECT_EQ(colour_at(*mixed, 325.0F), (Codes{107, 176, 175}));  // the mean
+    EXPECT_EQ(colour_at(*mixed, 5000.0F), green);                  // no share of what is infinitely far
+    const auto exact =
+        style_of_colour_table("INTERPOLATION:EXACT\n250,43,131,186,255,250\n251,171,221,164,255,251\n", "t",
+                              [] { return HeightRange{}; });
+    ASSERT_TRUE(exact.ok()) << exact.error().line();
+    for (const auto& [H_m, codes] : {std::pair{249.99F, outside},
+                                     {250.0F, blue},
+                                     {250.01F, outside},
+                                     {251.0F, green},
+                                     {252.0F, outside}})
+        EXPECT_EQ(colour_at(*exact, H_m), codes) << H_m;
+}
+
 TEST(ColourTableText, FaultsAreToldWithTheirLine) {
     struct Bad {
         std::string text, says;
@@ -93,22 +157,26 @@ TEST(ColourTableText, FaultsAreToldWithTheirLine) {
     std::string long_table;
     for (int i = 0; i <= static_cast<int>(gpu::tint_stops_max); ++i)
         long_table += std::to_string(i) + " red\n";
-    const std::array bad{Bad{"0 red\n10 pink\n", "t.txt, line 2: no colour is called 'pink'"},
-                         Bad{"0 red\nten 1 2 3\n", "t.txt, line 2: 'ten' is no height in metres"},
-                         Bad{"0 1 2 256\n", "t.txt, line 1: '256' is no number from 0 to 255"},
-                         Bad{"101% red\n", "'101%' is no percentage from 0 to 100"},
-                         Bad{"5\n", "t.txt, line 1: there is no colour"},
-                         Bad{"# nothing\nnv red\n", "t.txt: no line holds a height and a colour"},
-                         Bad{"nan red\n", "'nan' is no height in metres"},
-                         Bad{"# COLOR_MODEL = RGB\n", "a palette of GMT"},
-                         // Latin-1, which no terminal shows; a bell and an escape; a file that is no text.
-                         Bad{"0 gr\xfcn\n", "no colour is called 'gr\uFFFDn'"},
-                         Bad{"5\x1b[2J\a red\n", "'5\uFFFD[2J\uFFFD' is no height in metres"},
-                         Bad{std::string("0 ") + std::string(5000, 'x') + "\n",
-                             "no colour is called '" + std::string(60, 'x') + "...'"},
-                         Bad{"0 " + std::string(59, 'x') + "\u00e9\u00e9\n",
-                             "no colour is called '" + std::string(59, 'x') + "...'"},
-                         Bad{long_table, "257 heights; a style has room for 256"}};
+    const std::array bad{
+        Bad{"0 red\n10 pink\n", "t.txt, line 2: no colour is called 'pink'"},
+        Bad{"0 red\nten 1 2 3\n", "t.txt, line 2: 'ten' is no height in metres"},
+        Bad{"0 1 2 256\n", "t.txt, line 1: '256' is no number from 0 to 255"},
+        Bad{"101% red\n", "'101%' is no percentage from 0 to 100"},
+        Bad{"5\n", "t.txt, line 1: there is no colour"},
+        Bad{"# nothing\nnv red\n", "t.txt: no line holds a height and a colour"},
+        Bad{"nan red\n", "'nan' is no height in metres"}, Bad{"# COLOR_MODEL = RGB\n", "a palette of GMT"},
+        // Latin-1, which no terminal shows; a bell and an escape; a file that is no text.
+        Bad{"0 gr\xfcn\n", "no colour is called 'gr\uFFFDn'"},
+        Bad{"5\x1b[2J\a red\n", "'5\uFFFD[2J\uFFFD' is no height in metres"},
+        Bad{std::string("0 ") + std::string(5000, 'x') + "\n",
+            "no colour is called '" + std::string(60, 'x') + "...'"},
+        Bad{"0 " + std::string(59, 'x') + "\u00e9\u00e9\n",
+            "no colour is called '" + std::string(59, 'x') + "...'"},
+        Bad{"INTERPOLATION:NEAREST\n0 red\n",
+            "t.txt, line 1: INTERPOLATION is INTERPOLATED, DISCRETE or EXACT, not 'NEAREST'"},
+        Bad{"-inf red\n", "'-inf' is no height in metres"},
+        Bad{"INTERPOLATION:DISCRETE\n" + long_table, "257 heights; a style has room for 128"},
+        Bad{long_table, "257 heights; a style has room for 256"}};
     for (const Bad& one : bad) {
         const auto style = style_of_colour_table(one.text, "t.txt", [] { return HeightRange{}; });
         ASSERT_FALSE(style.ok()) << one.says;

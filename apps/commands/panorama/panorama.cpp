@@ -230,7 +230,10 @@ void tell(const PanoramaOptions& options, const Style& style, const PanoramaRepo
     if (!names.without_room.empty())
         say(options.quiet, "note: " + counted(names.without_room.size(), "name has", "names have") +
                                " no room beside greater ones (a larger --width has more)");
-    if (options.json) std::printf("%s\n", json_text(panorama_json(report, options.out, style), true).c_str());
+    if (!options.json) return;
+    nlohmann::ordered_json json = panorama_json(report, options.out, style);
+    json["notes"] = all_notes(report.region);
+    std::printf("%s\n", json_text(json, true).c_str());
 }
 
 }  // namespace

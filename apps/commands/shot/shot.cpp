@@ -1,6 +1,7 @@
 // orograph shot: from files to a picture that knows where it was taken from.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <span>
 
 #include "apps/accuracy/accuracy.h"
@@ -19,6 +20,7 @@
 #include "apps/maps/ortho_map.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/picture_file.h"
+#include "apps/report/figures.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
@@ -30,6 +32,7 @@
 #include "core/base/elapsed.h"
 #include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
+#include "geo/together/rim_diagonals.h"
 
 namespace oro {
 namespace {
@@ -45,6 +48,27 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
         char text[80];
         std::snprintf(text, sizeof text, "note: the eye is %.1f m below the ground", *ground - eye.h_m);
         say(options.quiet, text);
+    }
+}
+
+// Where finer ground changes what coarser ground is beside it.
+void say_rims(const Region& region, const RegionCuts& cuts, bool quiet) {
+    const std::vector<const Region*> grids = all_grids(region);
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        const auto found = rim_diagonals(grids[i]->field, cuts.grids[i]);
+        if (!found) continue;
+        char text[200];
+        std::snprintf(
+            text, sizeof text,
+            ", within two posts of finer ground, is split along other diagonals than by itself: %s, up "
+            "to %.1f m apart (at %.6f %.6f)",
+            counted(found->cells, "cell", "cells").c_str(), found->most_m, found->place.lat_deg,
+            found->place.lon_deg);
+        const auto& sources = grids[i]->sources;
+        say(quiet, "note: the ground of " +
+                       (sources.empty() ? std::string("a grid")
+                                        : std::filesystem::path(sources.front().path).filename().string()) +
+                       (sources.size() > 1 ? " and others" : "") + text);
     }
 }
 
@@ -114,8 +138,8 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
     if (shot.layers)
         for (const char* layer : layer_names) say(options.quiet, "wrote " + layer_path(files.picture, layer));
     // Measurements say it themselves.
-    if (!shot.verification && shot.unseen.columns_beyond > 0)
-        say(options.quiet, "note: " + unseen_sentence(shot.unseen));
+    if (const std::string note = unseen_sentence(shot.unseen); !shot.verification && !note.empty())
+        say(options.quiet, "note: " + note);
     if (shot.verification) {
         say(options.quiet, "wrote " + files.error);
         // What was asked for: as a table, or with -q as JSON alone.
@@ -266,6 +290,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ShotGround ground;
     ORO_TRY(ground.cuts, cut_regions(shot.region));
+    say_rims(shot.region, ground.cuts, options.quiet);
     ORO_TRY(ground.grids, RegionGround::of(shot.region, ground.cuts, shot.view.exaggeration));
     ORO_TRY(Scene scene, scene_of(options, ceiling_m, *gpu, style, ground, bar, shot));
     ORO_TRY(DrawnPicture picture, draw_shot(options, files, *ground.grids, *gpu, scene, style, bar, shot));

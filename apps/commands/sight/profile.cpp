@@ -20,6 +20,7 @@ namespace {
 
 // More are a table that nobody can open.
 constexpr double most_steps = 1.0e7;
+constexpr double most_threshold_m = 1.0e4;
 // 25 times round the Earth.
 constexpr double longest_m = 1.0e9;
 
@@ -32,6 +33,11 @@ Result<void> check_words(const ProfileOptions& options) {
         char text[40];
         std::snprintf(text, sizeof text, "%.15g", *options.step_m);
         return refused("--step", text, "must be more than 0");
+    }
+    if (!(options.climb_threshold_m >= 0.0 && options.climb_threshold_m <= most_threshold_m)) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.15g", options.climb_threshold_m);
+        return refused("--climb-threshold", text, between_words(0.0, most_threshold_m));
     }
     if (options.out.empty()) return {};
     const std::string name = lower_case(options.out);
@@ -81,6 +87,37 @@ std::vector<ProfilePoint> points_of(const LineAlong& line, const std::optional<d
     return points;
 }
 
+// Longitude counted from the 180th meridian, east of it positive.
+double past_180_deg(double lon_deg) {
+    return std::remainder(lon_deg - 180.0, 360.0);
+}
+
+// Where the line passes the 180th meridian between two of its points that lie on either side.
+ProfilePoint crossing_between(const LineAlong& line, const ProfilePoint& from, const ProfilePoint& to,
+                              const TrueGround& ground) {
+    if (past_180_deg(from.lon_deg) == 0.0) return from;
+    if (past_180_deg(to.lon_deg) == 0.0) return to;
+    const bool from_east = past_180_deg(from.lon_deg) > 0.0;
+    double before_m = from.along_m, after_m = to.along_m;
+    for (int i = 0; i < 60; ++i) {
+        const double middle_m = 0.5 * (before_m + after_m);
+        const bool is_east = past_180_deg(place_on_line(line, middle_m).lon_deg) > 0.0;
+        const bool is_before = is_east == from_east;
+        (is_before ? before_m : after_m) = middle_m;
+    }
+    return profile_point(ground, {place_on_line(line, before_m).lat_deg, 180.0, 0.0}, before_m);
+}
+
+std::vector<MeridianCrossing> crossings_of(const Profile& profile, const TrueGround& ground) {
+    std::vector<MeridianCrossing> crossings;
+    for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
+        const ProfilePoint &from = profile.points[i], &to = profile.points[i + 1];
+        if (from.has_ground && to.has_ground && std::abs(from.lon_deg - to.lon_deg) > 180.0)
+            crossings.push_back({i, crossing_between(profile.line, from, to, ground)});
+    }
+    return crossings;
+}
+
 Result<void> write(const ProfileOptions& options, const Profile& profile) {
     const std::string name = lower_case(options.out);
     const std::string text = name.ends_with(".csv")   ? profile_csv(profile)
@@ -107,8 +144,10 @@ Result<void> run_profile(const ProfileOptions& options) {
     }
     bar.show(1.0, "following the line");
     profile.points = points_of(profile.line, options.step_m, ground->ground());
+    if (lower_case(options.out).ends_with(".geojson"))
+        profile.crossings = crossings_of(profile, ground->ground());
     ORO_CHECK(ground->region.health());
-    profile.sums = sums_of(profile.points);
+    profile.sums = sums_of(profile.points, options.climb_threshold_m);
     bar.clear();
     if (!profile.sums.highest) {
         const LatLon& begin = profile.line.places.front();
@@ -119,9 +158,13 @@ Result<void> run_profile(const ProfileOptions& options) {
     for (const std::string& note : profile.line.notes) say(options.quiet, "note: " + note);
     say_notes(ground->region, options.quiet);
     if (!options.out.empty()) ORO_CHECK(write(options, profile));
-    std::fputs(options.json ? (json_text(profile_json(profile), true) + "\n").c_str()
-                            : profile_text(profile).c_str(),
-               stdout);
+    if (options.json) {
+        nlohmann::ordered_json json = profile_json(profile);
+        json["notes"] = all_notes(ground->region);
+        std::printf("%s\n", json_text(json, true).c_str());
+    } else {
+        std::fputs(profile_text(profile).c_str(), stdout);
+    }
     if (!options.out.empty()) say(options.quiet, "wrote " + options.out);
     return {};
 }

@@ -186,8 +186,9 @@ std::string profile_svg(const Profile& profile) {
     if (profile.sums.highest)
         svg +=
             text_at(left_px, 50.0, "class=\"line\"",
-                    printed("ascent %.0f m, descent %.0f m; heights are drawn %s times as large as distances",
-                            profile.sums.ascent_m, profile.sums.descent_m,
+                    printed("ascent %.0f m, descent %.0f m (by rises and falls of %g m or more); heights are "
+                            "drawn %s times as large as distances",
+                            profile.sums.climbed_m, profile.sums.went_down_m, profile.sums.climb_threshold_m,
                             about(axes.y.px_per_m() / axes.x.px_per_m()).c_str()));
     svg += axes_text(axes) + ground_text(profile, axes);
     svg += printed("<path class=\"axis\" d=\"M%.1f %.1fH%.1f\"/>\n", left_px, bottom_px, right_px);

@@ -50,7 +50,10 @@ std::string profile_text(const Profile& profile) {
         profile.points.back().has_ground ? std::optional(profile.points.size() - 1) : std::nullopt);
     lines += extreme_text("Highest:", profile, profile.sums.highest);
     lines += extreme_text("Lowest: ", profile, profile.sums.lowest);
-    std::snprintf(text, sizeof text, "Ascent: %.1f m, descent: %.1f m\n", profile.sums.ascent_m,
+    std::snprintf(text, sizeof text, "Ascent: %.1f m, descent: %.1f m, in rises and falls of %g m or more\n",
+                  profile.sums.climbed_m, profile.sums.went_down_m, profile.sums.climb_threshold_m);
+    lines += text;
+    std::snprintf(text, sizeof text, "Every rise: %.1f m, every fall: %.1f m\n", profile.sums.ascent_m,
                   profile.sums.descent_m);
     lines += text;
     if (profile.sums.without_data_m > 0.0) {
@@ -71,6 +74,8 @@ ordered_json profile_json(const Profile& profile) {
     if (profile.sums.lowest) json["lowest"] = point_json(profile.points[*profile.sums.lowest]);
     json["ascent_m"] = profile.sums.ascent_m;
     json["descent_m"] = profile.sums.descent_m;
+    json["over_threshold"] = json_object("threshold_m", profile.sums.climb_threshold_m, "ascent_m",
+                                         profile.sums.climbed_m, "descent_m", profile.sums.went_down_m);
     json["without_data_m"] = profile.sums.without_data_m;
     return json;
 }

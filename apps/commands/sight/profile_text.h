@@ -10,9 +10,16 @@
 
 namespace oro {
 
+// Where the ground along a line passes the 180th meridian.
+struct MeridianCrossing {
+    std::size_t after{};  // number of the point before it
+    ProfilePoint point;
+};
+
 struct Profile {
     LineAlong line;
     std::vector<ProfilePoint> points;
+    std::vector<MeridianCrossing> crossings;  // ascending; of lines that are written as GeoJSON
     ProfileSums sums;
     [[nodiscard]] double length_m() const { return line.distances_m.back(); }
 };

@@ -74,9 +74,13 @@ Result<void> run_sight(const SightOptions& options) {
             report.line.without_data_m / 1000.0);
         say(options.quiet, note);
     }
-    std::fputs(options.json ? (json_text(sight_json(report, *ground), true) + "\n").c_str()
-                            : sight_text(report, *ground).c_str(),
-               stdout);
+    if (!options.json) {
+        std::fputs(sight_text(report, *ground).c_str(), stdout);
+        return {};
+    }
+    nlohmann::ordered_json json = sight_json(report, *ground);
+    json["notes"] = all_notes(ground->region);
+    std::printf("%s\n", json_text(json, true).c_str());
     return {};
 }
 

@@ -182,6 +182,7 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const Si
         json["asked_of_the_oracle"] = report.asked;
         json["looking_s"] = report.looking_s;
         json["light"] = light_json(report.air, report.eyes.front().h_m);
+        json["notes"] = all_notes(ground.region);
         std::printf("%s\n", json_text(json, true).c_str());
         return;
     }

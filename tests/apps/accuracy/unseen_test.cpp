@@ -108,6 +108,43 @@ TEST(Unseen, TheBundledRegionEndsToo) {
     EXPECT_EQ(lower.shot, lower.comparison);
 }
 
+// Found: cells that are loaded were "missing" beyond --bbox.
+TEST(Unseen, APartThatWasChosenEndsAndMissesNothing) {
+    const Words part{bundled(), "--bbox", "-84.3,36.45,-84.15,36.55"};
+    const Told told =
+        told_of(part, {"--at", "36.5,-84.2", "--above", "300", "--heading", "200", "--size", "200x100"});
+    EXPECT_EQ(told.note + told.verified + told.compared, "");
+    for (const json& unseen : {told.shot, told.comparison, told.plan}) {
+        EXPECT_EQ(unseen.at("columns_beyond"), 0);
+        EXPECT_EQ(unseen.at("missing"), json::array());
+        EXPECT_EQ(unseen.at("chosen_part_ends").at("columns_beyond"), 200);
+        EXPECT_EQ(unseen.at("chosen_part_ends").at("cells"), json::array({"N36W085"}));
+        EXPECT_GT(unseen.at("chosen_part_ends").at("bound_px").get<double>(), 0.0);
+        EXPECT_EQ(unseen, told.shot);
+    }
+    EXPECT_TRUE(
+        says(told.planned,
+             "\nThe part of the data that you chose ends here: in 200 of 200 columns ground beyond it"))
+        << told.planned;
+    EXPECT_FALSE(says(told.planned, "missing")) << told.planned;
+    // A box that is larger than the data leaves them ending where they end.
+    const Told larger =
+        told_of({bundled(), "--bbox", "-86,35,-83,38"},
+                {"--at", "36.5,-84.2", "--above", "300", "--heading", "200", "--size", "64x32"});
+    EXPECT_TRUE(says(larger.note, "64 of 64 columns look beyond the data (missing: N36W085)")) << larger.note;
+}
+
+// Found: every overview said "up to 720 px higher".
+TEST(Unseen, APictureOfAllTheDataSaysNothing) {
+    for (const Words& data : {Words{bundled()}, Words{bundled(), "--bbox", "-84.3,36.45,-84.15,36.55"}}) {
+        const Told told = told_of(data, {"--size", "128x72"});
+        EXPECT_EQ(told.note + told.verified + told.compared, "");
+        EXPECT_EQ(told.plan.at("all_data_in_view"), true);
+        EXPECT_FALSE(says(told.planned, " px higher") || says(told.planned, "ground beyond")) << told.planned;
+        EXPECT_TRUE(says(told.planned, "All of the data are in the picture, which shows where they end."));
+    }
+}
+
 TEST(Unseen, NothingIsSaidWhereAllLinesEndOnData) {
     const Told told =
         told_of({bundled()}, {"--at", "36.6,-84.2", "--above", "300", "--pitch", "-90", "--size", "100x100"});

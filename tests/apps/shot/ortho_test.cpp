@@ -17,6 +17,7 @@ using oro::test::bytes_of;
 using oro::test::expect_refusal;
 using oro::test::names_in;
 using oro::test::object_said_by;
+using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::run_program;
 using oro::test::Words;
@@ -64,6 +65,18 @@ TEST(ShotOrtho, IsAGeoTiffInItsCrs) {
     char first[40];
     std::snprintf(first, sizeof first, "%.17g", told["map"]["left"].get<double>() + 50.0);
     EXPECT_EQ(bytes_of(folder / "m.tfw").find("100\n0\n0\n-100\n" + std::string(first) + "\n"), 0U);
+}
+
+// OGC:CRS84 is EPSG:4326 with longitude first, which a GeoTIFF cannot say and has anyway.
+TEST(ShotOrtho, IsAGeoTiffInCrs84) {
+    const fs::path folder = oro::test::scratch_folder(), out = folder / "m.tif";
+    const Outcome drawn = run_orograph(map(out, {"--crs", "OGC:CRS84", "--size", "40x40"}));
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    const auto shown = run_program({"gdalinfo", "-json", out.string()});
+    if (shown.exit_code == 127) GTEST_SKIP() << "needs gdalinfo";
+    const auto info = oro::test::one_object(shown.out);
+    EXPECT_NEAR(info["geoTransform"][0].get<double>(), -84.3, 0.01);
+    EXPECT_NEAR(info["geoTransform"][3].get<double>(), 36.55, 0.01);
 }
 
 TEST(ShotOrtho, ItsViewDrawsItAgain) {

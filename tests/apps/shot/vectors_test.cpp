@@ -101,7 +101,7 @@ TEST_F(Vectors, ThatCannotBeReadHaveOneLine) {
                    {"empty.gpx", "is empty"});
     write_bytes(path("broken.geojson"), collection(point("a", 8, 46)).substr(0, 60));
     expect_refusal(shoot({land, "--names", path("broken.geojson"), "--out", path("a.png")}), failed,
-                   {"broken.geojson", "is no vector file that can be opened here"});
+                   {"broken.geojson", "is no whole JSON: line 1: "});
     EXPECT_FALSE(fs::exists(path("a.png")));
 }
 

@@ -66,6 +66,21 @@ TEST(ProfileCommand, ATableHasTheSumsThatAreTold) {
     EXPECT_NEAR(rows.back()[0], 14535.0160 + 7128.3499, 1e-3);
 }
 
+TEST(ProfileCommand, TheSumThatGuidesUseIsToldWithItsThreshold) {
+    const oro::test::Words line{"profile", bundled(), "-q", "--along", line_of_three};
+    const auto with = [&](const oro::test::Words& more) { return oro::test::joined(line, more); };
+    const auto usual = object_said_by(with({"--json"}));
+    EXPECT_EQ(usual["over_threshold"]["threshold_m"], 10.0);
+    EXPECT_LT(usual["over_threshold"]["ascent_m"].get<double>(), usual["ascent_m"].get<double>());
+    EXPECT_LT(usual["over_threshold"]["descent_m"].get<double>(), usual["descent_m"].get<double>());
+    const auto every = object_said_by(with({"--json", "--climb-threshold", "0"}));
+    EXPECT_NEAR(every["over_threshold"]["ascent_m"].get<double>(), every["ascent_m"].get<double>(), 1e-6);
+    const Outcome told = run_orograph(with({"--climb-threshold", "25"}));
+    EXPECT_TRUE(oro::test::says(told.out, " m, in rises and falls of 25 m or more\n")) << told.out;
+    expect_refusal(run_orograph(with({"--climb-threshold", "-1"})), 2,
+                   {"--climb-threshold -1: must be between 0 and 10000"});
+}
+
 TEST(ProfileCommand, StepsAreAsAskedFor) {
     const fs::path out = oro::test::scratch_folder() / "p.csv";
     object_said_by({"profile", bundled(), "-q", "--json", "--along", line_of_three, "--out", out.string(),
@@ -105,6 +120,59 @@ TEST(ProfileCommand, ALineThatLeavesTheDataIsCut) {
     EXPECT_EQ(feature["properties"]["H_m"][1].size(), parts[1].size());
     EXPECT_NEAR(parts[0][0][0].get<double>(), -84.2, 1e-9);
     EXPECT_NEAR(parts[0][0][1].get<double>(), 36.5, 1e-9);
+}
+
+// Flat ground on both sides of the 180th meridian, a post every 0.01 degrees.
+std::string ground_over_180(const fs::path& folder) {
+    std::string text = "ncols 61\nnrows 21\nxllcorner 179.695\nyllcorner -17.105\ncellsize 0.01\n";
+    for (int row = 0; row < 21; ++row) {
+        for (int column = 0; column < 61; ++column) text += "120 ";
+        text += "\n";
+    }
+    write_bytes(folder / "flat.asc", text);
+    write_bytes(folder / "flat.prj",
+                "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
+                "84\",6378137,298.257223563]],PRIMEM[\"Greenwich\","
+                "0],UNIT[\"degree\",0.0174532925199433]]");
+    return (folder / "flat.asc").string();
+}
+
+// RFC 7946, 3.1.9: parts end at 180 and begin at -180. Whatever was asked between was lost.
+TEST(ProfileCommand, ALineOverThe180thMeridianIsWhole) {
+    const fs::path folder = oro::test::scratch_folder(), out = folder / "p.geojson";
+    const std::string ground = ground_over_180(folder);
+    write_bytes(folder / "line.geojson",
+                R"({"type":"LineString","coordinates":[[179.9,-17],[-179.9,-17.02]]})");
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--step", "2000"}, {"--step", "50000"}, {}}) {
+        std::vector<std::string> words{"profile",
+                                       ground,
+                                       "-q",
+                                       "--json",
+                                       "--overwrite",
+                                       "--along",
+                                       (folder / "line.geojson").string(),
+                                       "--out",
+                                       out.string()};
+        words.insert(words.end(), more.begin(), more.end());
+        object_said_by(words);
+        const auto feature = nlohmann::json::parse(bytes_of(out));
+        const auto& parts = feature["geometry"]["coordinates"];
+        ASSERT_EQ(parts.size(), 2U);
+        EXPECT_EQ(parts[0][0][0].get<double>(), 179.9);
+        EXPECT_EQ(parts[0].back()[0].get<double>(), 180.0);
+        EXPECT_EQ(parts[1][0][0].get<double>(), -180.0);
+        EXPECT_EQ(parts[1].back()[0].get<double>(), -179.9);
+        EXPECT_EQ(parts[1][0][1], parts[0].back()[1]);
+        EXPECT_EQ(parts[1][0][2], parts[0].back()[2]);
+        // The middle of the line but for its curve: 3.4e-5 degrees of latitude are 4 m.
+        EXPECT_NEAR(parts[1][0][1].get<double>(), -17.01, 5e-5);
+        for (std::size_t i : {0U, 1U}) {
+            EXPECT_EQ(feature["properties"]["H_m"][i].size(), parts[i].size());
+            EXPECT_EQ(feature["properties"]["distance_m"][i].size(), parts[i].size());
+        }
+        EXPECT_EQ(feature["properties"]["H_m"][1][0].get<double>(), 120.0);
+    }
 }
 
 TEST(ProfileCommand, FilesHaveLinesOrAreRefused) {

@@ -103,7 +103,7 @@ TEST(GroundProfile, SumsAreOfTheGroundAlone) {
     std::vector<ProfilePoint> points;
     const Way way = [](double along_m) { return Geodetic{9.995, 20.0 + along_m / 1000.0, 0.0}; };
     add_profile(surface, way, 0.0, 200.0, points);
-    const ProfileSums sums = sums_of(points);
+    const ProfileSums sums = sums_of(points, 10.0);
     // Posts 0 to 9 are there, of 0 to 80 and 210; and 11 to 20, of 190 to 100.
     // The rim of the void is asked for 0.02 of 10 beside it.
     EXPECT_NEAR(sums.ascent_m, 80.0 + 130.0, 0.3);
@@ -111,6 +111,41 @@ TEST(GroundProfile, SumsAreOfTheGroundAlone) {
     EXPECT_NEAR(points[*sums.highest].along_m, 90.0, 1e-3);
     EXPECT_NEAR(points[*sums.lowest].along_m, 0.0, 1e-3);
     EXPECT_NEAR(sums.without_data_m, 20.0, 1e-3);
+    // Each part goes one way.
+    EXPECT_NEAR(sums.climbed_m, 80.0 + 130.0, 0.3);
+    EXPECT_NEAR(sums.went_down_m, 90.0, 0.03);
+}
+
+// By hand. Found: a walk whose top is 430 m above its start had an ascent of 1,443 m, every ripple counted.
+TEST(GroundProfile, ClimbsAreOfRisesAsHighAsTheThreshold) {
+    const auto line = [](const std::vector<double>& heights_m) {
+        std::vector<ProfilePoint> points;
+        for (const double H_m : heights_m)
+            points.push_back({static_cast<double>(points.size()), 46.0, 8.0, H_m > -1000.0, H_m, H_m});
+        return points;
+    };
+    const auto expect_climb = [&](const std::vector<double>& heights_m, double threshold_m, double up_m,
+                                  double down_m) {
+        const Climb climb = climb_over(line(heights_m), threshold_m);
+        EXPECT_DOUBLE_EQ(climb.up_m, up_m) << threshold_m;
+        EXPECT_DOUBLE_EQ(climb.down_m, down_m) << threshold_m;
+    };
+    // Ripples of 9 m on the way up and down count nothing, a dip of 10 m counts on both ways.
+    expect_climb({100, 150, 141, 200, 191, 250, 200, 209, 100}, 10.0, 150.0, 150.0);
+    expect_climb({100, 150, 140, 200}, 10.0, 110.0, 10.0);
+    expect_climb({100, 150, 140, 200}, 10.1, 100.0, 0.0);
+    // Slow ways add up, whatever a step is.
+    expect_climb({0, 3, 6, 9, 12, 9, 6, 3, 0}, 10.0, 12.0, 12.0);
+    // What never comes to the threshold is level.
+    expect_climb({0, 9, 0, 9, 0, 9}, 10.0, 0.0, 0.0);
+    expect_climb({5, 0, 9, 0, 20, 11, 22}, 10.0, 22.0, 0.0);
+    // 0 counts every one.
+    expect_climb({0, 9, 0, 9, 9, 1}, 0.0, 18.0, 17.0);
+    // A part without ground ends a way.
+    expect_climb({0, 8, -9999, 16, 40}, 10.0, 24.0, 0.0);
+    expect_climb({}, 10.0, 0.0, 0.0);
+    // Ascent less descent is the ends' difference, but for less than the threshold at either end.
+    expect_climb({4, 0, 100, 60, 66}, 10.0, 100.0, 40.0);
 }
 
 }  // namespace

@@ -115,6 +115,32 @@ TEST(Lookout, TenThousandPairsAreTheMarchedLines) {
     EXPECT_GT(tally.visible, 500);
 }
 
+// Asked for: whether ground at the eye's feet, which hides what is thousands of times as far away, is told to
+// a centimetre there. By marched lines, as above: 5 mm less hide the target, 5 mm more do not.
+TEST(Lookout, WhatIsCloseByHidesByItsFullHeight) {
+    constexpr unsigned seed = 4712;
+    std::printf("seed %u\n", seed);
+    const HeightField field = test::made_field(46.6, 8.3, 1200.0, 160, 200, mountains_H_m);
+    Pairs pairs{field, TrueSurface(field, 1.0, thread_count()), std::mt19937_64(seed)};
+    std::uniform_real_distribution<double> above(0.02, 0.5);
+    int hidden = 0, wrong = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Geodetic eye = pairs.standing(above(pairs.random)),
+                       target = pairs.standing(above(pairs.random));
+        const auto by_m = Lookout(pairs.surface, eye, {0.13}).missed_by_m(target);
+        ASSERT_TRUE(by_m);
+        if (*by_m == 0.0) continue;
+        ++hidden;
+        for (const double beside_m : {-0.005, 0.005}) {
+            const MarchedLine raised(field, place(eye), place(target, *by_m + beside_m), 0.13);
+            wrong += (raised.least_clearance_m(8.0) > 0.0) != (beside_m > 0.0);
+        }
+    }
+    std::printf("%d hidden, %d wrong\n", hidden, wrong);
+    EXPECT_GT(hidden, 200);
+    EXPECT_EQ(wrong, 0);
+}
+
 // Over a sphere's like, without mountains: the distance to the horizon, and what it hides.
 TEST(Lookout, TheEarthsCurvatureHides) {
     const HeightField sea = test::made_field(0.2, 10.0, 600.0, 240, 600, [](double, double) { return 0.0F; });

@@ -112,6 +112,29 @@ TEST(UnseenGround, NoGroundThatIsLeftOutIsHigherThanTheBound) {
     EXPECT_GT(largest_px, 15.0);
 }
 
+// What lies beyond a part that was chosen is no missing cell, wherever the grid's last posts are.
+TEST(KnownGround, TellsBeyondAPartFromBeyondTheData) {
+    const HeightField field = hills(46.5, 8.25, 120.0, 31, 31);  // to 46.25 N, 8.5 E
+    const KnownGround all(field, {}, false);
+    EXPECT_FALSE(all.is_beyond_part(46.6, 8.3));
+    // 1.5 posts wider in the west and north, much wider in the east and south.
+    const KnownGround part(field, {}, false, DegreeBox{8.2375, 46.0, 9.0, 46.5125});
+    EXPECT_TRUE(part.is_beyond_part(46.4, 8.2499));
+    EXPECT_TRUE(part.is_beyond_part(46.5001, 8.3));
+    EXPECT_FALSE(part.is_beyond_part(46.4, 8.51));
+    EXPECT_FALSE(part.is_beyond_part(46.2, 8.3));
+    EXPECT_TRUE(part.is_beyond_part(46.4, 9.01));
+    EXPECT_TRUE(part.is_beyond_part(45.99, 8.3));
+    // Over the antimeridian.
+    const HeightField fiji = hills(-16.5, 179.75, 120.0, 31, 61);  // to 179.75 W
+    const KnownGround over(fiji, {}, false, DegreeBox{179.0, -17.0, -179.0, -16.0});
+    EXPECT_FALSE(over.is_beyond_part(-16.6, -179.5));
+    EXPECT_FALSE(over.is_beyond_part(-16.6, 179.5));
+    EXPECT_TRUE(over.is_beyond_part(-16.6, 178.5));
+    EXPECT_TRUE(over.is_beyond_part(-16.6, -178.5));
+    EXPECT_EQ(over.unseen_at(-16.6, -178.5), (UnseenPlace{{-17, -179}, true}));
+}
+
 TEST(UnseenGround, SaysNothingOfViewsThatEndOnData) {
     const Land land(hills(47.0, 9.0, 240.0, 241, 241), {});
     const auto columns = [&](const Geodetic& eye, double pitch_deg) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tests/geo/vectors/written_zip.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -50,6 +51,25 @@ TEST(SourcePaths, UnreadableFile) {
     write_hgt(file, 1201, [](int, int) { return 1; });
     fs::permissions(file, fs::perms::none);
     expect_error(file.string(), ErrorKind::failed, "cannot be read");
+}
+
+TEST(SourcePaths, EntriesThatCannotBeUnpackedHaveALine) {
+    const auto zip = [](const char* name, std::uint16_t flags, std::uint16_t method) {
+        ZipEntry tile{"N46E008.hgt", std::string(2 * 1201 * 1201, '\1')};
+        tile.flags = flags, tile.method = method;
+        return written_zip(name, {{"readme.txt", "x"}, tile});
+    };
+    expect_error(zip("locked.zip", 1, 8), ErrorKind::failed,
+                 "locked.zip/N46E008.hgt: is locked with a password: unpack it, and name the file");
+    expect_error(zip("rare.zip", 0, 9), ErrorKind::failed,
+                 "is packed by Deflate64, and only Deflate is read: unpack it, and name the file");
+    expect_error(zip("rare.zip", 0, 77), ErrorKind::failed,
+                 "is packed by method 77, and only Deflate is read");
+    EXPECT_TRUE(open_region(request_for({zip("whole.zip", 0, 0)})).ok());
+    // Bytes that are no Deflate.
+    expect_error(zip("broken.zip", 0, 8), ErrorKind::failed, "broken.zip/N46E008.hgt: ");
+    const auto broken = open_region(request_for({zip("broken.zip", 0, 8)}));
+    EXPECT_EQ(broken.error().line().find(".cpp"), std::string::npos) << broken.error().line();
 }
 
 TEST(SourcePaths, TextFileCalledTif) {

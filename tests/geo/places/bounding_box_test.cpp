@@ -65,6 +65,18 @@ TEST(BoundingBox, ReversedBoxGetsTheOrderToldAgain) {
               std::string::npos);
 }
 
+// Found: --at gave the hint, --bbox did not.
+TEST(BoundingBox, LatitudeFirstGetsAHint) {
+    EXPECT_NE(parse_bounding_box("36,-100,37,-99").error().line().find("-100,36,-99,37 may be meant"),
+              std::string::npos);
+    EXPECT_EQ(parse_bounding_box("136,-100,137,-99").error().line().find("may be meant"), std::string::npos);
+    const auto swapped = with_latitude_first({46.0, 8.0, 47.0, 9.0});
+    ASSERT_TRUE(swapped);
+    EXPECT_EQ(bounding_box_text(*swapped), "8,46,9,47");
+    EXPECT_FALSE(with_latitude_first({170.0, -20.0, 175.0, -15.0}));
+    EXPECT_FALSE(with_latitude_first({47.0, 8.0, 46.0, 9.0}));
+}
+
 TEST(TileRange, OneTileAndRanges) {
     expect_box(parse_tile_range("N46E008"), 8, 46, 9, 47);
     expect_box(parse_tile_range("s46w066"), -66, -46, -65, -45);

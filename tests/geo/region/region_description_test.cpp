@@ -32,7 +32,7 @@ SourceReport unusual_source(const std::string& path) {
                           1.5,
                           2010.0,
                           2020.25};
-    s.vertical_datum = {DatumFrom::assumed_for_hgt, "", true};
+    s.vertical_datum = {DatumFrom::hgt_format, "", true};
     s.height_unit = {"us-ft", UnitFrom::request};
     s.posts_are = PostsAre::cell_centres;
     s.attribution = "© swisstopo, \"quoted\"\nand on a second line";

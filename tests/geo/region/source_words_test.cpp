@@ -26,10 +26,12 @@ TEST(SourceWords, FormatsComeBack) {
 
 TEST(SourceWords, DatumsComeBack) {
     for (const DatumFrom from :
-         {DatumFrom::crs, DatumFrom::dted_egm96, DatumFrom::dted_egm2008, DatumFrom::assumed_for_hgt,
-          DatumFrom::assumed_unstated, DatumFrom::assumed_unreadable}) {
+         {DatumFrom::crs, DatumFrom::told, DatumFrom::product, DatumFrom::dted_egm96, DatumFrom::dted_egm2008,
+          DatumFrom::hgt_format, DatumFrom::assumed_unstated, DatumFrom::assumed_unreadable}) {
         for (const bool stands_in : {false, true}) {
-            const HeightDatum datum{from, from == DatumFrom::crs ? "EPSG:5703 NAVD88 height" : "", stands_in};
+            const bool is_named =
+                from == DatumFrom::crs || from == DatumFrom::told || from == DatumFrom::product;
+            const HeightDatum datum{from, is_named ? "EPSG:5703 NAVD88 height" : "", stands_in};
             const std::string words = datum_words(datum);
             EXPECT_NE(words, "");
             const HeightDatum again = datum_of_words(words);
@@ -38,6 +40,10 @@ TEST(SourceWords, DatumsComeBack) {
             EXPECT_EQ(again.egm96_stands_in, datum.egm96_stands_in) << words;
         }
     }
+}
+
+TEST(SourceWords, OldBakedRegionsAreUnderstood) {
+    EXPECT_EQ(datum_of_words("EGM96 height (assumed: .hgt states none)").from, DatumFrom::hgt_format);
 }
 
 TEST(SourceWords, UnitsPostsAndVoidMethodsComeBack) {

@@ -57,7 +57,8 @@ TEST(Hgt, PostsLieOnWholeDegreesAndKeepTheirValues) {
     EXPECT_EQ(format_words(source), "SRTM3 .hgt");
     EXPECT_EQ(placement_words(source), "posts copied");
     EXPECT_NE(datum_words(source.vertical_datum).find("EGM96"), std::string::npos);
-    EXPECT_NE(datum_words(source.vertical_datum).find("assumed"), std::string::npos);
+    EXPECT_NE(datum_words(source.vertical_datum).find("by definition of .hgt"), std::string::npos)
+        << "SRTM's format: nothing is assumed";
     EXPECT_EQ(source.box.west_deg, 8.0);
     EXPECT_NEAR(source.spacing_m, 92.63, 0.01);  // 1/1200 degree of the meridian at 46.5 N (WGS84)
     EXPECT_EQ(region->voids, 0U);
@@ -259,6 +260,30 @@ TEST(Hgt, VoidsAndImplausibleHeightsAreHolesAndCounted) {
     EXPECT_TRUE(is_void(region->field.H_at_post_m(20, 0)));
     ASSERT_EQ(region->notes.size(), 1U);
     EXPECT_NE(region->notes[0].find("8 heights"), std::string::npos) << region->notes[0];
+}
+
+// Posts half a second of arc apart: 7201 a side. A file of zeros but for a few posts, most of it never
+// written.
+TEST(Hgt, TilesOfHalfASecond) {
+    const fs::path file = scratch_folder() / "N46E008.hgt";
+    constexpr int side = 7201;
+    std::ofstream(file).close();
+    fs::resize_file(file, std::uintmax_t{2} * side * side);
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    // Row 100 from the north, column 200: 47 - 100/7200 N, 8 + 200/7200 E.
+    stream.seekp((std::streamoff{100} * side + 200) * 2);
+    stream.write("\x07\xd0", 2);  // 2000
+    stream.close();
+    RegionRequest request = request_for({file.string()});
+    request.box = BoundingBox{8.02, 46.98, 8.03, 46.99};
+    std::string reason;
+    const auto region = opened(request, &reason);
+    ASSERT_TRUE(region) << reason;
+    EXPECT_EQ(region->field.grid.lat.posts_per_deg, 7200.0);
+    EXPECT_EQ(region->field.H_at_m(47.0 - 100.0 / 7200.0, 8.0 + 200.0 / 7200.0), 2000.0F);
+    EXPECT_EQ(format_words(region->sources[0]), "half-second .hgt");
+    EXPECT_EQ(region->sources[0].rows, side);
+    EXPECT_NEAR(region->sources[0].spacing_m, 15.44, 0.01);  // a 7200th of a degree of the meridian at 46.5
 }
 
 TEST(Hgt, RealGzipTileOfPatagonia) {

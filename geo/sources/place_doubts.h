@@ -1,0 +1,20 @@
+// Coordinates that do not fit their CRS.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "geo/sources/raster_library.h"
+#include "geo/sources/source.h"
+
+namespace oro {
+
+// Holds the coordinates of a source that lies on the Earth already against its horizontal CRS. `doubts` get a
+// line where all of it lies far outside the area that the CRS is made for. Errors (a reason, without the
+// file's name): degrees under a CRS of metres or feet, by which posts lie millimetres to centimetres apart,
+// or outside that area.
+Result<void> check_place(const Source& source, OGRSpatialReferenceH horizontal,
+                         std::vector<std::string>& doubts);
+
+}  // namespace oro

@@ -1,0 +1,45 @@
+// Notes on a region that every command says, on standard error and in --json.
+#include <gtest/gtest.h>
+
+#include "apps/report/region_json.h"
+
+namespace oro {
+namespace {
+
+Region region_from(std::initializer_list<std::pair<const char*, DatumFrom>> files) {
+    Region region;
+    region.field.grid.lat = {1.0, 0.0, 47, -1, 2};
+    region.field.grid.lon = {1.0, 0.0, 8, +1, 2};
+    region.field.H_m = {190.0F, 4142.0F, 200.0F, 300.0F};
+    for (const auto& [path, from] : files) {
+        SourceReport source;
+        source.path = path;
+        source.vertical_datum.from = from;
+        region.sources.push_back(source);
+    }
+    return region;
+}
+
+// Found: only `info` said that EGM96 is assumed.
+TEST(RegionNotes, AssumedHeightsAreTold) {
+    Region region = region_from({{"a.tif", DatumFrom::assumed_unstated}, {"b.tif", DatumFrom::crs}});
+    region.notes = {"something else"};
+    const std::string words =
+        "a.tif does not say what the heights refer to: EGM96 heights are assumed (--source-vertical tells "
+        "what they are, when files are read)";
+    EXPECT_EQ(all_notes(region), (std::vector<std::string>{"something else", words}));
+    EXPECT_EQ(region_json(region)["notes"], (std::vector<std::string>{"something else", words}));
+    region.beside.push_back(region_from({{"c.tif", DatumFrom::assumed_unreadable}}));
+    EXPECT_EQ(all_notes(region).size(), 3U) << "of all grids";
+    const Region many = region_from({{"a.tif", DatumFrom::assumed_unstated},
+                                     {"b.tif", DatumFrom::assumed_unstated},
+                                     {"c.tif", DatumFrom::assumed_unstated}});
+    EXPECT_EQ(note_of_assumed_heights(many).find("a.tif and 2 more files do not say"), 0U)
+        << note_of_assumed_heights(many);
+    for (const DatumFrom known : {DatumFrom::crs, DatumFrom::dted_egm96, DatumFrom::dted_egm2008,
+                                  DatumFrom::hgt_format, DatumFrom::told, DatumFrom::product})
+        EXPECT_EQ(note_of_assumed_heights(region_from({{"a.tif", known}})), "");
+}
+
+}  // namespace
+}  // namespace oro
