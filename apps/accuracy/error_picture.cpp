@@ -100,7 +100,8 @@ std::string figures_line(const char* what, const ErrorSummary& of) {
     std::string line = what;
     line.resize(12, ' ');
     for (const double value : {of.largest, of.p9999, of.p99, of.mean}) {
-        const std::string text = of.count == 0 ? "n/a" : value < 1.0e6 ? coarse_figure(value) : ">999,999";
+        std::string text = of.count == 0 ? "n/a" : value < 1.0e6 ? coarse_figure(value) : ">999,999";
+        if (of.count > 0 && value < 1.0e6 && of.is_at_least(value)) text = ">=" + text;
         line += std::string(text.size() < 10 ? 10 - text.size() : 0, ' ') + text;
     }
     return line;

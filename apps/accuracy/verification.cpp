@@ -1,6 +1,8 @@
 #include "apps/accuracy/verification.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "apps/accuracy/accuracy.h"
 #include "apps/drawing/region_scene.h"
@@ -13,9 +15,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// at_least: the names of those that are at least what they say.
 ordered_json summary_json(const ErrorSummary& summary) {
-    return json_object("max", summary.largest, "p9999", summary.p9999, "p99", summary.p99, "mean",
-                       summary.mean);
+    ordered_json json = ordered_json::object(), at_least = ordered_json::array();
+    for (const auto& [name, value] : {std::pair{"max", summary.largest},
+                                      {"p9999", summary.p9999},
+                                      {"p99", summary.p99},
+                                      {"mean", summary.mean}}) {
+        json[name] = value;
+        if (summary.is_at_least(value)) at_least.push_back(name);
+    }
+    json["at_least"] = at_least;
+    return json;
 }
 
 // What is said of some only, where there are any.
@@ -27,8 +38,12 @@ std::string table_line(const char* what, const ErrorSummary& of) {
     constexpr int before_point = 8;
     std::string line = what;
     line.resize(18, ' ');
-    for (const double value : {of.largest, of.p9999, of.p99, of.mean})
-        line += of.count > 0 ? point_aligned(value, before_point) : "     n/a    ";
+    for (const double value : {of.largest, of.p9999, of.p99, of.mean}) {
+        std::string figure = of.count > 0 ? point_aligned(value, before_point) : "     n/a    ";
+        const std::string sign = of.is_at_least(value) ? ">= " : "";
+        const std::size_t blanks = std::min(figure.find_first_not_of(' '), sign.size());
+        line += figure.replace(figure.find_first_not_of(' ') - blanks, blanks, sign);
+    }
     line.erase(line.find_last_not_of(' ') + 1);
     return line + "\n";
 }
@@ -101,9 +116,18 @@ std::string verification_text(const Verification& verification, const View& view
             table_line("  surface, m", ground.summary_surface_m) +
             table_line("  surface, px", ground.summary_surface_px) +
             table_line("  seen, px", seen.summary_px) + table_line("  skyline, px", skyline.summary_px);
-    text += "99 %: 99 of 100 are off by no more than this.\n" + allowed_line(verification, view);
+    text += "99 %: 99 of 100 are off by no more than this.
+";
+    if (ground.summary_displacement_px.at_least + ground.summary_surface_px.at_least +
+            seen.summary_px.at_least >
+        0)
+        text += ">=: at least this. Nothing like it is seen within " + std::to_string(seen_reach_px) +
+                " px (seen), or its place is beside or behind the eye (displacement, surface).
+";
+    text += allowed_line(verification, view);
     if (const std::string beyond = unseen_sentence(unseen); !beyond.empty())
-        text += "Where the data end: " + beyond + "\n";
+        text += "Where the data end: " + beyond + "
+";
     return text;
 }
 
@@ -119,6 +143,7 @@ ordered_json verification_json(const Verification& verification) {
     json["seen_px"] = summary_json(seen.summary_px);
     json["skyline_px"] = summary_json(skyline.summary_px);
     json["largest_px"] = verification.errors.largest_px();
+    json["largest_px_at_least"] = verification.errors.largest_px_at_least();
     json["slack_px"] = verification.slack_px;
     json["drawn_pixels"] = ground.drawn;
     json["pixels_beyond_data"] = ground.beyond_data;

@@ -96,7 +96,9 @@ Result<void> leave_settings_out(const ViewOptions& view) {
                                            {"--geoid", view.geoid.has_value()},
                                            {"--heights", view.heights.has_value()},
                                            {"--accuracy", view.accuracy.has_value()},
-                                           {"--tolerance", view.tolerance.has_value()}}) {
+                                           {"--tolerance", view.tolerance.has_value()},
+                                           {"--mesh", view.mesh.has_value()},
+                                           {"--mesh-level", view.mesh_level.has_value()}}) {
         if (is_given) return refused(option, "", "trade chooses this itself: leave it out");
     }
     return {};

@@ -76,6 +76,7 @@ std::string sun_line(const Style& style) {
                                sun.azimuth_deg - 360.0 * std::floor(sun.azimuth_deg / 360.0),
                                std::abs(sun.elevation_deg), sun.elevation_deg < 0.0 ? "below" : "above");
     if (sun.time) line += ", " + sun.time->text;
+    if (sun.is_usual) line += " (ten by the sun there; no time was asked for)";
     return line;
 }
 

@@ -4,9 +4,11 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/command_line/whole_text.h"
+#include "apps/report/json_text.h"
 #include "apps/view/view_limits.h"
 #include "core/light/refraction.h"
 #include "core/light/sun_position.h"
+#include "core/light/usual_sun.h"
 #include "core/light/utc_time.h"
 
 namespace oro {
@@ -32,7 +34,15 @@ Result<SunTime> parse_time(const std::string& option, const std::string& text) {
     return SunTime{text, *utc_s};
 }
 
+SunDirection usual_sun() {
+    return {0.0, 0.0, std::nullopt, true};
+}
+
 void aim_sun(std::optional<SunDirection>& sun, const Geodetic& eye) {
+    if (sun && sun->is_usual) {
+        const std::int64_t utc_s = usual_sun_utc_s(eye);
+        sun->time = SunTime{time_text(utc_s), utc_s};
+    }
     if (!sun || !sun->time) return;
     const SunPosition position = sun_position(static_cast<double>(sun->time->utc_s), eye);
     sun->azimuth_deg = position.azimuth_deg;

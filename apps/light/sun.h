@@ -20,7 +20,11 @@ struct SunDirection {
     double elevation_deg;  // as it is seen, [-90, 90]
     // That time put it there; nothing: the direction itself was asked for.
     std::optional<SunTime> time{};
+    // Nobody asked for a time or a direction: the time is one that every place has (core/light/usual_sun.h).
+    bool is_usual{};
 };
+// The usual sun of a place that is not known yet: aim_sun() gives it a time and a direction.
+SunDirection usual_sun();
 
 // "315,45". Errors: usage, of --sun.
 Result<SunDirection> parse_sun(const std::string& text);
@@ -28,7 +32,8 @@ Result<SunDirection> parse_sun(const std::string& text);
 Result<SunTime> parse_time(const std::string& option, const std::string& text);
 
 // Puts a sun that is asked for by time where an eye sees it then (core/light/refraction.h), within 0.01
-// degree from 1900 to 2100. Leaves directions as they are.
+// degree from 1900 to 2100; the usual one at the usual time of the eye's place. Leaves directions as they
+// are.
 void aim_sun(std::optional<SunDirection>& sun, const Geodetic& eye);
 
 // What to tell of a sun at a time for which nobody has held it against an ephemeris: years other than 1900 to

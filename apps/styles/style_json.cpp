@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "apps/report/json_fields.h"
 #include "apps/styles/colours.h"
@@ -81,7 +82,8 @@ SunDirection read_light(const json& object, gpu::FrameStyle& style) {
                            view_limits::sun_azimuth_deg.high),
                json_number(own, "elevation_deg", view_limits::sun_elevation_deg.low,
                            view_limits::sun_elevation_deg.high)};
-        refuse_unknown(own, "'sun'", {"azimuth_deg", "elevation_deg"});
+        sun.is_usual = own.contains("by_place") && json_flag(own, "by_place");
+        refuse_unknown(own, "'sun'", {"azimuth_deg", "elevation_deg", "by_place"});
     }
     if (style.light == gpu::light_sun) style.ambient = style_number(object, "ambient", 0.0, 1.0);
     for (const auto& [name, on] :
@@ -186,6 +188,7 @@ Style style_of_json(const json& object) {
     Style style{};
     read_ground(object, style.frame);
     style.sun = read_light(object, style.frame);
+    style.sun_by_place = std::exchange(style.sun.is_usual, false);
     read_air(object, style.frame);
     read_contours(object, style);
     style.frame.footprint = choice(object, "footprint",

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "apps/accuracy/accuracy.h"
@@ -30,9 +31,11 @@ class Trade {
           style_(style),
           repeats_(repeats),
           memory_(memory),
-          painter_(gpu, path),
+          painter_(gpu, path, OcclusionUse::on),
           cases_(trade_cases(view, region)) {}
 
+    // What each view is drawn with, in that order; trade_cases() where nobody says.
+    void set_cases(std::vector<TradeCase> cases) { cases_ = std::move(cases); }
     // Reads the truth. Errors: damage in a baked region; nothing to draw.
     Result<void> prepare();
     [[nodiscard]] const TrueGround& ground() const { return truth_->ground(); }
@@ -47,6 +50,8 @@ class Trade {
     Result<Scene*> scene_of(const TradeCase& one);
     Result<TradeShot> shoot(const TradeCase& one, const Camera& camera, const TruePicture& truth,
                             Verification& drawn);
+    void forget_frames(Scene& scene);
+    Result<void> take_costs(Scene& scene, const Camera& from, DepthPictureOptions drawing, TradeShot& shot);
     Result<TradeEffect> predicted(const TradeCase& one, const EffectPrediction& prediction) const;
 
     const View& view_;

@@ -38,14 +38,18 @@ std::size_t index_of(const Items& items, const Find& is_it) {
     return static_cast<std::size_t>(std::find_if(items.begin(), items.end(), is_it) - items.begin());
 }
 
+ordered_json cost_json(const TradeCost& cost) {
+    return json_object("gpu_ms", number(cost.gpu_ms), "triangles", cost.triangles);
+}
+
 ordered_json setting_json(const TradeSetting& setting) {
     const bool ground = setting.displacement_pixels > 0;
     ordered_json json = ordered_json::object();
     json["name"] = name_of(setting.key);
     json["options"] = valid_text(setting.options);
     json["limit_px"] = number(setting.limit_px);
-    json["gpu_ms"] = number(setting.gpu_ms);
-    json["triangles"] = setting.triangles;
+    json["first"] = cost_json(setting.first);
+    json["settled"] = cost_json(setting.settled);
     json["bytes"] = setting.bytes;
     json["ground_m"] = known(ground, setting.displacement_m);
     json["ground_px"] = known(ground, setting.displacement_px);
@@ -54,6 +58,8 @@ ordered_json setting_json(const TradeSetting& setting) {
     json["surface_px"] = known(ground, setting.surface_px);
     json["seen_px"] = known(ground, setting.seen_px);
     json["skyline_px"] = known(setting.skyline_columns > 0, setting.skyline_px);
+    json["at_least"] = json_object("ground_px", setting.displacement_px_at_least, "surface_px",
+                                   setting.surface_px_at_least, "seen_px", setting.seen_px_at_least);
     json["over_limit"] = setting.over_limit;
     json["best"] = setting.on_front;
     return json;
@@ -61,7 +67,7 @@ ordered_json setting_json(const TradeSetting& setting) {
 
 ordered_json summary_json(const ErrorSummary& of) {
     return json_object("worst", number(of.largest), "p9999", number(of.p9999), "p99", number(of.p99), "mean",
-                       number(of.mean), "count", of.count);
+                       number(of.mean), "count", of.count, "at_least", of.at_least);
 }
 
 ordered_json shot_json(const TradeReport& report, const std::vector<std::string>& views,
@@ -72,8 +78,8 @@ ordered_json shot_json(const TradeReport& report, const std::vector<std::string>
     ordered_json json = ordered_json::object();
     json["view"] = view;
     json["setting"] = setting;
-    json["gpu_ms"] = number(shot.gpu_ms);
-    json["triangles"] = shot.triangles;
+    json["first"] = cost_json(shot.first);
+    json["settled"] = cost_json(shot.settled);
     json["bytes"] = shot.bytes;
     json["ground_m"] = summary_json(shot.displacement_m);
     json["ground_px"] = summary_json(shot.displacement_px);

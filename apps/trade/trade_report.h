@@ -14,13 +14,22 @@
 
 namespace oro {
 
+// What a setting costs in one of the two states that its users meet: the first picture, drawn by a program
+// that has drawn nothing yet; and a settled one, drawn again from the same eye, when what the last one saw is
+// known and tables of light and shadow are there. In both what other ground hides is left out.
+struct TradeCost {
+    double gpu_ms{};  // timestamps: levels, triangles and shading of one sample, median of the repeats
+    std::uint64_t triangles{};
+
+    bool operator==(const TradeCost&) const = default;
+};
+
 // One view drawn with one setting.
 struct TradeShot {
     std::string view;  // "far over the Alps"
     TradeKey setting;
-    double gpu_ms{};  // timestamps: levels, triangles and shading of one sample, median of the repeats
-    std::uint64_t triangles{};
-    std::uint64_t bytes{};  // of the pages and clusters that the frame reads, on the GPU
+    TradeCost first, settled;
+    std::uint64_t bytes{};  // of the pages and clusters that the first picture reads, on the GPU
     ErrorSummary displacement_m, displacement_px, surface_px, seen_px, skyline_px;
     // Of all of them, edges less what they are found to.
     [[nodiscard]] double largest_px() const {
@@ -38,27 +47,30 @@ struct TradeSetting {
     TradeKey key;
     std::string options;             // "--tau 2 --heights i16": how a user asks for it
     std::optional<double> limit_px;  // the largest of its shots' limits, where they have one
-    double gpu_ms{};                 // median over the views
-    std::uint64_t triangles{};       // sums over the views
-    std::uint64_t bytes{};
+    TradeCost first, settled;        // median time, sum of triangles over the views
+    std::uint64_t bytes{};           // sum over the views
     double displacement_m{}, displacement_px{}, displacement_p99_px{}, displacement_mean_px{}, surface_px{},
         seen_px{}, skyline_px{};  // worst (mean of means) over the views
+    // Some of the values that it comes from are at least what they say: so is the worst (ErrorSummary).
+    bool displacement_px_at_least{}, surface_px_at_least{}, seen_px_at_least{};
     std::uint64_t
         displacement_pixels{};  // sums over the views of what was measured; 0: the errors mean nothing
     std::uint64_t skyline_columns{};
     bool over_limit{};  // a shot is off by more than its own limit, by any of the four
-    // Pareto: no other setting is at least as good in gpu_ms and displacement_px, and better in one; equals
-    // are on it together. Settings where nothing was measured, or a number is not finite, are not.
+    // Pareto: no other setting is at least as good in first.gpu_ms and displacement_px, and better in one;
+    // equals are on it together. Settings where nothing was measured, or a number is not finite, are not.
     bool on_front{};
 };
 
 // One effect in one view.
 struct TradeEffect {
     std::string view;
-    TradeKey key;                                   // the setting, or a limit of the data
-    double predicted_m{}, predicted_px{};           // bounds; nothing unless is_predicted()
-    std::optional<double> measured_m, measured_px;  // worst; nothing where it cannot be measured
-    EffectMeasure measured_by{};                    // picture, thinned or stated
+    TradeKey key;                          // the setting, or a limit of the data
+    double predicted_m{}, predicted_px{};  // bounds; nothing unless is_predicted()
+    // Worst; nothing where it cannot be measured. Pixels up to the picture's diagonal: farther no bound
+    // reaches.
+    std::optional<double> measured_m, measured_px;
+    EffectMeasure measured_by{};  // picture, thinned or stated
 };
 
 struct TradePicture {

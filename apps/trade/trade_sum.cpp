@@ -11,19 +11,24 @@ namespace {
 TradeSetting sum_of(const std::vector<TradeShot>& shots, const TradeKey& key) {
     TradeSetting sum;
     sum.key = key;
-    std::vector<double> times_ms;
+    std::vector<double> first_ms, settled_ms;
     double means_px = 0.0;
     int measured = 0;
     for (const TradeShot& shot : shots) {
         if (shot.setting != key) continue;
-        times_ms.push_back(shot.gpu_ms);
-        sum.triangles += shot.triangles;
+        first_ms.push_back(shot.first.gpu_ms);
+        settled_ms.push_back(shot.settled.gpu_ms);
+        sum.first.triangles += shot.first.triangles;
+        sum.settled.triangles += shot.settled.triangles;
         sum.bytes += shot.bytes;
         sum.displacement_pixels += shot.displacement_px.count;
         sum.skyline_columns += shot.skyline_px.count;
         sum.displacement_m = worse(sum.displacement_m, shot.displacement_m.largest);
         sum.displacement_px = worse(sum.displacement_px, shot.displacement_px.largest);
         sum.displacement_p99_px = worse(sum.displacement_p99_px, shot.displacement_px.p99);
+        sum.displacement_px_at_least |= shot.displacement_px.at_least > 0;
+        sum.surface_px_at_least |= shot.surface_px.at_least > 0;
+        sum.seen_px_at_least |= shot.seen_px.at_least > 0;
         sum.surface_px = worse(sum.surface_px, shot.surface_px.largest);
         sum.over_limit = sum.over_limit || (shot.over_limit() && shot.displacement_px.count > 0);
         sum.seen_px = worse(sum.seen_px, shot.seen_px.largest);
@@ -33,19 +38,21 @@ TradeSetting sum_of(const std::vector<TradeShot>& shots, const TradeKey& key) {
         means_px += shot.displacement_px.mean;
         ++measured;
     }
-    sum.gpu_ms = median_of(std::move(times_ms));
+    sum.first.gpu_ms = median_of(std::move(first_ms));
+    sum.settled.gpu_ms = median_of(std::move(settled_ms));
     if (measured > 0) sum.displacement_mean_px = means_px / measured;
     return sum;
 }
 
 bool can_compare(const TradeSetting& setting) {
-    return setting.displacement_pixels > 0 && std::isfinite(setting.gpu_ms) &&
+    return setting.displacement_pixels > 0 && std::isfinite(setting.first.gpu_ms) &&
            std::isfinite(setting.displacement_px);
 }
 
 bool better(const TradeSetting& a, const TradeSetting& b) {
-    return a.gpu_ms <= b.gpu_ms && a.displacement_px <= b.displacement_px &&
-           (a.gpu_ms < b.gpu_ms || a.displacement_px < b.displacement_px);
+    const double a_ms = a.first.gpu_ms, b_ms = b.first.gpu_ms;
+    return a_ms <= b_ms && a.displacement_px <= b.displacement_px &&
+           (a_ms < b_ms || a.displacement_px < b.displacement_px);
 }
 
 }  // namespace

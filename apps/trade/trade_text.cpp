@@ -139,27 +139,50 @@ std::string limit_text(double limit_px) {
     return text;
 }
 
-std::string settings_text(const TradeReport& report) {
-    Table table({{"  setting", "time", "triangles", "terrain", "ground", "", "", "surface", "seen", "skyline",
-                  "limit"},
-                 {"", "ms", "all views", "MB", "worst m", "worst px", "99 % px", "worst px", "worst px",
-                  "worst px", "px"}},
+std::string starred(const TradeSetting& setting) {
+    return (setting.on_front ? "* " : "  ") + name_of(setting.key);
+}
+
+std::string costs_text(const TradeReport& report) {
+    Table table({{"  setting", "first picture", "", "settled", "", "terrain"},
+                 {"", "time, ms", "triangles", "time, ms", "triangles", "MB"}},
+                false);
+    for (const TradeSetting& setting : report.settings)
+        table.add({starred(setting), coarse_figure(setting.first.gpu_ms), grouped(setting.first.triangles),
+                   coarse_figure(setting.settled.gpu_ms), grouped(setting.settled.triangles),
+                   coarse_figure(megabytes(setting.bytes))});
+    return table.text() +
+           "* unbeaten: no other setting is both as fast (first picture) and as close (ground, worst px), "
+           "and "
+           "better in one\n"
+           "first picture: drawn by a program that has drawn nothing before; its making of shaders is not "
+           "counted\n"
+           "settled: the same once more, when it is known what the last picture saw, and light and shadow "
+           "are "
+           "there\n"
+           "time: of the GPU, the median of the views; triangles: of all views; hidden ground is left out in "
+           "both states\n"
+           "terrain: what the GPU read of it\n";
+}
+
+std::string errors_text(const TradeReport& report) {
+    Table table({{"  setting", "ground", "", "", "surface", "seen", "skyline", "limit"},
+                 {"", "worst m", "worst px", "99 % px", "worst px", "worst px", "worst px", "px"}},
                 false);
     for (const TradeSetting& setting : report.settings) {
         const bool measured = setting.displacement_pixels > 0;
-        const auto ground = [&](double value) {
-            return measured ? coarse_figure(value) : std::string("n/a");
+        const auto ground = [&](double value, bool at_least = false) {
+            return measured ? (at_least ? ">= " : "") + coarse_figure(value) : std::string("n/a");
         };
-        table.add({(setting.on_front ? "* " : "  ") + name_of(setting.key), coarse_figure(setting.gpu_ms),
-                   grouped(setting.triangles), coarse_figure(megabytes(setting.bytes)),
-                   ground(setting.displacement_m), ground(setting.displacement_px),
-                   ground(setting.displacement_p99_px), ground(setting.surface_px), ground(setting.seen_px),
+        table.add({starred(setting), ground(setting.displacement_m),
+                   ground(setting.displacement_px, setting.displacement_px_at_least),
+                   ground(setting.displacement_p99_px),
+                   ground(setting.surface_px, setting.surface_px_at_least),
+                   ground(setting.seen_px, setting.seen_px_at_least),
                    setting.skyline_columns > 0 ? coarse_figure(setting.skyline_px) : "n/a",
                    setting.limit_px ? limit_text(*setting.limit_px) : ""});
     }
     return table.text() +
-           "* unbeaten: no other setting is both as fast and as close (worst px), and better in one of the "
-           "two\n"
            "ground: how far each pixel's ground is drawn from where it truly is, in metres and on the "
            "picture\n"
            "99 %: 99 of 100 points are off by no more than this\n"
@@ -168,8 +191,10 @@ std::string settings_text(const TradeReport& report) {
            "skyline: how far the drawn skyline is from the true one\n"
            "limit: what none of them exceeds: --tau, and what drawing rounds off (0.05 px, more near "
            "ground)\n"
-           "time: of the GPU, the median of the views\n"
-           "terrain: what the GPU read of it\n";
+           ">=: at least this: nothing like it is seen within 32 px (seen), or its place is beside or behind "
+           "the "
+           "eye\n"
+           "all of them are the same in both states\n";
 }
 
 std::string ratio_text(const std::optional<RatioRange>& ratio) {
@@ -214,11 +239,14 @@ std::string effects_text(const TradeReport& report) {
 }  // namespace
 
 std::string trade_text(const TradeReport& report) {
-    std::string text = "What each setting costs, and how close it is, over " +
-                       std::to_string(views_of(report).size()) +
-                       (views_of(report).size() == 1 ? " view of " : " views of ") +
-                       std::to_string(report.width_px) + " x " + std::to_string(report.height_px) + " px\n\n";
-    text += report.settings.empty() ? "none\n" : settings_text(report);
+    const std::string over = "over " + std::to_string(views_of(report).size()) +
+                             (views_of(report).size() == 1 ? " view of " : " views of ") +
+                             std::to_string(report.width_px) + " x " + std::to_string(report.height_px) +
+                             " px";
+    std::string text = "What each setting costs, " + over + "\n\n";
+    text += report.settings.empty() ? "none\n" : costs_text(report);
+    text += "\nHow close each setting is, " + over + "\n\n";
+    text += report.settings.empty() ? "none\n" : errors_text(report);
     text += "\nWhat was predicted of each setting and of the data, and what was measured\n\n";
     text += report.effects.empty() ? "none\n" : effects_text(report);
     return text;

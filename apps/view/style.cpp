@@ -112,10 +112,27 @@ void light_by(const SunDirection& sun, gpu::FrameStyle& style) {
     style.sun_hidden = static_cast<float>(1.0 - direct_light(sun));
 }
 
+namespace {
+
+std::string file_of_style(const std::string& name) {
+    return is_style_path(name) ? name : (data_folder() / "styles" / (name + ".json")).string();
+}
+
+}  // namespace
+
+bool has_sun_by_place(const std::string& style) {
+    const std::string path = file_of_style(style);
+    if (is_table(path)) return false;
+    const auto text = read_text_file(path);
+    if (!text.ok()) return false;
+    const Result<Style> read = style_of_text(*text, path);
+    return read.ok() && read->sun_by_place;
+}
+
 Result<Style> load_style(const View& view, const HeightField& field) {
     const std::string& name = view.style;
     const bool is_path = is_style_path(name);
-    const std::string path = is_path ? name : (data_folder() / "styles" / (name + ".json")).string();
+    const std::string path = file_of_style(name);
     const auto text = read_text_file(path);
     if (!text.ok()) {
         const bool no_such = access(path.c_str(), F_OK) != 0 && (errno == ENOENT || errno == ENAMETOOLONG);

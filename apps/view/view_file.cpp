@@ -181,12 +181,15 @@ SunDirection read_sun(const nlohmann::json& json) {
     const Result<std::int64_t> utc_s = utc_time_from(text);
     if (!utc_s.ok()) throw JsonFault{"the sun's 'time' is '" + text + "', which " + utc_s.error().what};
     sun.time = SunTime{text, *utc_s};
+    // Views of before have none.
+    sun.is_usual = json.contains("usual") && json_flag(json, "usual");
     return sun;
 }
 
 ordered_json sun_json(const SunDirection& sun) {
     ordered_json json = json_object("azimuth_deg", sun.azimuth_deg, "elevation_deg", sun.elevation_deg);
     if (sun.time) json["time"] = sun.time->text;
+    if (sun.is_usual) json["usual"] = true;
     return json;
 }
 

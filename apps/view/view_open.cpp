@@ -5,6 +5,7 @@
 
 #include "apps/drawing/own_posts_limits.h"
 #include "apps/eye/standpoint.h"
+#include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "core/base/file_there.h"
 
@@ -81,6 +82,17 @@ Result<void> open_files(View& view) {
     return {};
 }
 
+// Over which place the sun stands as a view's light says: the eye's, or the middle of a map.
+Geodetic eye_for_sun(const View& view) {
+    const Geodetic& eye = view.camera.eye;
+    return view.map ? Geodetic{eye.lat_deg, eye.lon_deg, 0.0} : eye;
+}
+
+// Of a view that asks for no sun, in a style whose sun goes by the place.
+void take_usual_sun(View& view) {
+    if (!view.sun && has_sun_by_place(view.style)) view.sun = usual_sun();
+}
+
 // A map has no eye that something else could look from.
 Result<void> check_map(const View& view, const ViewOptions& options, const std::string& view_file) {
     if (!view.map) return {};
@@ -111,9 +123,16 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                 !view_options.overlay_width_px && !view_options.overlay_fill && !view_options.sky_openness &&
                 !view_options.labels && !view_options.edges && !view_options.show,
             view.prints};
+        const std::string told_style = view.style;
         ORO_CHECK(change_view(view, view_options));
+        // With another style goes another usual sun.
+        if (view.style != told_style && (!view.sun || view.sun->is_usual)) {
+            view.sun.reset();
+            take_usual_sun(view);
+            aim_sun(view.sun, eye_for_sun(view));
+        }
         // A sun that its file told stays where the file has it: the same view, the same bytes.
-        if (view_options.sun_time) aim_sun(view.sun, view.camera.eye);
+        if (view_options.sun_time) aim_sun(view.sun, eye_for_sun(view));
         ORO_CHECK(change_region(view, region_options));
         view.region.grids_apart = view.several_grids;
         if (view.region.paths.empty())
@@ -136,6 +155,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
+    take_usual_sun(view);
     ORO_TRY(region, open_region(view.region, progress));
     view.own_posts = keeps_own_posts(region);
     view.several_grids = !region.beside.empty();

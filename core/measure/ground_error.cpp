@@ -95,12 +95,22 @@ std::optional<glm::dvec2> GroundMeter::place_px(const glm::dvec3& seen_m) const 
     return 0.5 * (share + 1.0) * size_px_;
 }
 
+double GroundMeter::diagonal_px() const {
+    return glm::length(size_px_);
+}
+
 double GroundMeter::apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const {
+    return std::min(apart(drawn_m, seen_m).px, diagonal_px());
+}
+
+GroundMeter::Apart GroundMeter::apart(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const {
     const glm::dvec3 drawn = view_from_ecef_ * drawn_m, seen = view_from_ecef_ * seen_m;
-    const double tangent = seen.z >= 0.0
-                               ? glm::length(seen - drawn) / -drawn.z
-                               : glm::length(glm::dvec2(seen) / seen.z - glm::dvec2(drawn) / drawn.z);
-    return std::min(tangent * pixels_per_tangent_, glm::length(size_px_));
+    if (seen.z < 0.0) {
+        const double tangent = glm::length(glm::dvec2(seen) / seen.z - glm::dvec2(drawn) / drawn.z);
+        return {tangent * pixels_per_tangent_, false};
+    }
+    const double tangent = glm::length(seen - drawn) / -drawn.z;
+    return {std::min(tangent * pixels_per_tangent_, diagonal_px()), true};
 }
 
 // Goes from the foot straight below the point to the foot of the perpendicular on the triangle there, and so
@@ -127,8 +137,11 @@ Distance GroundMeter::from_surface(const glm::dvec2& point_px, const DrawnPoint&
         const Geodetic foot{place.lat_deg, place.lon_deg, *h_m};
         const glm::dvec3 foot_ecef = ecef_from_geodetic(foot).m;
         nearest.m = std::min(nearest.m, glm::length(drawn_ecef - foot_ecef));
-        nearest.px =
-            std::min(nearest.px, apart_px(drawn_m, sight_.refraction.apparent_m(foot_ecef - sight_.eye.m)));
+        const Apart away = apart(drawn_m, sight_.refraction.apparent_m(foot_ecef - sight_.eye.m));
+        if (!away.at_least && (nearest.px_at_least || away.px < nearest.px)) {
+            nearest.px = away.px;
+            nearest.px_at_least = false;
+        }
         const auto slope = surface.slope_at(row, column);
         if (!slope || nearest.m < close_enough_m) break;
         const glm::dvec3 up =
@@ -148,8 +161,9 @@ std::optional<Distance> GroundMeter::displacement(const glm::dvec2& point_px, co
     const std::optional<glm::dvec3> seen = seen_m(point_px, point);
     if (!seen) return std::nullopt;
     const glm::dvec3 drawn = offset_m(point_px, point.z_m);
+    const Apart on_picture = apart(drawn, *seen);
     return Distance{glm::length(sight_.refraction.true_m(drawn) - sight_.refraction.true_m(*seen)),
-                    apart_px(drawn, *seen)};
+                    on_picture.px, on_picture.at_least};
 }
 
 GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const Camera& camera,
@@ -161,6 +175,8 @@ GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const C
     for (auto* const values :
          {&errors.displacement_m, &errors.displacement_px, &errors.surface_m, &errors.surface_px})
         values->assign(width * height, not_measured);
+    errors.displacement_at_least.assign(width * height, 0);
+    errors.surface_at_least.assign(width * height, 0);
     const GroundMeter meter(ground, sight, camera);
     std::vector<std::uint64_t> drawn_in_row(height), beyond_in_row(height), between_in_row(height);
     in_parallel(camera.height_px, threads, [&](int row) {
@@ -178,19 +194,21 @@ GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const C
             }
             errors.displacement_m[pixel] = static_cast<float>(moved->m);
             errors.displacement_px[pixel] = static_cast<float>(moved->px);
+            errors.displacement_at_least[pixel] = moved->px_at_least ? 1 : 0;
             if (measures == GroundMeasures::displacement || meter.is_between(points[pixel])) continue;
             const Distance away = meter.from_surface(centre_px, points[pixel], *moved);
             errors.surface_m[pixel] = static_cast<float>(away.m);
             errors.surface_px[pixel] = static_cast<float>(away.px);
+            errors.surface_at_least[pixel] = away.px_at_least ? 1 : 0;
         }
     });
     errors.drawn = std::accumulate(drawn_in_row.begin(), drawn_in_row.end(), std::uint64_t{0});
     errors.beyond_data = std::accumulate(beyond_in_row.begin(), beyond_in_row.end(), std::uint64_t{0});
     errors.between = std::accumulate(between_in_row.begin(), between_in_row.end(), std::uint64_t{0});
     errors.summary_displacement_m = summary_of(errors.displacement_m);
-    errors.summary_displacement_px = summary_of(errors.displacement_px);
+    errors.summary_displacement_px = summary_of(errors.displacement_px, errors.displacement_at_least);
     errors.summary_surface_m = summary_of(errors.surface_m);
-    errors.summary_surface_px = summary_of(errors.surface_px);
+    errors.summary_surface_px = summary_of(errors.surface_px, errors.surface_at_least);
     return errors;
 }
 

@@ -20,6 +20,7 @@ namespace oro {
 struct Distance {
     double m{};
     double px{};
+    bool px_at_least{};  // one of the two places is on no picture: pixels are a least that it is off by
 };
 
 // Measures drawn points of a picture. All outlive it.
@@ -42,6 +43,14 @@ class GroundMeter {
     // the metres between them would reach at the other's distance, if they lay across. At most the picture's
     // diagonal: beyond, towards the picture's plane, pixels grow without end and say nothing.
     [[nodiscard]] double apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const;
+    // The same without an end, of two that are before the picture's plane; of others at least apart_px().
+    struct Apart {
+        double px{};
+        bool at_least{};
+    };
+    [[nodiscard]] Apart apart(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const;
+    // The picture's diagonal.
+    [[nodiscard]] double diagonal_px() const;
 
     // Of a pixel that shows `point`, from where its ground point (the row and column of its triangle) truly
     // is: sideways, up and along the line of sight. Nothing where that lies over no data. Error: rounding of
@@ -69,6 +78,7 @@ class GroundMeter {
 struct GroundErrors {
     std::vector<float> displacement_m, displacement_px;
     std::vector<float> surface_m, surface_px;
+    std::vector<std::uint8_t> displacement_at_least, surface_at_least;  // 1: the pixels are, Distance
     ErrorSummary summary_displacement_m, summary_displacement_px;
     ErrorSummary summary_surface_m, summary_surface_px;
     std::uint64_t drawn{};        // pixels with ground

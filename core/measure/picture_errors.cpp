@@ -22,6 +22,11 @@ double PictureErrors::largest_px() const {
                      skyline.summary_px.largest - seen_resolution_px, 0.0});
 }
 
+bool PictureErrors::largest_px_at_least() const {
+    return ground.summary_displacement_px.at_least > 0 || ground.summary_surface_px.at_least > 0 ||
+           seen.summary_px.at_least > 0;
+}
+
 PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoint> points,
                              std::span<const DrawnDepths> samples, int threads) {
     PictureErrors errors;

@@ -44,6 +44,8 @@ struct PictureErrors {
     double slack_px{};   // drawing_slack_px() of the ground that has most
     // Of all four, edges less what they are found to (seen_resolution_px).
     [[nodiscard]] double largest_px() const;
+    // Some of what that is of is only known to be no smaller than it says (ErrorSummary::at_least).
+    [[nodiscard]] bool largest_px_at_least() const;
 };
 // samples: as skyline_error().
 PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoint> points,

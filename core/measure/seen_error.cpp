@@ -252,7 +252,11 @@ SeenErrors seen_errors(const Oracle& oracle, const GroundMeter& meter,
     for (const std::vector<std::size_t>& some : searched_in_row)
         searched.insert(searched.end(), some.begin(), some.end());
     look_closely(picture, meter, camera, points, std::move(searched), errors.px);
-    errors.summary_px = summary_of(errors.px);
+    std::vector<std::uint8_t> at_least(errors.px.size());
+    std::ranges::transform(errors.px, at_least.begin(), [](float px) {
+        return static_cast<std::uint8_t>(px >= static_cast<float>(seen_reach_px) ? 1 : 0);
+    });
+    errors.summary_px = summary_of(errors.px, at_least);
     std::vector<float> all_even_m;
     for (const std::vector<float>& some : even_m)
         all_even_m.insert(all_even_m.end(), some.begin(), some.end());

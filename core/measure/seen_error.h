@@ -18,7 +18,8 @@ namespace oro {
 struct SeenErrors {
     // How far away on the picture the truth has what is drawn: ground at that distance, or an edge of ground
     // between nearer and farther ground (sky is farther than all ground). So it counts what moves, what is
-    // missing and what should be hidden. At most `seen_reach_px`: nothing like it lies nearer.
+    // missing and what should be hidden. `seen_reach_px` where nothing like it lies nearer: at least
+    // that.
     std::vector<float> px;
     // How far the ground that is drawn lies from the ground that is truly seen there, along the sight line;
     // not_measured where either is sky.

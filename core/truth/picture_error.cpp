@@ -37,13 +37,20 @@ ErrorSummary summary_of(std::vector<double> values) {
     return summary_of_sizes(values);
 }
 
-ErrorSummary summary_of(std::span<const float> values) {
+ErrorSummary summary_of(std::span<const float> values, std::span<const std::uint8_t> at_least) {
     std::vector<float> sizes;
     sizes.reserve(values.size());
     for (const float value : values) {
         if (value != not_measured) sizes.push_back(std::abs(value));
     }
-    return summary_of_sizes(sizes);
+    ErrorSummary summary = summary_of_sizes(sizes);
+    for (std::size_t i = 0; i < at_least.size(); ++i) {
+        if (at_least[i] == 0 || values[i] == not_measured) continue;
+        const double size = std::abs(static_cast<double>(values[i]));
+        summary.least_of_these = summary.at_least == 0 ? size : std::min(summary.least_of_these, size);
+        ++summary.at_least;
+    }
+    return summary;
 }
 
 }  // namespace oro

@@ -15,10 +15,20 @@ struct ErrorSummary {
     double p99{};
     double mean{};
     std::uint64_t count{};
+    // Values that are only known to be no smaller than they say: how many, and the smallest of them. So the
+    // largest and the mean, and shares from the smallest on, are at least what they say.
+    std::uint64_t at_least{};
+    double least_of_these{};
+
+    // Whether one of the four figures is at least what it says, and not that.
+    [[nodiscard]] bool is_at_least(double figure) const {
+        return at_least > 0 && (figure == largest || figure == mean || figure >= least_of_these);
+    }
 };
 ErrorSummary summary_of(std::vector<double> values);
-// The same of floats, those that are not_measured left out.
-ErrorSummary summary_of(std::span<const float> values);
+// The same of floats, those that are not_measured left out. at_least: not 0 for values that are only known to
+// be no smaller; empty: none.
+ErrorSummary summary_of(std::span<const float> values, std::span<const std::uint8_t> at_least = {});
 
 // A drawn picture's depths: reversed (near_plane_m / distance along the view axis), 0 for the background, row
 // by row, each at the sample's place in its pixel.

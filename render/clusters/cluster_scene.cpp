@@ -129,6 +129,15 @@ void ClusterScene::saw(const FrameSights& sights) {
     clusters_->note_hidden(hidden_groups(sights.clusters, shown_));
 }
 
+void ClusterScene::forget_frames() {
+    saw({});
+    if (stream_) stream_->want_nothing();
+    view_.reset();
+    drawn_.clear();
+    is_whole_ = has_room_ = false;
+    if (!has_room()) store_.forget_clusters();
+}
+
 bool ClusterScene::has_room() const {
     return store_.size() < store_.capacity() && groups().bytes() + bytes_on_the_way <= groups().most_bytes();
 }

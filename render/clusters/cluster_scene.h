@@ -44,6 +44,9 @@ class ClusterScene {
     // What a frame of such a plan has shown: from the next plan on what is hidden is read last, and gives way
     // first. One that tells nothing makes that forgotten.
     void saw(const FrameSights& sights);
+    // The next plan is as the first one: what frames have shown is forgotten, and where the GPU is full, what
+    // is there.
+    void forget_frames();
     // Sends what is ready of what the last of these plans lacks: true when the next one will be better. Does
     // not wait for what is not ready. Errors: damage, the device.
     Result<bool> advance();

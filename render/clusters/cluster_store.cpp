@@ -80,6 +80,13 @@ void ClusterStore::forget(std::uint32_t cluster) {
     --held_;
 }
 
+void ClusterStore::forget_clusters() {
+    slots_.clear();
+    unused_.clear();
+    slot_of_.clear();
+    held_ = 0;
+}
+
 void ClusterStore::begin_frame() {
     ++frame_;
     unused_.clear();

@@ -49,6 +49,9 @@ class ClusterStore {
     // device.
     Result<void> send(std::span<const Loaded> clusters);
 
+    // No cluster is here any more. No frame is being drawn.
+    void forget_clusters();
+
     [[nodiscard]] std::size_t size() const { return held_; }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
     [[nodiscard]] std::uint64_t bytes() const;  // of the buffers

@@ -65,15 +65,16 @@ Result<void> DepthPainter::prepare(VkExtent2D extent) {
     options.keep_depths = true;
     options.keep_triangles = true;
     options.path = path_;
+    options.occlusion = occlusion_;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu_, options));
     renderer_.emplace(std::move(renderer));
     return {};
 }
 
-Result<FrameReport> DepthPainter::draw_sample(Scene& scene, const Camera& camera,
-                                              const gpu::FrameStyle& style,
-                                              const DepthPictureOptions& options, const Tile& tile,
-                                              DepthPicture& picture, std::vector<float>& depths) {
+Result<SettledFrame> DepthPainter::draw_sample(Scene& scene, const Camera& camera,
+                                               const gpu::FrameStyle& style,
+                                               const DepthPictureOptions& options, const Tile& tile,
+                                               DepthPicture& picture, std::vector<float>& depths) {
     ORO_TRY(SettledFrame frame,
             draw_settled(scene, *renderer_, camera, tile, options.tau_px, options.model, style));
     picture.settled = picture.settled && frame.settled;
@@ -81,7 +82,7 @@ Result<FrameReport> DepthPainter::draw_sample(Scene& scene, const Camera& camera
             renderer_->read_depths(static_cast<std::uint32_t>(tile.width_px),
                                    static_cast<std::uint32_t>(tile.height_px)));
     place_tile(drawn, tile, camera.width_px, 1, depths);
-    return std::move(frame.report);
+    return frame;
 }
 
 Result<std::vector<DrawnPoint>> read_points(FrameRenderer& renderer, const Camera& camera, const Tile& tile) {
@@ -110,13 +111,12 @@ Result<std::vector<DrawnPoint>> read_points(FrameRenderer& renderer, const Camer
 Result<void> DepthPainter::draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                      const DepthPictureOptions& options, const Tile& tile,
                                      DepthPicture& picture) {
-    ORO_TRY(const FrameReport report,
+    ORO_TRY(const SettledFrame frame,
             draw_sample(scene, camera, style, options, tile, picture, picture.depths));
     ORO_TRY(const std::vector<DrawnPoint> points, read_points(*renderer_, camera, tile));
     place_tile(points, tile, camera.width_px, 1, picture.points);
-    add(picture.report, report);
-    picture.page_bytes +=
-        static_cast<std::uint64_t>(static_cast<double>(report.pages) * scene.store().bytes_a_page());
+    add(picture.report, frame.report);
+    picture.page_bytes += frame.page_bytes;
     ++picture.tiles;
     ORO_TRY(const std::vector<std::uint8_t> rgba,
             renderer_->read_picture(static_cast<std::uint32_t>(tile.width_px),

@@ -11,6 +11,7 @@
 #include "core/measure/skyline_error.h"
 #include "core/truth/picture_error.h"
 #include "render/frame/frame_renderer.h"
+#include "render/frame/settled_frame.h"
 #include "render/scene/scene.h"
 
 namespace oro {
@@ -47,7 +48,15 @@ Result<std::vector<DrawnPoint>> read_points(FrameRenderer& renderer, const Camer
 // Draws such pictures, one after another; those of one size share what a renderer needs.
 class DepthPainter {
   public:
-    DepthPainter(const Gpu& gpu, RasterPath path) : gpu_(&gpu), path_(path) {}
+    // occlusion: if it may leave out what other ground hides; `if_it_pays` goes by times, and so may count
+    // differently when the same is drawn again.
+    DepthPainter(const Gpu& gpu, RasterPath path, OcclusionUse occlusion = OcclusionUse::if_it_pays)
+        : gpu_(&gpu), path_(path), occlusion_(occlusion) {}
+
+    // The next picture is drawn as by a painter that has drawn nothing: it uses neither what earlier frames
+    // saw nor tables of light and shadow that they made. Programs stay. Scene::forget_frames() does the same
+    // for what is drawn.
+    void forget_frames() { renderer_.reset(); }
 
     // A picture of the camera's size, in tiles where the device cannot hold it. Errors: those of the device
     // and of the scene's pages.
@@ -58,12 +67,13 @@ class DepthPainter {
     Result<void> prepare(VkExtent2D extent);
     Result<void> draw_tile(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                            const DepthPictureOptions& options, const Tile& tile, DepthPicture& picture);
-    Result<FrameReport> draw_sample(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
-                                    const DepthPictureOptions& options, const Tile& tile,
-                                    DepthPicture& picture, std::vector<float>& depths);
+    Result<SettledFrame> draw_sample(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
+                                     const DepthPictureOptions& options, const Tile& tile,
+                                     DepthPicture& picture, std::vector<float>& depths);
 
     const Gpu* gpu_;
     RasterPath path_;
+    OcclusionUse occlusion_;
     std::optional<FrameRenderer> renderer_;
 };
 

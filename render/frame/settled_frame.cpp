@@ -10,10 +10,11 @@ Result<SettledFrame> draw_settled(Scene& scene, FrameRenderer& renderer, const C
     for (int frame = 1;; ++frame) {
         ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, tau_px, model));
         const bool whole = plan.is_settled(), shows_all = plan.shows_all();
+        const std::uint64_t page_bytes = scene.block_bytes(plan);
         ORO_TRY(FrameReport report, renderer.draw(std::move(plan), style));
         const bool is_news = !whole && scene.saw(report.sights);
         if (is_news && frame < most_settling_frames) continue;
-        return SettledFrame{std::move(report), whole || (shows_all && !is_news)};
+        return SettledFrame{std::move(report), page_bytes, whole || (shows_all && !is_news)};
     }
 }
 

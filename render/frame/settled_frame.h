@@ -13,7 +13,8 @@ inline constexpr int most_settling_frames = 64;
 
 struct SettledFrame {
     FrameReport report;
-    bool settled{};  // what is missing, if anything, does not show
+    std::uint64_t page_bytes{};  // of the pages that it read, Scene::block_bytes()
+    bool settled{};              // what is missing, if anything, does not show
 };
 
 // Draws one sample of a tile with all that tau asks for. Where the GPU cannot hold that, it draws again until

@@ -95,6 +95,11 @@ std::uint64_t PageStore::address(const PageIndex& page) {
     return chunks_[slot->shelf].buffer().address + slot->place + block_offset_;
 }
 
+std::uint64_t PageStore::block_bytes(const PageIndex& page) {
+    const Slot* const slot = shelves_.find({page.level, page.row, page.column});
+    return slot == nullptr ? 0 : slot->bytes - block_offset_;
+}
+
 void PageStore::note_hidden(const PageIndex& page) {
     Slot* const slot = shelves_.find({page.level, page.row, page.column});
     if (slot != nullptr && slot->shown == shelves_.frame()) slot->shown = slot->shown_before;

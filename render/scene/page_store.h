@@ -54,6 +54,9 @@ class PageStore {
     // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame,
     // and as being shown by it.
     std::uint64_t address(const PageIndex& page);
+    // What a page that is here takes without means and places, bytes; 0 for one that is not. Asking does not
+    // count as use.
+    [[nodiscard]] std::uint64_t block_bytes(const PageIndex& page);
     // The current frame uses it, and does not show it: other ground hides it.
     void note_hidden(const PageIndex& page);
     // How far before a page's block its means lie, bytes; 0 where none are kept.

@@ -283,6 +283,34 @@ Result<bool> Scene::advance(std::span<const PageIndex> missing) {
     return better || sent.count > 0 || (full_ && can_give_way_);
 }
 
+// Where any grid's memory is full, what the others hold of it may be what earlier frames left.
+void Scene::forget_frames() {
+    const std::vector<Scene*> scenes = all();
+    const bool full = std::ranges::any_of(scenes, [](const Scene* one) { return !one->store_.has_room(); });
+    for (Scene* const one : scenes) {
+        one->seen_ = SeenGround(*one->pages_);
+        one->hidden_.clear();
+        one->missed_.clear();
+        one->shown_beside_.clear();
+        one->full_ = one->full_for_hidden_ = one->can_give_way_ = false;
+        one->means_spacing_px_ = one->asked_means_px_;
+        one->stream_->want({});
+        if (!full) continue;
+        one->store_.forget_pages();
+        one->store_.begin_frame();
+        one->store_.release_unused();
+    }
+    if (clusters_) clusters_->forget_frames();
+}
+
+std::uint64_t Scene::block_bytes(const FramePlan& plan) {
+    std::uint64_t bytes = 0;
+    for (const PageIndex& page : plan.page_indices) bytes += store_.block_bytes(page);
+    for (std::size_t i = 0; i < std::min(beside_.size(), plan.beside.size()); ++i)
+        bytes += beside_[i].block_bytes(plan.beside[i]);
+    return bytes;
+}
+
 std::vector<Scene*> Scene::all() {
     std::vector<Scene*> scenes{this};
     for (Scene& other : beside_) scenes.push_back(&other);

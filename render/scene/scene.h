@@ -77,6 +77,10 @@ class Scene {
     // What a frame of this scene has shown (FrameReport::sights): from the next plan on ground that is hidden
     // comes last, and where the GPU is full gives way to what shows. True where that is news.
     bool saw(std::span<const FrameSights> sights);
+    // The next frame is as the first one: what frames have shown is forgotten, and what they left on the GPU
+    // is let go of where it could take the room of what comes. Not between a plan and the frame that draws
+    // it.
+    void forget_frames();
     // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
     // hold, `missing` names the rest; drawing it, saw() and another plan may bring what of that shows. Of
     // clusters it tells how many there is no room for.
@@ -101,6 +105,8 @@ class Scene {
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
     [[nodiscard]] PageStore& store() { return store_; }
     [[nodiscard]] std::uint64_t bytes_sent() const { return store_.bytes_sent(); }
+    // What the pages of a plan of all its grids take on the GPU, without means and places, bytes.
+    [[nodiscard]] std::uint64_t block_bytes(const FramePlan& plan);
     // From one height that the GPU can keep to the next; posts are at most half of it from their own.
     [[nodiscard]] double height_step_m() const { return store_.coding().step_m(); }
 

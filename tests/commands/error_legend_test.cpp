@@ -48,5 +48,23 @@ TEST(ErrorLegend, SaysWhatColoursMeanAndItsUnits) {
     EXPECT_EQ(lines[6], "skyline            n/a       n/a       n/a       n/a") << "none in view";
 }
 
+// Nothing like what is drawn is seen within 32 px: how far it is off is not known, nor is the mean.
+TEST(ErrorLegend, SaysWhatIsAtLeastThat) {
+    Verification far = measured(0.0042);
+    far.errors.seen.summary_px = {32.0, 32.0, 4.5, 1.25, 1000, 7, 32.0};
+    EXPECT_EQ(error_legend(far, 0.5)[5], "seen            >=32.0    >=32.0       4.5     >=1.3");
+    for (const std::string& line : error_legend(far, 0.5)) expect_readable(line);
+    const std::string text = verification_text(far, {}, {});
+    EXPECT_NE(text.find("\n  seen, px           >= 32.0     >= 32.0        4.50     >= 1.25\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("\n>=: at least this."), std::string::npos) << text;
+    EXPECT_EQ(verification_text(measured(0.0042), {}, {}).find(">="), std::string::npos);
+    const nlohmann::ordered_json json = verification_json(far);
+    EXPECT_EQ(json["seen_px"]["at_least"].dump(), R"(["max","p9999","mean"])");
+    EXPECT_EQ(json["surface_px"]["at_least"].dump(), "[]");
+    EXPECT_EQ(json["largest_px_at_least"], true);
+}
+
 }  // namespace
 }  // namespace oro

@@ -102,8 +102,9 @@ TradeShot shot_of(const MadeView& view, const MadeSetting& setting) {
     TradeShot shot;
     shot.view = view.name;
     shot.setting = setting.key;
-    shot.gpu_ms = view.ms * setting.ms;
-    shot.triangles = static_cast<std::uint64_t>(view.triangles * setting.triangles);
+    shot.first = {view.ms * setting.ms, static_cast<std::uint64_t>(view.triangles * setting.triangles)};
+    shot.settled = {0.8 * view.ms * setting.ms,
+                    static_cast<std::uint64_t>(0.4 * view.triangles * setting.triangles)};
     shot.bytes = static_cast<std::uint64_t>(view.triangles * 41.0 * setting.bytes);
     const bool sky_only =
         std::string(view.name) == "plain at sunset" && setting.key.effect == EffectKind::flat;

@@ -31,8 +31,8 @@ TradeShot shot(const std::string& view, const TradeKey& setting, double gpu_ms, 
     TradeShot made;
     made.view = view;
     made.setting = setting;
-    made.gpu_ms = gpu_ms;
-    made.triangles = 1000;
+    made.first = {gpu_ms, 1000};
+    made.settled = {0.5 * gpu_ms, 400};
     made.bytes = 250000;
     made.displacement_m = {10.0 * px, 8.0 * px, 4.0 * px, px, 100};
     made.displacement_px = {px, 0.75 * px, 0.5 * px, 0.25 * px, 100};
@@ -63,8 +63,10 @@ TEST(TradeReport, SumsSettingsOverTheViews) {
     const TradeSetting& one = report.settings[0];
     EXPECT_EQ(one.key, level(1));
     EXPECT_EQ(one.options, "");
-    EXPECT_EQ(one.gpu_ms, 2.0);  // of 1, 2, 3
-    EXPECT_EQ(one.triangles, 3000U);
+    EXPECT_EQ(one.first.gpu_ms, 2.0);  // of 1, 2, 3
+    EXPECT_EQ(one.first.triangles, 3000U);
+    EXPECT_EQ(one.settled.gpu_ms, 1.0);  // of 0.5, 1, 1.5
+    EXPECT_EQ(one.settled.triangles, 1200U);
     EXPECT_EQ(one.bytes, 750000U);
     EXPECT_EQ(one.displacement_m, 10.0);
     EXPECT_EQ(one.displacement_px, 1.0);
@@ -76,7 +78,7 @@ TEST(TradeReport, SumsSettingsOverTheViews) {
     const TradeSetting& two = report.settings[1];
     EXPECT_EQ(two.options, "--tau 2");
     EXPECT_EQ(two.limit_px, 2.0);
-    EXPECT_EQ(two.gpu_ms, 1.5);  // of 1, 2
+    EXPECT_EQ(two.first.gpu_ms, 1.5);  // of 1, 2
     EXPECT_EQ(two.displacement_px, 2.0);
 }
 
@@ -110,20 +112,26 @@ TEST(TradeReport, CsvIsRfc4180WithAllDigits) {
                     shot("b", {EffectKind::flat, {}, {}}, 1.0 / 3.0, 256.0)};
     report.shots[1].skyline_px = {};
     report.shots[1].skyline_in_one_only = 7;
+    report.shots[1].displacement_px.at_least = 3;
     EXPECT_EQ(
         trade_csv(report),
-        "view,setting,gpu_ms,triangles,bytes,"
+        "view,setting,first_gpu_ms,first_triangles,settled_gpu_ms,settled_triangles,bytes,"
         "displacement_m_max,displacement_m_p9999,displacement_m_p99,displacement_m_mean,displacement_m_count,"
+        "displacement_m_at_least,"
         "displacement_px_max,displacement_px_p9999,displacement_px_p99,displacement_px_mean,displacement_px_"
         "count,"
+        "displacement_px_at_least,"
         "surface_px_max,surface_px_p9999,surface_px_p99,surface_px_mean,surface_px_count,"
+        "surface_px_at_least,"
         "seen_px_max,seen_px_p9999,seen_px_p99,seen_px_mean,seen_px_count,"
+        "seen_px_at_least,"
         "skyline_px_max,skyline_px_p9999,skyline_px_p99,skyline_px_mean,skyline_px_count,"
+        "skyline_px_at_least,"
         "skyline_in_one_only\r\n"
-        "\"far, over \"\"the\"\" Alps\",\"no full detail, tau 1\",0.1,1000,250000,"
-        "5,4,2,0.5,100,0.5,0.375,0.25,0.125,100,0,0,0,0,0,0,0,0,0,0,1,1,0.5,0.25,16,0\r\n"
-        "b,no curve of the Earth,0.3333333333333333,1000,250000,"
-        "2560,2048,1024,256,100,256,192,128,64,100,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,7\r\n");
+        "\"far, over \"\"the\"\" Alps\",\"no full detail, tau 1\",0.1,1000,0.05,400,250000,"
+        "5,4,2,0.5,100,0,0.5,0.375,0.25,0.125,100,0,0,0,0,0,0,0,0,0,0,0,0,0,1,1,0.5,0.25,16,0,0\r\n"
+        "b,no curve of the Earth,0.3333333333333333,1000,0.16666666666666666,400,250000,"
+        "2560,2048,1024,256,100,0,256,192,128,64,100,3,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,7\r\n");
 }
 
 TEST(TradeReport, FiguresHaveTheDigitsThatMatter) {
@@ -299,8 +307,9 @@ TEST(TradeReport, TextFitsATerminal) {
     EXPECT_NE(text.find("\n* no full detail, tau 2 "), std::string::npos);
     EXPECT_NE(text.find("\n  no ellipsoid "), std::string::npos);
     // Each measure is explained where it is printed.
-    for (const char* line : {"\n* unbeaten: ", "\nground: ", "\nsurface: ", "\nseen: ", "\nskyline: ",
-                             "\nlimit: ", "\nterrain: ", "\npredicted: ", "\nratio: "})
+    for (const char* line :
+         {"\n* unbeaten: ", "\nfirst picture: ", "\nsettled: ", "\nground: ", "\nsurface: ", "\nseen: ",
+          "\nskyline: ", "\nlimit: ", "\nterrain: ", "\npredicted: ", "\nratio: "})
         EXPECT_NE(text.find(line), std::string::npos) << line << text;
     for (const char* word : {"interior", "promise", "Pareto"})
         EXPECT_EQ(text.find(word), std::string::npos) << word;

@@ -31,8 +31,8 @@ TradeShot shot(const std::string& view, const TradeKey& setting, double gpu_ms, 
     TradeShot made;
     made.view = view;
     made.setting = setting;
-    made.gpu_ms = gpu_ms;
-    made.triangles = 1000;
+    made.first = {gpu_ms, 1000};
+    made.settled = {0.5 * gpu_ms, 400};
     made.bytes = 250000;
     made.displacement_m = {10.0 * px, 8.0 * px, 4.0 * px, px, 100};
     made.displacement_px = {px, 0.75 * px, 0.5 * px, 0.25 * px, 100};

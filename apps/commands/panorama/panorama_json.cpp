@@ -66,7 +66,10 @@ ordered_json panorama_json(const PanoramaReport& report, const std::string& file
     json["standpoint"] = nullptr;
     if (!report.laid.standpoint.empty()) json["standpoint"] = report.laid.standpoint;
     if (view.vectors_read) json["names"] = names_json(report.laid);
-    json["sun"] = json_object("azimuth_deg", style.sun.azimuth_deg, "elevation_deg", style.sun.elevation_deg);
+    json["sun"] = json_object("azimuth_deg", style.sun.azimuth_deg, "elevation_deg", style.sun.elevation_deg,
+                              "time", nullptr);
+    if (style.sun.time) json["sun"]["time"] = style.sun.time->text;
+    json["sun"]["usual"] = style.sun.is_usual;
     json["time"] = time_text(view.time_utc_s);
     json["attribution"] = attribution_of(report.region);
     json["models"] = models_json(view);

@@ -173,6 +173,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["sun"] = json_object("azimuth_deg", style.sun.azimuth_deg, "elevation_deg", style.sun.elevation_deg,
                               "direct_light", direct_light(style.sun), "time", nullptr);
     if (style.sun.time) json["sun"]["time"] = style.sun.time->text;
+    json["sun"]["usual"] = style.sun.is_usual;
     json["footprint"] = !shot.has_means                                  ? "point"
                         : style.frame.footprint == gpu::footprint_finest ? "finest"
                                                                          : "mean";

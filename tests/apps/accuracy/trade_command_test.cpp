@@ -81,6 +81,8 @@ TEST_F(TradeCommand, WritesATableAndAPage) {
     const std::vector<Words> table = table_of(bytes_of(folder / "trade.csv"));
     EXPECT_EQ(table[0][0], "view");
     EXPECT_EQ(table[0][1], "setting");
+    EXPECT_EQ(Words(table[0].begin() + 2, table[0].begin() + 6),
+              (Words{"first_gpu_ms", "first_triangles", "settled_gpu_ms", "settled_triangles"}));
     std::set<std::string> views, settings;
     for (std::size_t i = 1; i < table.size(); ++i) {
         expect_numbers(table[0], table[i]);
@@ -97,11 +99,16 @@ TEST_F(TradeCommand, WritesATableAndAPage) {
         EXPECT_NE(outcome.out.find(setting), std::string::npos) << setting << " in\n" << outcome.out;
         EXPECT_NE(page.find(setting), std::string::npos) << setting;
     }
-    EXPECT_NE(outcome.out.find("* unbeaten: "), std::string::npos) << outcome.out;
+    for (const char* line : {"* unbeaten: ", "\nfirst picture: ", "\nsettled: "})
+        EXPECT_NE(outcome.out.find(line), std::string::npos) << line << outcome.out;
     EXPECT_NE(outcome.out.find("96 x 54 px"), std::string::npos) << outcome.out;
     const nlohmann::json data = data_of(page);
     EXPECT_EQ(data.at("shots").size(), table.size() - 1);
     EXPECT_EQ(data.at("settings").size(), settings.size());
+    for (const char* state : {"first", "settled"}) {
+        EXPECT_GT(data.at("settings")[0].at(state).at("triangles"), 0) << state;
+        EXPECT_GT(data.at("shots")[0].at(state).at("gpu_ms"), 0.0) << state;
+    }
     EXPECT_EQ(data.dump().find("NaN"), std::string::npos);
     for (const char* elsewhere : {"src=\"http", "href=\"http", "url(http", "@import"})
         EXPECT_EQ(page.find(elsewhere), std::string::npos) << elsewhere;
@@ -225,7 +232,8 @@ TEST_F(TradeCommand, MakesItsFolder) {
 TEST_F(TradeCommand, RefusesWhatItTriesItself) {
     const std::vector<Words> own{{"--tau", "1"},          {"--earth", "flat"},    {"--refraction", "0.1"},
                                  {"--geoid", "none"},     {"--heights", "i16"},   {"--precision", "naive"},
-                                 {"--accuracy", "draft"}, {"--tolerance", "1px"}, {"--air", "standard"}};
+                                 {"--accuracy", "draft"}, {"--tolerance", "1px"}, {"--air", "standard"},
+                                 {"--mesh", "grid"},      {"--mesh-level", "3"}};
     for (const Words& option : own) expect_refusal(trade(option), usage, {"trade", option[0]});
     for (const Words& bad :
          {Words{"--views", "0"}, Words{"--views", "-1"}, Words{"--views", "1001"}, Words{"--views", "nan"},

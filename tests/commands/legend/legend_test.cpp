@@ -83,6 +83,11 @@ TEST(LegendLines, SayEyeSunAndData) {
     EXPECT_EQ(lines[2], "Heights: N46W009.hgt");
     EXPECT_EQ(lines[3].substr(lines[3].find(';')),
               "; detail that is left out moves nothing by more than 0.5 px");
+    style.sun = {141.5, 36.5, SunTime{"2026-03-20T09:35:26Z", 1773999326}, true};
+    EXPECT_EQ(
+        legend_lines(view, region, style)[1],
+        "Sun: from the south-east (142°), 36.5° above the horizon, 2026-03-20T09:35:26Z (ten by the sun "
+        "there; no time was asked for)");
     view.tells_paths = false;
     EXPECT_EQ(legend_lines(view, region, style)[2], "Heights: 1 file");
 }

@@ -157,6 +157,27 @@ TEST(GroundMeter, NothingIsFartherOffThanThePictureIsWide) {
     EXPECT_LT(meter.apart_px(ahead_m, ecef_from_view * glm::dvec3(1.0, 0.0, -100.0)), 1.0);
 }
 
+// 90 degrees high: 24 px for each unit of the tangent. Truly 1,000 tangents beside what is drawn ahead:
+// 24,000 px, told as it is. Truly behind the picture's plane, where no picture has it: at least the diagonal.
+TEST(GroundMeter, TellsHowFarOffWhatIsBesideThePictureIs) {
+    const HeightField field = test::rough_field(46.6, 8.2, 20, 20);
+    const TrueSurface surface(field, 1.0, 1);
+    Camera camera;
+    camera.eye = {46.6, 8.2, 5000.0};
+    camera.vertical_fov_deg = 90.0;
+    camera.width_px = 64, camera.height_px = 48;
+    const Sight sight = sight_from(camera.eye);
+    const GroundMeter meter(surface, sight, camera);
+    const glm::dmat3 ecef_from_view = glm::transpose(camera.view_from_ecef());
+    const glm::dvec3 ahead_m = ecef_from_view * glm::dvec3(0.0, 0.0, -100.0);
+    const auto beside = meter.apart(ahead_m, ecef_from_view * glm::dvec3(100.0, 0.0, -0.1));
+    EXPECT_NEAR(beside.px, 24000.0, 1.0e-3);
+    EXPECT_FALSE(beside.at_least);
+    const auto behind = meter.apart(ahead_m, ecef_from_view * glm::dvec3(1000.0, 0.0, 0.1));
+    EXPECT_EQ(behind.px, 80.0);
+    EXPECT_TRUE(behind.at_least);
+}
+
 // Half of 2^-11 m, and R hypot((t t + t t cos cos) / 8, sin (t t / 4 + t t cos / 8)) of t = 1 / 1200 degree
 // from 46 to 47 degrees: 0.000247 m up and 0.000326 sideways, 0.00041 m. 1,303.7 px for a tangent at 2 m, and
 // in the picture's corners 1.3091 of that (1, 0.41421 and 0.73638, root of the squares). Posts a degree

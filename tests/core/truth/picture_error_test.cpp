@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 #include <vector>
 
 namespace oro {
@@ -32,6 +34,26 @@ TEST(ErrorSummary, OfFewIsTheLargestAndOfNoneZero) {
     const ErrorSummary none = summary_of(std::vector<double>{});
     EXPECT_EQ(none.count, 0U);
     EXPECT_EQ(none.largest + none.p9999 + none.p99 + none.mean, 0.0);
+}
+
+// 1 to 100, of which 40 and 100 are only known to be no smaller: so are the largest and the mean, and of the
+// shares those from 40 on.
+TEST(ErrorSummaries, SayWhichFiguresAreAtLeastThat) {
+    std::vector<float> values;
+    for (int i = 1; i <= 100; ++i) values.push_back(static_cast<float>(i));
+    std::vector<std::uint8_t> at_least(100, 0);
+    at_least[39] = at_least[99] = 1;
+    const ErrorSummary summary = summary_of(values, at_least);
+    EXPECT_EQ(summary.at_least, 2U);
+    EXPECT_EQ(summary.least_of_these, 40.0);
+    EXPECT_TRUE(summary.is_at_least(summary.largest));
+    EXPECT_TRUE(summary.is_at_least(summary.p99));
+    EXPECT_TRUE(summary.is_at_least(summary.mean));
+    EXPECT_FALSE(summary.is_at_least(39.0));
+    EXPECT_FALSE(summary_of(values).is_at_least(100.0));
+    at_least[39] = 0;
+    EXPECT_FALSE(summary_of(values, at_least).is_at_least(99.0))
+        << "99 of 100 are no larger, whatever 100 is";
 }
 
 }  // namespace
