@@ -169,6 +169,8 @@ std::string text_of(const PipelineChoice& choice) {
 Result<RasterPath> choose_path(const std::string& request, const Gpu& gpu) {
     if (raster_request_named(request) != RasterRequest::automatic || !has_both_ways(gpu.report()))
         return raster_path_for(request, gpu.report());
+    const bool is_processor = gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    if (is_processor && !remembered_times(gpu.report())) return RasterPath::compute;
     ORO_TRY(const PipelineChoice choice, choose_pipeline(gpu));
     return choice.path;
 }

@@ -45,8 +45,9 @@ std::optional<PipelineChoice> known_choice(const DeviceReport& device);
 // "compute: 3.1 times faster than mesh shaders here (measured 2026-11-21)", "mesh: the only way here".
 std::string text_of(const PipelineChoice& choice);
 
-// The way that a request ("auto", "mesh", "compute") means on a device. Errors: those of choose_pipeline(),
-// and as raster_path_for().
+// The way that a request ("auto", "mesh", "compute") means on a device. A processor that stands in for a GPU
+// draws by `compute` unless choose_pipeline() has found otherwise before: to measure takes it longer than to
+// draw (docs/BENCHMARKS.md, F). Errors: those of choose_pipeline(), and as raster_path_for().
 Result<RasterPath> choose_path(const std::string& request, const Gpu& gpu);
 
 }  // namespace oro

@@ -1,10 +1,27 @@
 #include "render/raster/pipeline_parts.h"
 
+#include <algorithm>
 #include <array>
 
 namespace oro {
 
+// Source: SPIR-V Specification, 2.3 (five words, then instructions that begin with their length and number)
+// and 3.23 (loop control).
+std::vector<std::uint32_t> with_whole_loops(std::span<const std::uint32_t> words) {
+    constexpr std::size_t header_words = 5;
+    constexpr std::uint32_t op_loop_merge = 246, unroll = 1, dont_unroll = 2;
+    std::vector<std::uint32_t> whole(words.begin(), words.end());
+    for (std::size_t at = header_words; at + 3 < whole.size();) {
+        const std::uint32_t length = whole[at] >> 16U;
+        if ((whole[at] & 0xffffU) == op_loop_merge) whole[at + 3] = (whole[at + 3] & ~unroll) | dont_unroll;
+        at += std::max(length, 1U);
+    }
+    return whole;
+}
+
 Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t> words, const char* name) {
+    std::vector<std::uint32_t> whole;
+    if (gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU) words = whole = with_whole_loops(words);
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     info.codeSize = words.size_bytes();

@@ -4,12 +4,19 @@
 #include <cstddef>
 #include <span>
 
-#include "spirv/air_tables_comp.h"
+#include "spirv/air_table_0_comp.h"
+#include "spirv/air_table_1_comp.h"
+#include "spirv/air_table_2_comp.h"
+#include "spirv/air_table_3_comp.h"
+#include "spirv/air_table_4_comp.h"
+#include "spirv/air_table_5_comp.h"
 #include "spirv/drape_wants_clusters_comp.h"
 #include "spirv/drape_wants_comp.h"
 #include "spirv/edges_clusters_comp.h"
 #include "spirv/edges_comp.h"
 #include "spirv/join_shares_comp.h"
+#include "spirv/list_shares_beside_comp.h"
+#include "spirv/list_shares_comp.h"
 #include "spirv/openness_comp.h"
 #include "spirv/places_comp.h"
 #include "spirv/places_net_comp.h"
@@ -94,12 +101,12 @@ Result<VkPipeline> edges_for(const Gpu& gpu, RasterPath path, const ShadingKind&
 }
 
 Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines) {
-    for (std::uint32_t table = 0; table < pipelines.air.size(); ++table) {
+    using Words = std::span<const std::uint32_t>;
+    const std::array<Words, 6> words{air_table_0_comp_spirv, air_table_1_comp_spirv, air_table_2_comp_spirv,
+                                     air_table_3_comp_spirv, air_table_4_comp_spirv, air_table_5_comp_spirv};
+    for (std::size_t table = 0; table < words.size(); ++table) {
         if (pipelines.air[table]) continue;
-        const VkSpecializationMapEntry entry{0, 0, sizeof(table)};
-        const VkSpecializationInfo constants{1, &entry, sizeof(table), &table};
-        ORO_TRY(pipelines.air[table],
-                create_compute_pipeline(gpu, pipelines, air_tables_comp_spirv, "air tables", &constants));
+        ORO_TRY(pipelines.air[table], create_compute_pipeline(gpu, pipelines, words[table], "air tables"));
     }
     return {};
 }
@@ -114,18 +121,25 @@ std::array<std::size_t, 3> share_programs(const ShareOptions& how) {
 
 namespace {
 
-// shares.comp, by `does`.
-Result<void> make_share_pipelines(const Gpu& gpu, const ShareOptions& how,
-                                  std::span<const std::uint32_t> words, const Pipelines& pipelines,
-                                  std::array<OwnedPipeline, 5>& shares) {
-    for (const std::size_t does : share_programs(how)) {
-        if (shares[does]) continue;
-        const std::array<std::uint32_t, 2> values{flag(how.path == RasterPath::compute),
-                                                  static_cast<std::uint32_t>(does)};
+// shares.comp by `does`, then list_shares.comp by square and by group.
+struct ShareWords {
+    std::span<const std::uint32_t> lines, lists;
+};
+Result<void> make_share_pipelines(const Gpu& gpu, const ShareOptions& how, const ShareWords& words,
+                                  const Pipelines& pipelines, std::array<OwnedPipeline, 5>& shares) {
+    constexpr std::size_t first_list = 3;
+    for (const std::size_t program : share_programs(how)) {
+        if (shares[program]) continue;
+        const bool lists = program >= first_list;
+        const std::array<std::uint32_t, 2> values{
+            flag(how.path == RasterPath::compute),
+            static_cast<std::uint32_t>(lists ? program - first_list : program)};
         const std::array<VkSpecializationMapEntry, 2> entries{
             {{0, 0, sizeof(values[0])}, {1, sizeof(values[0]), sizeof(values[1])}}};
         const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
-        ORO_TRY(shares[does], create_compute_pipeline(gpu, pipelines, words, "sun shares", &constants));
+        ORO_TRY(shares[program],
+                create_compute_pipeline(gpu, pipelines, lists ? words.lists : words.lines,
+                                        lists ? "list of sun shares" : "sun shares", &constants));
     }
     return {};
 }
@@ -150,7 +164,7 @@ Result<void> add_share_pipelines(const Gpu& gpu, const ShareOptions& how, bool o
         on_clusters ? std::span<const std::uint32_t>(shares_clusters_comp_spirv)
         : on_net    ? std::span<const std::uint32_t>(shares_net_comp_spirv)
                     : std::span<const std::uint32_t>(shares_comp_spirv);
-    return make_share_pipelines(gpu, how, words, pipelines,
+    return make_share_pipelines(gpu, how, {words, list_shares_comp_spirv}, pipelines,
                                 pipelines.sun_shares[on_clusters ? 2
                                                      : on_net    ? 1
                                                                  : 0]);
@@ -175,8 +189,10 @@ Result<void> add_joined_pipelines(const Gpu& gpu, const ShareOptions& how, bool 
     }
     if (!casts) return {};
     return make_share_pipelines(
-        gpu, how, on_net ? Words(shares_beside_net_comp_spirv) : Words(shares_beside_comp_spirv), pipelines,
-        pipelines.joined_shares[number]);
+        gpu, how,
+        {on_net ? Words(shares_beside_net_comp_spirv) : Words(shares_beside_comp_spirv),
+         list_shares_beside_comp_spirv},
+        pipelines, pipelines.joined_shares[number]);
 }
 
 Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, bool on_clusters, Pipelines& pipelines) {

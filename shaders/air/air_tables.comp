@@ -7,7 +7,7 @@
 #include "shaders/air/aerial.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint table = 0u;  // 0 columns, 1 scattered, 2 skylight, 3 lit, 4 sky, 5 aerial
+// TABLE: 0 columns, 1 scattered, 2 skylight, 3 lit, 4 sky, 5 aerial; each has a program.
 
 const vec3 least_light = vec3(1.0e-20);  // of the sun's
 
@@ -144,8 +144,7 @@ void fill_aerial(uint i) {
     for (uint slice = 1u; slice < aerial_slices; ++slice) {
         float near_m = from_m + length_m * way_of_slice(float(slice - 1u) / float(aerial_slices - 1u));
         float far_m = from_m + length_m * way_of_slice(float(slice) / float(aerial_slices - 1u)), middle_m = 0.5 * (near_m + far_m);
-        gather(ray, near_m, middle_m, light);
-        gather(ray, middle_m, far_m, light);
+        [[unroll]] for (int half_of = 0; half_of < 2; ++half_of) gather(ray, half_of == 0 ? near_m : middle_m, half_of == 0 ? middle_m : far_m, light);
         put_aerial(aerial_at(row, column, slice), light, ray.to_sun);
     }
 }
@@ -160,10 +159,17 @@ void fill_lit(uint i) {
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (table == 0u && i < air_column_heights * air_column_angles) fill_columns(i);
-    if (table == 1u && i < air_light_heights * air_light_suns) fill_scattered(i);
-    if (table == 2u && i < air_light_heights * air_light_suns) fill_skylight(i);
-    if (table == 3u && i < lit_heights * lit_suns) fill_lit(i);
-    if (table == 4u && i < air_sky_rises * air_sky_turns) fill_sky(i);
-    if (table == 5u && i < 2u * aerial_rises * aerial_turns) fill_aerial(i);
+#if TABLE == 0
+    if (i < air_column_heights * air_column_angles) fill_columns(i);
+#elif TABLE == 1
+    if (i < air_light_heights * air_light_suns) fill_scattered(i);
+#elif TABLE == 2
+    if (i < air_light_heights * air_light_suns) fill_skylight(i);
+#elif TABLE == 3
+    if (i < lit_heights * lit_suns) fill_lit(i);
+#elif TABLE == 4
+    if (i < air_sky_rises * air_sky_turns) fill_sky(i);
+#else
+    if (i < 2u * aerial_rises * aerial_turns) fill_aerial(i);
+#endif
 }

@@ -42,8 +42,7 @@ CasterCell unsplit_caster_cell(PageBlocks block, uint level, ivec2 post) {
     cell.from = ivec2(number << level);
     cell.to = min(cell.from + (1 << level), ivec2(FRAME.last_row, FRAME.last_column));
     uvec2 place = (number & 127u) + 1u;
-    cell.heights = ivec4(stored_height(block, place), stored_height(block, place + uvec2(0u, 1u)),
-                         stored_height(block, place + uvec2(1u, 0u)), stored_height(block, place + 1u));
+    [[unroll]] for (uint i = 0u; i < 4u; ++i) cell.heights[i] = stored_height(block, place + uvec2(i >> 1u, i & 1u));
     cell.rises = false;
     return cell;
 }

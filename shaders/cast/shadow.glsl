@@ -146,9 +146,10 @@ SunLine sun_line(CastFrame at) {
         begin_short(at, line);
         return line;
     }
-    vec3 f1 = towards_sun_m(at, line.length_m / 3.0), f2 = towards_sun_m(at, line.length_m * 2.0 / 3.0);
-    vec3 f3 = towards_sun_m(at, line.length_m);
-    fit(line, f1, f2, f3);
+    vec3 places[3];
+    [[unroll]] for (int i = 0; i < 3; ++i)
+        places[i] = towards_sun_m(at, i == 0 ? line.length_m / 3.0 : i == 1 ? line.length_m * 2.0 / 3.0 : line.length_m);
+    fit(line, places[0], places[1], places[2]);
     return line;
 }
 
@@ -289,12 +290,12 @@ void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, fl
             CellCrossing crossing = crossing_of(piece, cell, search.post, t_m, out_m);
             if (meets) meet_level(piece, cell, t_m, to_m, crossing.west_before, search);
             meets = false;
-            look_at_cell(line, piece, cell, t_m, crossing.west_before, search);
-            if (crossing.crosses) {
-                look_at_cell(line, piece, cell, crossing.diagonal_m, crossing.west_before, search);
-                look_at_cell(line, piece, cell, crossing.diagonal_m, crossing.west_after, search);
+            // Where the line comes in, crosses the diagonal, out of one triangle and into the other, and leaves.
+            [[unroll]] for (int k = 0; k < 4; ++k) {
+                if ((k == 1 || k == 2) && !crossing.crosses) continue;
+                float at_m = k == 0 ? t_m : k == 3 ? out_m : crossing.diagonal_m;
+                look_at_cell(line, piece, cell, at_m, k < 2 ? crossing.west_before : crossing.west_after, search);
             }
-            look_at_cell(line, piece, cell, out_m, crossing.west_after, search);
         }
         t_m = out_m;
         z_m = out_z_m;

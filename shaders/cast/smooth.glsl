@@ -65,8 +65,9 @@ struct SmoothSearch {
 // on the diagonal, where the triangle of the other side is as good. False where there is no ground.
 bool look_at_smooth(SunLine line, CastPiece piece, SmoothCell found, uint level, float t_m, bool west, bool either, CastSearch search, inout SmoothSearch seen) {
     vec2 share = share_of_cell(piece, found.cell, search.post, t_m);
-    float flat_m = above_base(found.cell, share, west, search.base);
-    if (flat_m == no_ground_m && either) flat_m = above_base(found.cell, share, !west, search.base);
+    float flat_m = no_ground_m;
+    [[unroll]] for (int i = 0; i < 2; ++i)
+        if (i == 0 || (flat_m == no_ground_m && either)) flat_m = above_base(found.cell, share, west != (i == 1), search.base);
     if (flat_m == no_ground_m) return false;
     float as_is = max(smoothstep(smooth_cells, smooth_end_cells, t_m / cell_m_of(piece.per_m, level)),
                       smoothstep(smooth_cells / smooth_end_cells, 1.0, t_m / piece.to_m));
@@ -92,9 +93,12 @@ float smooth_least(SunLine line, CastStart start, CastPiece piece, CastSearch se
         out_m = clamp(out_m, t_m + step_m, max(piece.to_m, t_m + step_m));
         CellCrossing crossing = crossing_of(piece, found.cell, search.post, t_m, out_m);
         // Ground is looked at where the line leaves it; behind a void, where the line comes to it, too.
-        if (!has_ground) look_at_smooth(line, piece, found, level, t_m, crossing.west_before, false, search, seen);
-        if (crossing.crosses) look_at_smooth(line, piece, found, level, crossing.diagonal_m, crossing.west_before, true, search, seen);
-        has_ground = look_at_smooth(line, piece, found, level, out_m, crossing.west_after, false, search, seen);
+        [[unroll]] for (int k = 0; k < 3; ++k) {
+            if (k == 0 ? has_ground : k == 1 && !crossing.crosses) continue;
+            float at_m = k == 0 ? t_m : k == 1 ? crossing.diagonal_m : out_m;
+            bool there = look_at_smooth(line, piece, found, level, at_m, k < 2 ? crossing.west_before : crossing.west_after, k == 1, search, seen);
+            if (k == 2) has_ground = there;
+        }
         t_m = out_m;
         if (t_m >= piece.to_m || seen.least <= -sun_radius_rad) return seen.least;
     }

@@ -14,7 +14,8 @@ float snow_line_m(float lat_deg) {
     return mix(FRAME.style.cover.snow_line[below].H_m, FRAME.style.cover.snow_line[first].H_m, share);
 }
 
-vec3 ground_cover(SurfacePoint point) {
+// How far a pixel's ground is above the snow line, or taken for so: what tints are by. rock: its share.
+float above_snow_line_m(SurfacePoint point, out float rock) {
     float slope = slope_deg(point), lean = length(point.normal.xy), up = FRAME.exaggeration * point.normal.z;
     float steepness = min(2.0 * lean * inversesqrt(max(lean * lean + up * up, 1.0e-12)), 1.0);
     float to_pole = lean > 0.0 ? point.normal.y / lean * (point.lat_deg < 0.0 ? -1.0 : 1.0) : 0.0;
@@ -25,6 +26,6 @@ vec3 ground_cover(SurfacePoint point) {
     // Trees and snow hold on where grass and scree have slid down.
     float held = 9.0 * (1.0 - smoothstep(FRAME.style.cover.forest_m, 0.5 * FRAME.style.cover.forest_m, above_m)
                         + smoothstep(-100.0, 300.0, above_m));
-    float rock = smoothstep(FRAME.style.cover.rock_from_deg + held, FRAME.style.cover.rock_to_deg + held, slope);
-    return mix(tint(above_m), FRAME.style.cover.rock, rock);
+    rock = smoothstep(FRAME.style.cover.rock_from_deg + held, FRAME.style.cover.rock_to_deg + held, slope);
+    return above_m;
 }

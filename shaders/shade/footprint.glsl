@@ -37,10 +37,11 @@ void add_square(inout GroundSum sum, uvec2 means, ivec2 square, float share, flo
 void add_squares(inout GroundSum sum, uvec2 means, vec2 place, float origin_m, bool are_posts) {
     vec2 low = floor(place), on = place - low;
     ivec2 first = whole_signed(low);
-    add_square(sum, means, first, (1.0 - on.x) * (1.0 - on.y), origin_m, are_posts);
-    add_square(sum, means, first + ivec2(0, 1), (1.0 - on.x) * on.y, origin_m, are_posts);
-    add_square(sum, means, first + ivec2(1, 0), on.x * (1.0 - on.y), origin_m, are_posts);
-    add_square(sum, means, first + ivec2(1, 1), on.x * on.y, origin_m, are_posts);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 corner = ivec2(i >> 1, i & 1);
+        float share = (corner.x == 1 ? on.x : 1.0 - on.x) * (corner.y == 1 ? on.y : 1.0 - on.y);
+        add_square(sum, means, first + corner, share, origin_m, are_posts);
+    }
 }
 
 // Where posts are larger than pixels: quadratic B-splines of the posts' normals, whose slopes have no edge anywhere.
@@ -166,9 +167,8 @@ float samples_apart(float posts, float square, int count) {
     return count == 1 ? 0.0 : sqrt(max(posts * posts - 3.0 * square * square, 0.0) / (n * n - 1.0));
 }
 
-// Of the finest posts that are here: a map's angles by Horn's formula, and light without edges between posts.
-vec3 finest_normal(MeansPage near_page, vec2 region, float origin_m) {
-    MeansPage finest = page_over(near_page, 0u, region);
+// Of a page of the finest posts that are here: a map's angles by Horn's formula, and light without edges between posts.
+vec3 normal_on(MeansPage finest, vec2 region, float origin_m) {
     if (as_map && shows_angles()) {
         FramePage page = frame_pages().at[finest.number];
         return horn_normal_at(PageBlocks(page.block), page, clamp(page_post(page, region), vec2(0.0), vec2(float(page_quads))));
@@ -177,6 +177,7 @@ vec3 finest_normal(MeansPage near_page, vec2 region, float origin_m) {
     add_smooth(here, means_of(finest), among_squares(finest, region), origin_m);
     return here.share > 0.0 ? normalize(here.normal) : vec3(0.0, 0.0, 1.0);
 }
+vec3 finest_normal(MeansPage near_page, vec2 region, float origin_m) { return normal_on(page_over(near_page, 0u, region), region, origin_m); }
 
 // Where the parts of a pixel's footprint are among the squares of one level, (row, column).
 struct PartsOfLevel {
@@ -313,16 +314,16 @@ float wide_level_at(SurfacePoint point) {
     return 1.0 - smoothstep(0.015, 0.05, sine2);  // 7 and 13 degrees
 }
 
-// True where all of a pixel's footprint is narrower than from post to post, so that the smooth slope in its middle stands for it.
+// True where the smooth slope in its middle stands for all of a pixel: the style asks for no more, or, in air, the footprint is narrower than
+// from post to post.
 bool one_place_will_do(MeansPage near_page, vec2 region, float origin_m, vec2 post_m, inout SurfacePoint point) {
+    bool is_asked = FRAME.style.footprint == footprint_finest;
     float round_posts = length(point.view) / (FRAME.pixels_per_tangent * min(post_m.x, post_m.y));
-    if (round_posts >= 1.0) return false;
+    if (!is_asked && (!in_air || round_posts >= 1.0)) return false;
     MeansPage finest = page_over(near_page, 0u, region);
-    if (finest.level > 0u) return false;
-    GroundSum here = no_ground();
-    add_smooth(here, means_of(finest), among_squares(finest, region), origin_m);
-    point.normal = here.share > 0.0 ? normalize(here.normal) : vec3(0.0, 0.0, 1.0);
-    return round_posts < dot(point.normal, normalize(-point.view) * axes_at(point.view));
+    if (!is_asked && finest.level > 0u) return false;
+    point.normal = normal_on(finest, region, origin_m);
+    return is_asked || round_posts < dot(point.normal, normalize(-point.view) * axes_at(point.view));
 }
 
 // Takes what the pixel's triangle says of its middle and puts the mean of its footprint in its place. number: of the triangle's page.
@@ -338,15 +339,9 @@ void average_over_pixel(uint number, vec2 region, float undulation_m, inout Surf
     point.post_m = post_m.x;
     point.column_m = post_m.y;
     MeansPage near_page = means_page(number);
-    if (FRAME.style.footprint == footprint_finest) {
-        point.normal = finest_normal(near_page, region, origin_m);
-        return;
-    }
-    if (in_air) {
-        point.is_one_place = one_place_will_do(near_page, region, origin_m, post_m, point);
-        point.is_left = parts_follow && !point.is_one_place;
-        if (point.is_one_place || parts_follow) return;
-    }
+    point.is_one_place = one_place_will_do(near_page, region, origin_m, post_m, point);
+    point.is_left = parts_follow && !point.is_one_place;
+    if (point.is_one_place || parts_follow) return;
     mat3 axes = axes_at(point.view);
     vec3 to_eye = normalize(-point.view) * axes;
     float round_posts = length(point.view) / (FRAME.pixels_per_tangent * post_m.x);
@@ -372,8 +367,12 @@ void average_over_pixel(uint number, vec2 region, float undulation_m, inout Surf
     float square = exp2(whole);
     int rows = whole_signed(clamp(ceil(foot.across_posts / square - 0.8), 1.0, shows_slopes() ? 11.0 : 6.0));
     int steps = whole_signed(clamp(ceil(length(foot.along) / square - 0.8), float(rows), shows_slopes() ? 16.0 : 8.0));
-    PartsOfLevel finer = parts_of_level(foot, slope_page, whole_number(whole), rows, steps), coarser = finer;
-    if (on > 0.0) coarser = parts_of_level(foot, slope_page, whole_number(whole) + 1u, rows, steps);
+    PartsOfLevel finer, coarser;
+    for (uint i = 0u; i < (on > 0.0 ? 2u : 1u); ++i) {
+        PartsOfLevel parts = parts_of_level(foot, slope_page, whole_number(whole) + i, rows, steps);
+        if (i == 0u) finer = parts;
+        coarser = parts;
+    }
     pixel_ground = PixelGround(foot.to_next, to_eye, on, rows, rows * steps <= 40, foot.across_posts < 1.0 && steps < 3, slope_page, plane, origin_m, undulation_m / H_ex, finer, coarser);
     point.parts = rows * steps;
 }

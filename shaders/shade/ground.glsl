@@ -36,10 +36,15 @@ float aspect_deg(SurfacePoint point) {
 
 // In linear light, or as codes.
 vec3 ground_tint(SurfacePoint point) {
-    if (FRAME.style.colour_by == colour_by_cover) return ground_cover(point);
-    if (FRAME.style.colour_by == colour_by_slope) return tint(slope_deg(point));
-    if (FRAME.style.colour_by == colour_by_height) return tint(point.mean_H_m);
-    return point.normal.xy == vec2(0.0) ? FRAME.style.flat_colour : tint(aspect_deg(point));
+    bool by_cover = FRAME.style.colour_by == colour_by_cover;
+    float value, rock = 0.0;
+    if (by_cover) value = above_snow_line_m(point, rock);
+    else if (FRAME.style.colour_by == colour_by_slope) value = slope_deg(point);
+    else if (FRAME.style.colour_by == colour_by_height) value = point.mean_H_m;
+    else if (point.normal.xy == vec2(0.0)) return FRAME.style.flat_colour;
+    else value = aspect_deg(point);
+    vec3 colour = tint(value);
+    return by_cover ? mix(colour, FRAME.style.cover.rock, rock) : colour;
 }
 
 // Cosine of the angle between the sun and the slope, which is drawn `relief` times as steep.
@@ -174,18 +179,18 @@ GroundLight pixel_light(SurfacePoint point, vec3 sun) {
     GroundLight sum = GroundLight(vec3(0.0), vec3(0.0), vec3(0.0));
     Images images = images_over(point);
     if (in_air) point.mean_H_m = land_H_m(point.mean_H_m);
-    if (!by_means || parts_follow || point.parts == 0) {
+    float share = 0.0;
+    if (by_means && !parts_follow)
+        for (int i = 0; i < point.parts; ++i) {
+            GroundSum part = part_of_pixel(i);
+            if (part.share <= 0.0) continue;
+            share += add_part(sum, images, point, part, sun, float(1 - 2 * ((i + i / pixel_ground.rows) & 1)));
+        }
+    if (share <= 0.0) {
         add_place(sum, images, point, sun, 1.0);
         return sum;
     }
-    float share = 0.0;
-    for (int i = 0; i < point.parts; ++i) {
-        GroundSum part = part_of_pixel(i);
-        if (part.share <= 0.0) continue;
-        share += add_part(sum, images, point, part, sun, float(1 - 2 * ((i + i / pixel_ground.rows) & 1)));
-    }
-    if (share <= 0.0) add_place(sum, images, point, sun, 1.0);
-    float scale = share > 0.0 ? 1.0 / share : 1.0;
+    float scale = 1.0 / share;
     return GroundLight(sum.colour * scale, sum.lit * scale, sum.open * scale);
 }
 

@@ -129,22 +129,16 @@ bool finds_rim(uint id, vec2 middle, vec2 towards, out Rim rim) {
     vec2 corners[3];
     uint told = first_of_rim(id, middle, page, triangle, corners);
     float side = sign(FRAME.projection_scale.x * FRAME.projection_scale.y), area = doubled_area_px(corners);
-    if (told == corners_here && area * side < 0.0) {
-        // A pixel's middle on a rim may show either of its two triangles: both tell the same.
-        int edge = edge_at_middle(corners);
-        if (edge < 0) return false;
-        triangle = beyond(page, triangle, edge);
-        told = corners_of_grid_px(page, triangle, middle, corners);
-        area = doubled_area_px(corners);
-    }
-    for (int i = 0; i < rim_triangles && told == corners_here && area * side > 0.0; ++i) {
-        int edge = edge_out(corners, side, towards);
+    // A pixel's middle on a rim may show either of its two triangles: both tell the same.
+    bool is_behind = told == corners_here && area * side < 0.0;
+    for (int i = is_behind ? -1 : 0; i < rim_triangles && told == corners_here && (i < 0 || area * side > 0.0); ++i) {
+        int edge = i < 0 ? edge_at_middle(corners) : edge_out(corners, side, towards);
         if (edge < 0) return false;
         vec2 at = corners[edge], along = side * (corners[(edge + 1) % 3] - at);
         triangle = beyond(page, triangle, edge);
         told = corners_of_grid_px(page, triangle, middle, corners);
         area = doubled_area_px(corners);
-        if (told == corners_none || (told == corners_here && area * side < 0.0)) {
+        if (i >= 0 && (told == corners_none || (told == corners_here && area * side < 0.0))) {
             rim = Rim(at, vec2(-along.y, along.x) / length(along));
             return true;
         }

@@ -112,14 +112,16 @@ vec3 normal_at(PageBlocks block, FramePage page, vec2 post) {
     ivec2 cell = clamp(whole_signed(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 in_cell = post - vec2(cell);
     // Each height is read once: unpacking it takes some twenty operations.
-    ivec2 above = ivec2(height_at(block, cell, -1, 0), height_at(block, cell, -1, 1));
-    ivec2 below = ivec2(height_at(block, cell, 2, 0), height_at(block, cell, 2, 1));
-    ivec4 first = ivec4(height_at(block, cell, 0, -1), height_at(block, cell, 0, 0), height_at(block, cell, 0, 1), height_at(block, cell, 0, 2));
-    ivec4 second = ivec4(height_at(block, cell, 1, -1), height_at(block, cell, 1, 0), height_at(block, cell, 1, 1), height_at(block, cell, 1, 2));
-    vec2 north = mix(slope_at_post(page, cell, first.y, ivec4(above.x, second.y, first.xz)),
-                     slope_at_post(page, cell + ivec2(0, 1), first.z, ivec4(above.y, second.z, first.yw)), in_cell.y);
-    vec2 south = mix(slope_at_post(page, cell + ivec2(1, 0), second.y, ivec4(first.y, below.x, second.xz)),
-                     slope_at_post(page, cell + ivec2(1, 1), second.z, ivec4(first.z, below.y, second.yw)), in_cell.y);
+    int heights[16];
+    [[unroll]] for (int i = 0; i < 16; ++i) heights[i] = height_at(block, cell, i / 4 - 1, i % 4 - 1);
+    vec2 west, north, south;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        int at = 5 + i / 2 * 4 + i % 2;
+        vec2 slope = slope_at_post(page, cell + ivec2(i / 2, i % 2), heights[at], ivec4(heights[at - 4], heights[at + 4], heights[at - 1], heights[at + 1]));
+        if (i % 2 == 0) west = slope;
+        else if (i == 1) north = mix(west, slope, in_cell.y);
+        else south = mix(west, slope, in_cell.y);
+    }
     vec2 slope = mix(north, south, in_cell.x);
     float cosine = RowTable(FRAME.row_terms).at[page.row_terms + uint(cell.x)].cosine;
     float column_spacing_m = max(abs(cosine) * block.at[0].column_spacing_m, 1.0e-3);
@@ -265,11 +267,21 @@ float H_change_per_px(vec3 at[3], vec2 shares, float scale, float heights_m[3]) 
 }
 
 #ifdef IN_AIR
+// Of what a pixel covers: the mean of its four quarters, or the place alone.
 float water_of_pixel(FramePage page, vec2 post, SurfacePoint point) {
-    if (!by_means || point.parts == 0) return water_share(page, post);
-    vec2 post_m = power_of_two(page.level) * vec2(point.post_m, point.column_m);
-    mat2 to_next = pixel_ground.to_next;
-    return mean_water_share(page, post, mat2(posts_along(to_next[0], post_m), posts_along(to_next[1], post_m)));
+    bool in_quarters = by_means && point.parts > 0;
+    mat2 to_next = mat2(0.0);  // posts of the page to what the next pixels show, to the right and below
+    if (in_quarters) {
+        vec2 post_m = power_of_two(page.level) * vec2(point.post_m, point.column_m);
+        to_next = mat2(posts_along(pixel_ground.to_next[0], post_m), posts_along(pixel_ground.to_next[1], post_m));
+    }
+    float sum = 0.0;
+    for (int i = 0; i < (in_quarters ? 4 : 1); ++i) {
+        vec2 at = post;
+        if (in_quarters) at = clamp(post + to_next * (0.5 * vec2(i & 1, i >> 1) - 0.25), vec2(0.0), vec2(float(page_quads)));
+        sum += water_share(page, at);
+    }
+    return in_quarters ? 0.25 * sum : sum;
 }
 #endif
 

@@ -12,8 +12,8 @@ float exaggerated_H(PageBlocks block, FramePage page, ivec2 post) {
 float level_within_m() { return 0.01 + (FRAME.height_bits == 16u ? 2.0 * height_step_m * float(1u << FRAME.height_shift) : 0.0); }
 
 // Of the 4 x 4 posts around a cell: which of its four corners (north-west, north-east, south-west, south-east) lie in the middle of
-// 3 x 3 equal posts; and which of those that are the sea's.
-void corners_of_water(PageBlocks block, FramePage page, ivec2 cell, out vec4 level, out vec4 sea) {
+// 3 x 3 equal posts; and which of those that are the sea's. H of its north-west post, exaggerated.
+float corners_of_water(PageBlocks block, FramePage page, ivec2 cell, out vec4 level, out vec4 sea) {
     float H[16];
     for (int i = 0; i < 16; ++i) H[i] = exaggerated_H(block, page, cell + ivec2(i / 4, i % 4) - 1);
     float low_m = FRAME.style.water.sea_low_H_m * FRAME.exaggeration, high_m = FRAME.style.water.sea_high_H_m * FRAME.exaggeration;
@@ -32,6 +32,7 @@ void corners_of_water(PageBlocks block, FramePage page, ivec2 cell, out vec4 lev
         // Noise goes both ways: ground that rises from the shore is above it.
         sea[corner] = whole && lowest >= low_m && highest <= high_m && sum <= 9.0 * FRAME.exaggeration ? 1.0 : 0.0;
     }
+    return H[5];
 }
 
 float between_corners(vec4 corners, vec2 in_cell) { return mix(mix(corners.x, corners.y, in_cell.y), mix(corners.z, corners.w, in_cell.y), in_cell.x); }
@@ -41,10 +42,13 @@ ivec2 cell_of(vec2 post) { return clamp(whole_signed(floor(post)), ivec2(0), ive
 bool may_be_water(FramePage page, vec2 post) {
     PageBlocks block = PageBlocks(page.block);
     ivec2 cell = cell_of(post);
-    ivec4 steps = ivec4(height_or(block, cell, void_height), height_or(block, cell + ivec2(0, 1), void_height),
-                        height_or(block, cell + ivec2(1, 0), void_height), height_or(block, cell + ivec2(1, 1), void_height));
-    if (any(equal(steps, ivec4(void_height)))) return false;
-    int lowest = min(min(steps.x, steps.y), min(steps.z, steps.w)), highest = max(max(steps.x, steps.y), max(steps.z, steps.w));
+    int lowest = height_or(block, cell, void_height), highest = lowest;
+    for (int i = 0; i < 4; ++i) {
+        int height = height_or(block, cell + ivec2(i >> 1, i & 1), void_height);
+        if (height == void_height) return false;
+        lowest = min(lowest, height);
+        highest = max(highest, height);
+    }
     float cell_m = power_of_two(page.level) * (block.at[0].row_spacing_m + block.at[0].column_spacing_m);
     float sea_m = max(FRAME.style.water.sea_high_H_m - max(FRAME.style.water.sea_low_H_m, -1.0e5), 0.0) * FRAME.exaggeration;
     return float(highest - lowest) * height_step_m <= max(level_within_m(), sea_m) + 1.0e-3 * cell_m;
@@ -55,30 +59,19 @@ bool may_be_water(FramePage page, vec2 post) {
 // over 5.
 float water_share(FramePage page, vec2 post) {
     if (!may_be_water(page, post)) return 0.0;
-    PageBlocks block = PageBlocks(page.block);
     ivec2 cell = cell_of(post);
-    vec4 level, sea;
-    corners_of_water(block, page, cell, level, sea);
     vec2 in_cell = post - vec2(cell);
-    float low = smoothstep(0.4, 0.6, between_corners(sea, in_cell));
-    if (level == vec4(0.0)) return low;
-    float H_m = exaggerated_H(block, page, cell) / FRAME.exaggeration;
-    if (page.level == 0u && page.parent != no_page && abs(H_m) > 0.02) {
-        FramePage parent = frame_pages().at[page.parent];
-        ivec2 there = ivec2(int(page.quarter) / 2, int(page.quarter) % 2) * int(page_quads / 2u) + cell / 2;
-        vec4 wide, ignored;
-        corners_of_water(PageBlocks(parent.block), parent, there, wide, ignored);
-        if (wide == vec4(0.0)) return low;
+    float low, high;
+    // In its page, then in the one above. One place in the code: two of them are much for a driver to compile.
+    for (int i = 0; i < 2; ++i) {
+        vec4 level, sea;
+        float H_m = corners_of_water(PageBlocks(page.block), page, cell, level, sea) / FRAME.exaggeration;
+        if (i == 0) low = smoothstep(0.4, 0.6, between_corners(sea, in_cell));
+        if (level == vec4(0.0)) return low;
+        if (i == 0) high = smoothstep(0.2, 0.3, between_corners(level, in_cell));
+        if (page.level != 0u || page.parent == no_page || abs(H_m) <= 0.02) break;
+        cell = ivec2(int(page.quarter) / 2, int(page.quarter) % 2) * int(page_quads / 2u) + cell / 2;
+        page = frame_pages().at[page.parent];
     }
-    return max(low, smoothstep(0.2, 0.3, between_corners(level, in_cell)));
-}
-
-// Of what a pixel covers: the mean of its four quarters. to_next: posts of the page to what the next pixels show, to the right and below.
-float mean_water_share(FramePage page, vec2 post, mat2 to_next) {
-    float sum = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec2 quarter = post + to_next * (0.5 * vec2(i & 1, i >> 1) - 0.25);
-        sum += water_share(page, clamp(quarter, vec2(0.0), vec2(float(page_quads))));
-    }
-    return 0.25 * sum;
+    return max(low, high);
 }

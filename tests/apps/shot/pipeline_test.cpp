@@ -136,6 +136,23 @@ TEST_F(Pipeline, NothingIsMeasuredWhereThereIsOneWay) {
     EXPECT_FALSE(fs::exists(cache));
 }
 
+// A processor takes longer to make the programs of both ways than to draw: a picture measures nothing there,
+// and goes by what doctor has measured.
+TEST_F(Pipeline, APictureMeasuresNothingWhereAProcessorDraws) {
+    Circumstances forgetful;
+    forgetful.environment = {"OROGRAPH_CACHE=/proc/nowhere"};
+    const json device = doctor(forgetful);
+    if (!has_both_ways(device) || device["type"] != "software")
+        GTEST_SKIP() << "needs a processor that draws";
+    const std::string data = (oro::test::bundled_data() / "jacksboro.tif").string();
+    EXPECT_EQ(shoot(folder / "p.png", {data, "--size", "64x48", "--style", "default"})["pipeline"],
+              "compute");
+    EXPECT_FALSE(fs::exists(file));
+    doctor(here());
+    pretend("mesh");
+    EXPECT_EQ(shoot(folder / "q.png", {data, "--size", "64x48", "--style", "default"})["pipeline"], "mesh");
+}
+
 // The two ways differ in a few pixels: a view that auto drew must not change when auto changes its mind.
 TEST_F(Pipeline, ViewsNameTheWayThatDrewThem) {
     if (!has_both_ways(doctor(here()))) GTEST_SKIP() << "needs a device with both ways of drawing";
