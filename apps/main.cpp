@@ -18,6 +18,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/output/interruption.h"
+#include "core/base/files_read.h"
 #include "geo/files/whole_file.h"
 #include "geo/sources/library_faults.h"
 
@@ -53,7 +54,7 @@ void fill_standard_streams() {
 }
 
 int told_unforeseen(const char* what) {
-    std::fprintf(stderr, "orograph: failed: %s\n", what);
+    std::fprintf(stderr, "orograph: failed: %s\n", oro::one_line(what).c_str());
     return static_cast<int>(oro::ErrorKind::failed);
 }
 
@@ -73,22 +74,28 @@ int told_unforeseen(const char* what) {
     std::abort();
 }
 
+// Of a command that only prints: it has failed where what it read was changed meanwhile. Those that write
+// files have looked before these got their names.
+oro::Result<void> of_unchanged_files(const oro::Result<void>& result) {
+    return result.ok() ? oro::check_files_unchanged() : result;
+}
+
 int run_command(const CLI::App& app, oro::CommandLine& line, const std::vector<std::string>& words) {
     if (app.got_subcommand("shot")) return exit_code(oro::run_shot(line.shot));
     if (app.got_subcommand("panorama")) return exit_code(oro::run_panorama(line.panorama));
     if (app.got_subcommand("compare")) return exit_code(oro::run_compare(line.compare));
     if (app.got_subcommand("view")) return exit_code(oro::run_view(line.view));
-    if (app.got_subcommand("plan")) return exit_code(oro::run_plan(line.plan));
+    if (app.got_subcommand("plan")) return exit_code(of_unchanged_files(oro::run_plan(line.plan)));
     if (app.got_subcommand("trade")) {
         for (const std::string& word : words) line.trade.command += (&word == words.data() ? "" : " ") + word;
         return exit_code(oro::run_trade(line.trade));
     }
-    if (app.got_subcommand("sun")) return exit_code(oro::run_sun(line.sun));
-    if (app.got_subcommand("sight")) return exit_code(oro::run_sight(line.sight));
+    if (app.got_subcommand("sun")) return exit_code(of_unchanged_files(oro::run_sun(line.sun)));
+    if (app.got_subcommand("sight")) return exit_code(of_unchanged_files(oro::run_sight(line.sight)));
     if (app.got_subcommand("profile")) return exit_code(oro::run_profile(line.profile));
     if (app.got_subcommand("viewshed")) return exit_code(oro::run_viewshed(line.viewshed));
     if (app.got_subcommand("bake")) return exit_code(oro::run_bake(line.bake));
-    if (app.got_subcommand("info")) return exit_code(oro::run_info(line.info));
+    if (app.got_subcommand("info")) return exit_code(of_unchanged_files(oro::run_info(line.info)));
     return exit_code(oro::run_doctor(line.doctor));
 }
 
@@ -124,6 +131,7 @@ int main(int argc, char** argv) {
     oro::watch_libraries();
     // What was begun is undone on the way here: no half file stays.
     try {
+        oro::remember_files_read();
         oro::clean_up_when_interrupted();
         return run_command_line(argc, argv);
     } catch (const std::bad_alloc&) {

@@ -59,6 +59,7 @@ Result<void> build(const Region& region, const std::string& path, std::uint64_t 
 Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions& how,
                                         const std::function<void(double, const char*)>& told) {
     const std::string clusters_path = path_of_clusters(how.path);
+    ORO_TRY(const BakeHold hold, BakeHold::take(how.path, how.overwrite));
     ORO_CHECK(check_path_of_clusters(clusters_path));
     BakeOptions grid = how;
     grid.path = path_of_grid(how.path, 0);

@@ -22,7 +22,9 @@
 #include "core/baked/region_file.h"
 #include "core/base/checksum.h"
 #include "core/base/elapsed.h"
+#include "core/base/files_read.h"
 #include "core/base/parallel.h"
+#include "geo/clusters/clustered_region.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/source_paths.h"
 #include "geo/files/whole_file.h"
@@ -57,10 +59,11 @@ Result<void> check_out(const BakingOptions& options) {
     if (out.empty()) return refused("--out", "", "is missing: name the file to write (.oro)");
     if (!lower_case(out).ends_with(".oro")) return refused("--out", out, "the file's name must end in .oro");
     // What a bake writes on its way is no less lost than what it replaces.
-    const std::vector<std::string> written = files_of_bake(out);
+    std::vector<std::string> written = files_of_bake(out);
+    for (const std::string& beside : {path_of_clusters(out), path_of_grid(out, 0)}) written.push_back(beside);
     if (std::ranges::any_of(written, [](const auto& file) { return access(file.c_str(), F_OK) == 0; })) {
         ORO_TRY(const std::vector<std::string> inputs, input_files(options.region.paths));
-        ORO_CHECK(spare_files(written, inputs, "which is to be baked"));
+        ORO_CHECK(spare_inputs(written, {{inputs, "which is to be baked"}}));
     }
     std::error_code ignored;
     if (!options.overwrite && access(out.c_str(), F_OK) == 0 && !fs::is_directory(out, ignored))
@@ -185,6 +188,7 @@ std::vector<std::uint32_t> as_ranks(const std::vector<std::uint32_t>& order) {
 Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options, ProgressBar& bar) {
     const std::vector<const Region*> grids = all_grids(region);
     BakeReport report;
+    ORO_TRY(const BakeHold hold, BakeHold::take(options.out, options.overwrite));
     std::vector<std::uint32_t> order;
     for (std::size_t i = 0; i < grids.size(); ++i) {
         ORO_TRY(const BakeOptions how, options_for(*grids[i], path_of_grid(options.out, i), true));
@@ -216,6 +220,19 @@ Result<BakeReport> bake_all(const Region& region, const BakingOptions& options, 
     });
 }
 
+// All is in memory: what was read is held against what it was, and against what will be written. From here on
+// the program reads files of its own making.
+Result<void> end_reading(const BakingOptions& options, const Region& region) {
+    ORO_CHECK(check_files_unchanged());
+    std::vector<std::string> written = files_of_bake(options.out);
+    written.push_back(path_of_clusters(options.out));
+    for (std::size_t i = 0; i <= region.beside.size(); ++i)
+        for (const std::string& file : files_of_bake(path_of_grid(options.out, i))) written.push_back(file);
+    ORO_CHECK(spare_inputs(written, {files_of_ground(options.region.paths, region)}));
+    forget_files_read();
+    return {};
+}
+
 }  // namespace
 
 Result<void> run_bake(const BakingOptions& options) {
@@ -231,6 +248,7 @@ Result<void> run_bake(const BakingOptions& options) {
     if (options.mesh == "clusters") ORO_CHECK(check_clusters(region));
     ORO_CHECK(take_into_memory(region));
     for (Region& other : region.beside) ORO_CHECK(take_into_memory(other));
+    ORO_CHECK(end_reading(options, region));
     baked.read_s = seconds_since(reading);
     bar.clear();
     say_notes(region, options.quiet);

@@ -108,10 +108,9 @@ Result<void> run_compare(const CompareOptions& options) {
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     ORO_CHECK(check_unchanged(view, region, options.data_changed, options.quiet));
     say_notes(region, options.quiet);
-    if (!options.out.empty()) {
-        ORO_CHECK(spare_inputs({options.out}, view, region));
-        ORO_CHECK(spare_view({options.out}, options.view_file));
-    }
+    if (!options.out.empty())
+        ORO_CHECK(
+            spare_inputs({options.out}, {files_of_picture(view, region), files_of_view(options.view_file)}));
     ORO_TRY(const Style style, load_style(view, region.field));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(const RegionCuts cuts, cut_regions(region));

@@ -137,45 +137,47 @@ std::string memory_text(std::uint64_t bytes) {
     return text;
 }
 
+// Of drivers, libraries and the environment it is not known what they say.
+void print_line(const std::string& line) {
+    std::printf("%s\n", one_line(line).c_str());
+}
+
 void print_device(std::size_t number, const Finding& finding) {
     const DeviceReport& d = finding.device;
-    std::printf("GPU %zu        %s (%s), %s, Vulkan %s\n", number, d.name.c_str(), kind_words(d.kind).c_str(),
-                d.driver.c_str(), version_words(d.vulkan_version).c_str());
+    const std::string indent(13, ' ');
+    print_line("GPU " + std::to_string(number) + "        " + d.name + " (" + kind_words(d.kind) + "), " +
+               d.driver + ", Vulkan " + version_words(d.vulkan_version));
     if (!d.can_draw()) {
-        std::printf(
-            "             cannot draw: lacks %s; a current driver for it, or the software driver "
-            "(scripts/set-up), is needed\n",
-            joined(lacks_of(d)).c_str());
+        print_line(indent + "cannot draw: lacks " + joined(lacks_of(d)) +
+                   "; a current driver for it, or the software driver (scripts/set-up), is needed");
         return;
     }
-    std::printf("             draws with mesh shaders: %s\n",
-                d.mesh_shader ? "yes" : "no (VK_EXT_mesh_shader is missing); with compute shaders alone");
-    std::printf("             draws with compute shaders: %s\n",
-                d.compute_raster ? "yes" : "no (64-bit atomics are missing); with mesh shaders alone");
-    std::printf("             --pipeline auto%s %s\n", finding.choice ? " takes" : ":",
-                finding.choice_text().c_str());
-    std::printf("             pictures in parts of up to %u px a side, %s of memory\n", d.max_picture_side_px,
-                memory_text(d.memory_bytes).c_str());
-    if (d.kind == VK_PHYSICAL_DEVICE_TYPE_CPU)
-        std::printf("             draws without a GPU: correct, but slow\n");
+    print_line(indent + "draws with mesh shaders: " +
+               (d.mesh_shader ? "yes" : "no (VK_EXT_mesh_shader is missing); with compute shaders alone"));
+    print_line(indent + "draws with compute shaders: " +
+               (d.compute_raster ? "yes" : "no (64-bit atomics are missing); with mesh shaders alone"));
+    print_line(indent + "--pipeline auto" + (finding.choice ? " takes " : ": ") + finding.choice_text());
+    print_line(indent + "pictures in parts of up to " + std::to_string(d.max_picture_side_px) +
+               " px a side, " + memory_text(d.memory_bytes) + " of memory");
+    if (d.kind == VK_PHYSICAL_DEVICE_TYPE_CPU) print_line(indent + "draws without a GPU: correct, but slow");
 }
 
 void print_doctor(const std::vector<Finding>& devices, const std::string& no_device,
                   const LibraryReport& libraries) {
-    std::printf("orograph     %s\n", OROGRAPH_VERSION);
+    print_line("orograph     " OROGRAPH_VERSION);
     for (std::size_t i = 0; i < devices.size(); ++i) print_device(i, devices[i]);
-    if (!no_device.empty()) std::printf("GPU          none: %s\n", no_device.c_str());
-    std::printf("GDAL         %s\nPROJ         %s\nGeographicLib %s\n", libraries.gdal.c_str(),
-                libraries.proj.c_str(), libraries.geographiclib.c_str());
+    if (!no_device.empty()) print_line("GPU          none: " + no_device);
+    print_line("GDAL         " + libraries.gdal);
+    print_line("PROJ         " + libraries.proj);
+    print_line("GeographicLib " + libraries.geographiclib);
     for (const GeoidGridReport& g : libraries.geoids) {
         const std::string state = !g.found           ? "not found"
                                   : g.damage.empty() ? "found"
                                                      : "DAMAGED: " + g.damage;
-        std::printf("geoid        %s: %s %s; %s\n", g.name.c_str(), g.file.c_str(), one_line(state).c_str(),
-                    g.meaning.c_str());
+        print_line("geoid        " + g.name + ": " + g.file + " " + state + "; " + g.meaning);
     }
-    std::printf("data         %s%s\n", data_folder().c_str(),
-                has_data_folder() ? "" : " (not there: styles must be given by path)");
+    print_line("data         " + data_folder().string() +
+               (has_data_folder() ? "" : " (not there: styles must be given by path)"));
 }
 
 }  // namespace

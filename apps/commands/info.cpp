@@ -120,7 +120,7 @@ Result<void> run_info(const InfoOptions& options) {
     std::printf("%s", info_text(region).c_str());
     for (const Region& other : region.beside) std::printf("\n%s", info_text(other).c_str());
     std::printf("%s", unread_files_text(listing).c_str());
-    if (options.check) std::printf("check: %s\n", checked_words(region).c_str());
+    if (options.check) std::printf("check: %s\n", one_line(checked_words(region)).c_str());
     return {};
 }
 

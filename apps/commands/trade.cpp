@@ -170,8 +170,9 @@ Result<void> run_trade(const TradeOptions& options) {
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     say_changes(view, options.quiet);
     say_notes(region, options.quiet);
-    ORO_CHECK(spare_inputs({csv, html}, view, region));
-    if (!options.view_file.empty()) ORO_CHECK(spare_view({csv, html}, options.view_file));
+    std::vector<FilesToSpare> inputs{files_of_picture(view, region)};
+    if (!options.view_file.empty()) inputs.push_back(files_of_view(options.view_file));
+    ORO_CHECK(spare_inputs({csv, html}, inputs));
     if (!view.has_geoid)
         return refused("--view", options.view_file,
                        "was drawn with --geoid none; trade needs one that was not");

@@ -54,7 +54,7 @@ PipelineTimes times_of(const json& entry) {
 
 // The entries of the cache, oldest first; none where it cannot be understood.
 std::vector<json> entries_in(const fs::path& file) {
-    const auto text = file.empty() ? Result<std::string>(std::string()) : read_text_file(file.string());
+    const auto text = file.empty() ? Result<std::string>(std::string()) : read_own_text_file(file.string());
     if (!text.ok() || text->empty()) return {};
     try {
         const json all = parsed_json(*text);

@@ -10,14 +10,14 @@ namespace {
 constexpr double most_metres = 20'000.0;
 constexpr std::size_t longest_name = 200;  // bytes
 
-// A name on one line, without spaces around it.
+// A name on one line, without spaces around it. It is drawn: what shapes its letters stays.
 std::string tidied(std::string_view name) {
-    std::string text = one_line(std::string(name.substr(0, longest_name)));
-    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U &&
-           name.size() > longest_name)
-        text.pop_back();  // the rest of a letter that was cut
-    if (name.size() > longest_name && !text.empty() && static_cast<unsigned char>(text.back()) >= 0xC0U)
-        text.pop_back();
+    std::string text = one_line(name, Joiners::kept_in_words);
+    if (text.size() > longest_name) {
+        std::size_t end = longest_name;
+        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // whole letters
+        text.resize(end);
+    }
     while (!text.empty() && text.back() == ' ') text.pop_back();
     return text.substr(std::min(text.find_first_not_of(' '), text.size()));
 }

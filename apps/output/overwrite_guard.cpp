@@ -3,59 +3,59 @@
 #include <filesystem>
 
 #include "core/base/file_there.h"
+#include "core/base/files_read.h"
 
 namespace oro {
 
 namespace fs = std::filesystem;
 
-Result<void> spare_files(const std::vector<std::string>& written, const std::vector<std::string>& inputs,
-                         const std::string& what_they_are) {
+FilesToSpare files_of_ground(const std::vector<std::string>& paths, const Region& region) {
+    FilesToSpare ground{paths, "which the elevation data are in"};
+    const auto add = [&](const Region& grid) {
+        for (const SourceReport& source : grid.sources) {
+            ground.files.push_back(source.path);
+            ground.files.insert(ground.files.end(), source.files.begin(), source.files.end());
+        }
+    };
+    add(region);
+    for (const Region& other : region.beside) add(other);
+    return ground;
+}
+
+FilesToSpare files_of_picture(const View& view, const Region& region) {
+    FilesToSpare picture{files_of_ground(view.region.paths, region).files, "which the picture is made from"};
+    picture.files.push_back(view.style);
+    picture.files.insert(picture.files.end(), view.drape.begin(), view.drape.end());
+    for (const ImageSource& image : view.images)
+        picture.files.insert(picture.files.end(), image.files.begin(), image.files.end());
+    VectorChoices vectors = view.vectors;
+    for (const std::string* const file : vectors.paths()) picture.files.push_back(*file);
+    return picture;
+}
+
+FilesToSpare files_of_view(const std::string& view_file) {
+    FilesToSpare view{{view_file, view_file + ".json"},
+                      "which is the view, or the picture that it belongs to"};
+    for (const char* ending : {".json", ".png", ".jpg", ".jpeg", ".tif", ".tiff"})
+        view.files.push_back(fs::path(view_file).replace_extension(ending).string());
+    return view;
+}
+
+Result<void> spare_inputs(const std::vector<std::string>& written, const std::vector<FilesToSpare>& inputs) {
     for (const std::string& file : written) {
         ORO_TRY(const bool there, is_there(file));
         if (!there) continue;
-        for (const std::string& input : inputs) {
-            ORO_TRY(const bool same, is_same_file(file, input));
-            if (same)
-                return Error{ErrorKind::usage, "--out", "would replace " + input + ", " + what_they_are};
+        for (const FilesToSpare& some : inputs) {
+            for (const std::string& input : some.files) {
+                ORO_TRY(const bool same, is_same_file(file, input));
+                if (same)
+                    return Error{ErrorKind::usage, "--out",
+                                 "would replace " + input + ", " + some.what_they_are};
+            }
         }
+        ORO_CHECK(check_not_read(file));
     }
     return {};
-}
-
-namespace {
-
-void add_ground(const std::vector<std::string>& paths, const Region& region,
-                std::vector<std::string>& inputs) {
-    inputs.insert(inputs.end(), paths.begin(), paths.end());
-    for (const SourceReport& source : region.sources) {
-        inputs.push_back(source.path);
-        inputs.insert(inputs.end(), source.files.begin(), source.files.end());
-    }
-}
-
-}  // namespace
-
-Result<void> spare_inputs(const std::vector<std::string>& written, const View& view, const Region& region) {
-    std::vector<std::string> inputs{view.style};
-    add_ground(view.region.paths, region, inputs);
-    inputs.insert(inputs.end(), view.drape.begin(), view.drape.end());
-    VectorChoices vectors = view.vectors;
-    for (const std::string* const file : vectors.paths()) inputs.push_back(*file);
-    return spare_files(written, inputs, "which the picture is made from");
-}
-
-Result<void> spare_ground(const std::vector<std::string>& written, const std::vector<std::string>& paths,
-                          const Region& region) {
-    std::vector<std::string> inputs;
-    add_ground(paths, region, inputs);
-    return spare_files(written, inputs, "which the elevation data are in");
-}
-
-Result<void> spare_view(const std::vector<std::string>& written, const std::string& view_file) {
-    std::vector<std::string> inputs{view_file, view_file + ".json"};
-    for (const char* ending : {".json", ".png", ".jpg", ".jpeg", ".tif", ".tiff"})
-        inputs.push_back(fs::path(view_file).replace_extension(ending).string());
-    return spare_files(written, inputs, "which is the view, or the picture that it belongs to");
 }
 
 }  // namespace oro

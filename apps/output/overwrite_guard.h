@@ -1,4 +1,4 @@
-// --overwrite is for what the program writes: what a picture is made from is never replaced by it.
+// --overwrite is for what the program writes: what it reads is never replaced by it.
 #pragma once
 
 #include <string>
@@ -9,19 +9,24 @@
 
 namespace oro {
 
-// All four tell files by themselves and not by their names: links of both kinds are seen through.
+// Files that a command reads, now or later, and what a message says that they are.
+struct FilesToSpare {
+    std::vector<std::string> files;
+    std::string what_they_are;  // "which the elevation data are in"
+};
 
-// Errors (usage): a file to be written is one of `inputs`, of which the message says `what_they_are`.
-Result<void> spare_files(const std::vector<std::string>& written, const std::vector<std::string>& inputs,
-                         const std::string& what_they_are);
-// Errors (usage): a file to be written is the style or one of the files that the elevation data of a view are
-// made of: archives, all that a VRT names, side-cars.
-Result<void> spare_inputs(const std::vector<std::string>& written, const View& view, const Region& region);
+// All that a picture is made from: the style, and the files that a view's elevation data, images, names and
+// lines are made of (archives, all that a VRT names, side-cars, world files).
+FilesToSpare files_of_picture(const View& view, const Region& region);
 // The same of elevation data alone: `paths` as they were given.
-Result<void> spare_ground(const std::vector<std::string>& written, const std::vector<std::string>& paths,
-                          const Region& region);
-// Errors (usage): a file to be written is a view that is only read, the picture it is in, or the one it lies
-// beside.
-Result<void> spare_view(const std::vector<std::string>& written, const std::string& view_file);
+FilesToSpare files_of_ground(const std::vector<std::string>& paths, const Region& region);
+// A view that is only read, the picture it is in, and the ones it may lie beside.
+FilesToSpare files_of_view(const std::string& view_file);
+
+// For every command, before it takes time: that none of the files it will write, side outputs among them, is
+// one of `inputs` or one that it has read so far (core/base/files_read.h; what it reads later is asked about
+// when a file gets its name). Files are told by themselves and not by their names: links of both kinds are
+// seen through. Errors: usage; failed where the system cannot tell.
+Result<void> spare_inputs(const std::vector<std::string>& written, const std::vector<FilesToSpare>& inputs);
 
 }  // namespace oro

@@ -104,8 +104,10 @@ json parsed_json(const std::string& text) {
     }
 }
 
-Result<std::string> read_text_file(const std::string& path) {
-    ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+namespace {
+
+Result<std::string> text_in(const std::string& path, OpenFile::Use use) {
+    ORO_TRY(const OpenFile file, OpenFile::open(path, use));
     ORO_TRY(const std::uint64_t size, file.size());
     if (constexpr std::size_t most = JsonBounds{}.most_bytes; size > most)
         return Error{ErrorKind::failed, path,
@@ -114,6 +116,16 @@ Result<std::string> read_text_file(const std::string& path) {
     std::string text(size, '\0');
     ORO_CHECK(file.read(0, std::as_writable_bytes(std::span(text))));
     return text;
+}
+
+}  // namespace
+
+Result<std::string> read_text_file(const std::string& path) {
+    return text_in(path, OpenFile::Use::read);
+}
+
+Result<std::string> read_own_text_file(const std::string& path) {
+    return text_in(path, OpenFile::Use::read_own);
 }
 
 }  // namespace oro

@@ -5,11 +5,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/base/one_line.h"
+
 namespace oro {
 
-// Text of a JSON value; bytes that are no UTF-8 (in file names) are replaced, not refused.
+// Text of a JSON value; bytes that are no UTF-8 (in file names) are replaced, not refused. Characters that a
+// terminal would obey, or show nothing of, are written as escapes.
 inline std::string json_text(const nlohmann::ordered_json& json, bool pretty) {
-    return json.dump(pretty ? 2 : -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return with_unseen_escaped(
+        json.dump(pretty ? 2 : -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 // "2026-11-21T09:00:00Z"

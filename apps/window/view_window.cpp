@@ -157,7 +157,7 @@ Result<void> take_finer_levels(Viewer& viewer) {
 void show_title(Viewer& viewer) {
     const std::string title = title_of(viewer);
     if (title == viewer.shown_title) return;
-    viewer.window.set_title(title);
+    viewer.window.set_title(one_line(title));
     viewer.shown_title = title;
 }
 

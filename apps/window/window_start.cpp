@@ -8,6 +8,7 @@
 #include "apps/eye/standpoint.h"
 #include "apps/report/json_text.h"
 #include "apps/window/flight.h"
+#include "core/base/files_read.h"
 #include "core/base/parallel.h"
 #include "core/lod/pyramid.h"
 
@@ -25,7 +26,11 @@ Result<void> open_flight(const WindowOptions& options, const Progress& progress,
     const Geodetic& eye = view.camera.eye;
     view.camera =
         above_ground(view.camera, region_at(region, eye.lat_deg, eye.lon_deg).field, view.exaggeration);
-    return region.health();
+    ORO_CHECK(region.health());
+    ORO_CHECK(check_files_unchanged());
+    // A window stays open while people work on: what it shows is what was there when it was opened.
+    forget_files_read();
+    return {};
 }
 
 std::string free_picture_name(std::int64_t time_utc_s) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/baked/page_compression.h"
@@ -75,6 +76,25 @@ struct EncodedPage {
 // The files that a bake to `path` writes: the region's own, PATH.partial and PATH.partial-stitched; where the
 // name is a link, what it leads to and beside that.
 [[nodiscard]] std::vector<std::string> files_of_bake(const std::string& path);
+
+// Keeps other bakes of a file out while it lives, for bakes that make it from several files beside it: holds
+// the lock that a bake into one file has by writing, that of the .partial, which is empty here and gone
+// afterwards. (One with pages in it, that another bake left behind, stays.)
+class BakeHold {
+  public:
+    // Errors: another program writes the file; it is there, and must not be replaced; somebody else's
+    // .partial.
+    static Result<BakeHold> take(const std::string& path, bool overwrite);
+    BakeHold(BakeHold&&) noexcept = default;
+    BakeHold& operator=(BakeHold&&) = delete;
+    BakeHold(const BakeHold&) = delete;
+    BakeHold& operator=(const BakeHold&) = delete;
+    ~BakeHold();
+
+  private:
+    explicit BakeHold(OpenFile partial) : partial_(std::move(partial)) {}
+    OpenFile partial_;
+};
 
 // Writes a region file, page after page, so that it can be stopped at any moment, by a kill or a power cut,
 // and go on from there: it grows as PATH.partial and takes its real name, whole, in finish(). Beside it grows

@@ -130,7 +130,7 @@ Result<std::optional<OpenFile>> open_leftover(const std::string& path) {
         return fault(path, "cannot be written: " + system_reason(errno));
     }
     if (S_ISLNK(found.st_mode)) return no_leftover(path, "is a link, and no bake has left it behind");
-    ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read_own));
     return std::optional(std::move(file));
 }
 
@@ -160,6 +160,25 @@ Result<EncodedPage> encode_page(const PageRecord& record, const PagePayload& pay
     ORO_TRY(page.payload, encode_payload(payload));
     page.checksum = xxh64(page.payload);
     return page;
+}
+
+Result<BakeHold> BakeHold::take(const std::string& path, bool overwrite) {
+    ignore_size_limit_signal();
+    std::string target = path;
+    ORO_CHECK(RegionFileWriter::check(path, overwrite));
+    ORO_TRY([[maybe_unused]] const unsigned old_mode, check_target(target, overwrite));
+    ORO_TRY(OpenFile partial, open_alone(partial_of(target)));
+    BakeHold hold(std::move(partial));
+    ORO_CHECK(check_partial(hold.partial_));
+    // Somebody may have finished it before this one came in.
+    ORO_CHECK(check_target(target, overwrite));
+    return hold;
+}
+
+BakeHold::~BakeHold() {
+    const Result<std::uint64_t> bytes =
+        partial_.descriptor() < 0 ? Result<std::uint64_t>(std::uint64_t{1}) : partial_.size();
+    if (bytes.ok() && *bytes == 0) unlink(partial_.path().c_str());
 }
 
 RegionFileWriter::RegionFileWriter(OpenFile partial, OpenFile stitched, const PostGrid& grid)

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "core/base/files_read.h"
+
 namespace oro {
 
 std::string system_reason(int error_number) {
@@ -20,15 +22,17 @@ Result<OpenFile> OpenFile::open(const std::string& path, Use use) {
     if (path.find('\0') != std::string::npos)
         return Error{ErrorKind::usage, path.c_str(), "a file name cannot hold a zero byte"};
     // Not to wait for somebody at the other end of a pipe.
-    const int flags = O_CLOEXEC | O_NONBLOCK | (use == Use::read ? O_RDONLY : O_RDWR | O_CREAT | O_NOFOLLOW);
+    const bool reads = use != Use::write;
+    const int flags = O_CLOEXEC | O_NONBLOCK | (reads ? O_RDONLY : O_RDWR | O_CREAT | O_NOFOLLOW);
     const int descriptor = ::open(path.c_str(), flags, 0666);
-    const std::string doing = use == Use::read ? "cannot be opened: " : "cannot be written: ";
+    const std::string doing = reads ? "cannot be opened: " : "cannot be written: ";
     if (descriptor < 0) return Error{ErrorKind::failed, path, doing + system_reason(errno)};
     OpenFile file(descriptor, path);
     struct stat found {};
     if (fstat(descriptor, &found) != 0) return file.fault(doing, errno);
     if (S_ISDIR(found.st_mode)) return Error{ErrorKind::failed, path, "is a folder"};
     if (!S_ISREG(found.st_mode)) return Error{ErrorKind::failed, path, "is no plain file"};
+    if (use == Use::read) remember_file_read(path, found);
     return file;
 }
 

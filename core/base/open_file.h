@@ -15,8 +15,9 @@ namespace oro {
 class OpenFile {
   public:
     enum class Use {
-        read,   // the file must be there
-        write,  // and read; it is made when it is not there; no link is followed
+        read,     // the file must be there; it is remembered as one that was read (files_read.h)
+        write,    // and read; it is made when it is not there; no link is followed
+        read_own  // as read, of a file that the program keeps for itself, which is not remembered
     };
     // Errors: no such file or folder, no right to it, anything that is no plain file.
     static Result<OpenFile> open(const std::string& path, Use use);

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <cassert>
-#include <cstddef>
 #include <string>
 #include <utility>
 #include <variant>
+
+#include "core/base/one_line.h"
 
 namespace oro {
 
@@ -17,19 +18,6 @@ enum class ErrorKind {
     no_data = 3,    // nothing to draw in the region
     no_device = 4,  // no suitable GPU
 };
-
-// Text from outside (names of files, words of libraries) as a part of one line: control characters, which
-// could break the line or move a terminal's cursor, become '?', and what is longer than 1,000 bytes is cut.
-inline std::string one_line(std::string text) {
-    constexpr std::size_t longest = 1000;
-    for (char& c : text) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    }
-    if (text.size() <= longest) return text;
-    std::size_t end = longest;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;  // between characters
-    return text.substr(0, end) + "...";
-}
 
 // One line for a person: "where: what". `where` is a file with its place, an option with its value, or a
 // call.

@@ -62,10 +62,12 @@ Result<void> join_clusters(const std::string& path, const std::string& region_pa
     ORO_CHECK(whole.write(header.data(), header.size()));
     ORO_CHECK(append(region, region_bytes, whole));
     ORO_CHECK(append(clusters, clusters_bytes, whole));
-    ORO_CHECK(whole.commit());
+    const Result<void> named = whole.commit();
+    // Where the name is somebody else's by now, nobody comes back for them.
+    if (!named.ok() && (overwrite || access(path.c_str(), F_OK) != 0)) return named;
     unlink(region_path.c_str());
     unlink(clusters_path.c_str());
-    return {};
+    return named;
 }
 
 }  // namespace oro

@@ -18,8 +18,8 @@ Result<void> check_path_of_clusters(const std::string& clusters_path);
 // Whether a cluster file is there and whole, over the posts of that fingerprint. Reads all of it.
 bool are_baked_clusters(const std::string& clusters_path, std::uint64_t fingerprint);
 
-// Puts both files together as `path`, which appears whole or not at all, and removes them. Errors: those of
-// reading and writing.
+// Puts both files together as `path`, which appears whole or not at all, and removes them: also where
+// another file took the name meanwhile and stays. Errors: those of reading and writing.
 Result<void> join_clusters(const std::string& path, const std::string& region_path,
                            const std::string& clusters_path, bool overwrite);
 

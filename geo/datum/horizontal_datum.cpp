@@ -119,6 +119,7 @@ const PJ* operation_at(PJ_CONTEXT* context, const std::vector<ProjObject>& opera
 void tell_operation(PJ_CONTEXT* context, const PJ* chosen, HorizontalDatum& found) {
     if (!chosen) return;
     found.ballpark = proj_coordoperation_has_ballpark_transformation(context, chosen) != 0;
+    remember_grids(grids_of(context, chosen).paths);
     const char* const name = proj_get_name(chosen);
     found.operation = name ? name : "unnamed";
     found.accuracy_m = accuracy_of(context, chosen);

@@ -1,9 +1,12 @@
 #include "geo/datum/proj_operations.h"
 
+#include <sys/stat.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
 
+#include "core/base/files_read.h"
 #include "core/earth/ellipsoid.h"
 
 namespace oro {
@@ -19,6 +22,13 @@ struct FreeFactory {
 };
 
 }  // namespace
+
+void remember_grids(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths) {
+        struct stat found {};
+        if (stat(path.c_str(), &found) == 0) remember_file_read(path, found);
+    }
+}
 
 OperationGrids grids_of(PJ_CONTEXT* context, const PJ* operation) {
     OperationGrids grids;
@@ -108,6 +118,7 @@ LiftingOperation find_lifting_operation(PJ_CONTEXT* context, const PJ* from, con
             found.operation.reset(proj_normalize_for_visualization(context, operation.get()));
         if (found.operation) {
             found.grids = std::move(grids.paths);
+            remember_grids(found.grids);
             return found;
         }
         // Not the next best one in its stead: nobody would hear of it.

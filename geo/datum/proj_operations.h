@@ -34,6 +34,8 @@ struct OperationGrids {
     std::string names;                 // of all, joined
 };
 OperationGrids grids_of(PJ_CONTEXT* context, const PJ* operation);
+// Grids that PROJ reads by itself are files that are read (core/base/files_read.h).
+void remember_grids(const std::vector<std::string>& paths);
 
 // All operations that PROJ knows for a box, best first, those that lack a grid last; ballpark ones leave out
 // what they know no way for. None where a CRS is null. They must not outlive the context.

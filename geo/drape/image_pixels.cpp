@@ -18,22 +18,18 @@ class WindowReader {
         : image_(image),
           dataset_(dataset),
           window_(window),
-          watch_(reading_limit_s + 1e-7 * window.rows * static_cast<double>(window.columns)) {}
+          watch_(reading_limit_s +
+                 1e-7 * window.rows * static_cast<double>(window.columns) * share_held(band(0), window)) {}
 
-    // False where a band could not be read. T: of one byte, or float.
+    // False where a band could not be read. T: of one byte, or float. held_as: as WindowRequest has it.
+    template <class T>
+    bool read(GDALRasterBandH band, GDALRasterBandH held_as, int columns, int rows, GDALRIOResampleAlg how,
+              std::vector<T>& to) {
+        return read_window({band, held_as, window_, columns, rows, how}, watch_, to);
+    }
     template <class T>
     bool read(GDALRasterBandH band, int columns, int rows, GDALRIOResampleAlg how, std::vector<T>& to) {
-        to.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-        GDALRasterIOExtraArg more;
-        INIT_RASTERIO_EXTRA_ARG(more);
-        more.eResampleAlg = how;
-        more.pfnProgress = [](double, const char*, void* data) -> int {
-            return static_cast<FileWatch*>(data)->spent() ? FALSE : TRUE;
-        };
-        more.pProgressData = &watch_;
-        return GDALRasterIOEx(band, GF_Read, window_.column, window_.row, window_.columns, window_.rows,
-                              to.data(), columns, rows, sizeof(T) == 1 ? GDT_Byte : GDT_Float32, 0, 0,
-                              &more) == CE_None;
+        return read(band, band, columns, rows, how, to);
     }
     [[nodiscard]] GDALRasterBandH band(std::size_t i) const {
         return GDALGetRasterBand(dataset_, image_.bands[i]);
@@ -70,7 +66,9 @@ bool read_alpha(WindowReader& reader, std::size_t bands, int columns, int rows, 
             alpha.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 255);
             return true;
         }
-        if (!reader.read(GDALGetMaskBand(band), columns, rows, how, one)) return false;
+        const GDALRasterBandH mask = GDALGetMaskBand(band);
+        const bool follows = (GDALGetMaskFlags(band) & GMF_NODATA) != 0;
+        if (!reader.read(mask, follows ? band : mask, columns, rows, how, one)) return false;
         if (i == 0) alpha = one;
         std::ranges::transform(alpha, one, alpha.begin(), [](auto a, auto b) { return std::max(a, b); });
         if (shared) return true;

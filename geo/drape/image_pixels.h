@@ -7,17 +7,10 @@
 
 #include "core/base/result.h"
 #include "geo/drape/image_source.h"
+#include "geo/drape/window_read.h"
 #include "geo/sources/raster_library.h"
 
 namespace oro {
-
-// A window of an image, whole pixels.
-struct PixelWindow {
-    int column{};
-    int row{};
-    int columns{};
-    int rows{};
-};
 
 // Red, green, blue (codes 0 to 255) times alpha, and alpha (0 to 1).
 using Colour = std::array<float, 4>;

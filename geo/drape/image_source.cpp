@@ -11,6 +11,7 @@
 #include "core/base/checksum.h"
 #include "core/base/open_file.h"
 #include "geo/drape/image_values.h"
+#include "geo/drape/window_read.h"
 #include "geo/files/guarded_files.h"
 #include "geo/sources/raster_crs.h"
 #include "geo/sources/raster_library.h"
@@ -73,20 +74,21 @@ Result<void> place(ImageSource& image, GDALDatasetH dataset) {
 
 // Values of all bands of an image that are some, at most 512 x 512 pixels of it.
 Result<std::vector<float>> sample_of(const ImageSource& image, GDALDatasetH dataset,
-                                     const GdalMessages& messages) {
+                                     const GdalMessages& messages, FileWatch& watch) {
     constexpr int most = 512;
     const int columns = std::min(image.columns, most), rows = std::min(image.rows, most);
-    const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    std::vector<float> values(count), sample;
-    std::vector<unsigned char> valid(count);
+    const PixelWindow all{0, 0, image.columns, image.rows};
+    std::vector<float> values, sample;
+    std::vector<unsigned char> valid;
     for (const int number : image.bands) {
-        const GDALRasterBandH band = GDALGetRasterBand(dataset, number);
-        if (GDALRasterIO(band, GF_Read, 0, 0, image.columns, image.rows, values.data(), columns, rows,
-                         GDT_Float32, 0, 0) != CE_None ||
-            GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, image.columns, image.rows, valid.data(),
-                         columns, rows, GDT_Byte, 0, 0) != CE_None)
-            return fault("cannot be read: " + messages.last("the file is damaged"));
-        for (std::size_t i = 0; i < count; ++i) {
+        const GDALRasterBandH band = GDALGetRasterBand(dataset, number), mask = GDALGetMaskBand(band);
+        const bool follows = (GDALGetMaskFlags(band) & (GMF_NODATA | GMF_ALL_VALID)) != 0;
+        if (!read_window({band, band, all, columns, rows, GRIORA_NearestNeighbour}, watch, values) ||
+            !read_window({mask, follows ? band : mask, all, columns, rows, GRIORA_NearestNeighbour}, watch,
+                         valid))
+            return fault("cannot be read: " +
+                         (watch.fault().empty() ? messages.last("the file is damaged") : watch.fault()));
+        for (std::size_t i = 0; i < values.size(); ++i) {
             if (valid[i] != 0 && std::isfinite(values[i])) sample.push_back(values[i]);
         }
     }
@@ -106,7 +108,7 @@ void stretch(ImageSource& image, std::vector<float> sample) {
 }
 
 Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, ImageValues values,
-                          const GdalMessages& messages) {
+                          const GdalMessages& messages, FileWatch& watch) {
     if (image.palette) return {};
     const bool are_bytes = std::ranges::all_of(image.bands, [&](int band) {
         return GDALGetRasterDataType(GDALGetRasterBand(dataset, band)) == GDT_Byte;
@@ -114,7 +116,7 @@ Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, ImageValues 
     if (values == ImageValues::by_file) values = values_in(dataset, image.bands);
     image.is_light = values == ImageValues::reflectance;
     if (are_bytes && !image.is_light) return {};
-    ORO_TRY(std::vector<float> sample, sample_of(image, dataset, messages));
+    ORO_TRY(std::vector<float> sample, sample_of(image, dataset, messages, watch));
     if (sample.empty()) return {};
     if (image.is_light) {
         stretch(image, std::move(sample));
@@ -132,7 +134,8 @@ Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, ImageValues 
     return {};
 }
 
-Result<void> describe(ImageSource& image, ImageValues values, const GdalMessages& messages) {
+Result<void> describe(ImageSource& image, ImageValues values, const GdalMessages& messages,
+                      FileWatch& watch) {
     ORO_TRY(const RasterParts parts, parts_of_raster(image.file));
     const Dataset dataset(GDALOpenEx(image.file.c_str(),
                                      GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
@@ -144,7 +147,7 @@ Result<void> describe(ImageSource& image, ImageValues values, const GdalMessages
     image.rows = GDALGetRasterYSize(dataset.get());
     ORO_CHECK(choose_bands(image, dataset.get()));
     ORO_CHECK(place(image, dataset.get()));
-    ORO_CHECK(choose_range(image, dataset.get(), values, messages));
+    ORO_CHECK(choose_range(image, dataset.get(), values, messages, watch));
     image.files = parts.files;
     const CPLStringList listed(GDALGetFileList(dataset.get()));
     for (int i = 0; i < listed.size(); ++i) {
@@ -160,10 +163,10 @@ Result<void> describe(ImageSource& image, ImageValues values, const GdalMessages
 Result<ImageSource> open_image(const std::string& file, ImageValues values) {
     start_gdal();
     const GdalMessages messages;
-    const FileWatch watch(opening_limit_s);
+    FileWatch watch(opening_limit_s);
     ImageSource image;
     image.file = file;
-    const Result<void> described = describe(image, values, messages);
+    const Result<void> described = describe(image, values, messages, watch);
     if (!watch.fault().empty()) return Error{ErrorKind::failed, file, watch.fault()};
     if (!described.ok())
         return Error{described.error().kind,

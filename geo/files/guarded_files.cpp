@@ -16,6 +16,8 @@
 #include <system_error>
 #include <utility>
 
+#include "core/base/files_read.h"
+
 namespace oro {
 namespace {
 
@@ -132,6 +134,8 @@ class LocalFiles final : public VSIFilesystemHandler {
             errno = EINVAL;
             return nullptr;
         }
+        // What a library writes for us it gets by its descriptor: an output, which it may read again.
+        if (there && !std::string_view(name).starts_with("/proc/self/fd/")) remember_file_read(name, status);
         errno = 0;
         OpenedFile file = files_->Open(name, access, set_error, options);
         const int reason = errno;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/file_target.h"
+#include "core/base/files_read.h"
 #include "core/base/open_file.h"
 
 namespace oro {
@@ -118,7 +119,10 @@ Result<void> commit_together(std::span<WholeFile* const> files) {
     };
     for (WholeFile* file : files) {
         if (const auto settled = file->settle(); !settled.ok()) return failed(settled.error());
+        if (const auto spared = check_not_read(file->path_); !spared.ok()) return failed(spared.error());
     }
+    // The last moment at which what was read can be held against what is written.
+    if (const auto whole = check_files_unchanged(); !whole.ok()) return failed(whole.error());
     const NamesHeld held;
     struct Taken {
         WholeFile* file;

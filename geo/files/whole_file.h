@@ -54,7 +54,8 @@ class WholeFile {
 
 // commit() of files that belong together: all have their names after it, or none has: what had them before
 // has them again. Only a power cut between two renamings, which take no time, leaves some; the last file is
-// the one that matters.
+// the one that matters. Errors, beside those of writing: a file that the program has read would be replaced
+// (usage), or one that it has read was changed meanwhile (core/base/files_read.h).
 Result<void> commit_together(std::span<WholeFile* const> files);
 inline Result<void> commit_together(std::initializer_list<WholeFile*> files) {
     return commit_together(std::span<WholeFile* const>(files.begin(), files.size()));

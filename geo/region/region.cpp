@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/files_read.h"
 #include "geo/datum/horizontal_datum.h"
 #include "geo/datum/vertical_datum.h"
 #include "geo/posts/holes.h"
@@ -291,8 +292,10 @@ Result<Region> open_region(const RegionRequest& request, const Progress& progres
         if (!is_baked) start_gdal();
         Result<Region> region =
             is_baked ? open_baked_region(request, progress) : read_region(request, progress);
+        if (region.ok()) ORO_CHECK(libraries_are_sound());
+        // Also where it could not be read: a file that is being rewritten is not damaged.
+        ORO_CHECK(check_files_unchanged());
         if (!region.ok()) return with_order_of_box(region.error(), request, is_baked);
-        ORO_CHECK(libraries_are_sound());
         return region;
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::failed, "region too large",

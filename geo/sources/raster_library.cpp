@@ -6,6 +6,9 @@
 #include <gdal_priv.h>
 
 #include <array>
+#include <cstdlib>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "geo/files/guarded_files.h"
@@ -45,7 +48,46 @@ std::string in_one_line(std::string text) {
     return text;
 }
 
+// What may be said in the environment: it makes GDAL faster, or tells where its own files are and where
+// others may be for a while. None of it changes what a file means.
+constexpr std::array free_options{"GDAL_CACHEMAX",
+                                  "GDAL_NUM_THREADS",
+                                  "GDAL_MAX_DATASET_POOL_SIZE",
+                                  "GDAL_MAX_DATASET_POOL_RAM_USAGE",
+                                  "GDAL_BAND_BLOCK_CACHE",
+                                  "VSI_CACHE",
+                                  "VSI_CACHE_SIZE",
+                                  "OGR_SQLITE_CACHE",
+                                  "GDAL_DATA",
+                                  "CPL_TMPDIR",
+                                  "TMPDIR",
+                                  "TEMP",
+                                  "HOME"};
+
+// GDAL has hundreds of options that change what a file means (GTIFF_POINT_GEO_IGNORE moves a raster by half a
+// post), and takes them from the environment and from files (~/.gdal/gdalrc). The same data give the same
+// picture everywhere: those of files are forgotten, and those of the environment are not asked about.
+void pin_options() {
+    // It reads these files when it is made, if nothing names another.
+    CPLSetConfigOption("GDAL_CONFIG_FILE", "");
+    (void)GetGDALDriverManager();
+    CPLSetConfigOptions(nullptr);
+    VSIClearPathSpecificOptions(nullptr);
+    std::vector<std::pair<const char*, std::string>> kept;
+    for (const char* const name : free_options)
+        if (const char* const value = std::getenv(name)) kept.emplace_back(name, value);
+    constexpr const char* directives = "/vsimem/orograph-gdalrc";
+    static std::string text = "[directives]\nignore-env-vars=yes\n";
+    VSILFILE* const file =
+        VSIFileFromMemBuffer(directives, reinterpret_cast<GByte*>(text.data()), text.size(), FALSE);
+    if (file != nullptr) VSIFCloseL(file);
+    CPLLoadConfigOptionsFromFile(directives, FALSE);
+    VSIUnlink(directives);
+    for (const auto& [name, value] : kept) CPLSetConfigOption(name, value.c_str());
+}
+
 void set_options() {
+    pin_options();
     // GDAL would write FILE.gz.properties beside a compressed file it has measured.
     CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
     // Otherwise GeoTIFF 1.0 files lose the vertical datum that they state.

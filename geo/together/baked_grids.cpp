@@ -56,9 +56,11 @@ Result<void> join_grids(const std::string& path, bool overwrite, const std::vect
             ORO_CHECK(whole.write(bytes.data(), bytes.size()));
         }
     }
-    ORO_CHECK(whole.commit());
+    const Result<void> named = whole.commit();
+    // Where the name is somebody else's by now, nobody comes back for them.
+    if (!named.ok() && (overwrite || access(path.c_str(), F_OK) != 0)) return named;
     for (std::size_t i = 0; i < ranks.size(); ++i) unlink(path_of_grid(path, i).c_str());
-    return {};
+    return named;
 }
 
 }  // namespace oro

@@ -22,8 +22,9 @@ Result<void> check_path_of_grid(const std::string& grid_path);
 bool is_baked_grid(const std::string& grid_path, std::uint64_t fingerprint, const std::string& description,
                    CellSplit split);
 
-// Puts the grids' files together as `path`, which appears whole or not at all, and removes them. ranks: as
-// Region::rank, of each. Errors: those of reading and writing.
+// Puts the grids' files together as `path`, which appears whole or not at all, and removes them: also
+// where another file took the name meanwhile and stays. ranks: as Region::rank, of each. Errors: those of
+// reading and writing.
 Result<void> join_grids(const std::string& path, bool overwrite, const std::vector<std::uint32_t>& ranks);
 
 }  // namespace oro

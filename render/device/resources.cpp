@@ -1,5 +1,7 @@
 #include "render/device/resources.h"
 
+#include "render/device/file_backed_memory.h"
+
 namespace oro {
 namespace {
 
@@ -21,6 +23,7 @@ Result<OwnedMemory> allocate(const Gpu& gpu, const VkMemoryRequirements& needs, 
     info.pNext = addressed ? &flags : nullptr;
     info.allocationSize = needs.size;
     info.memoryTypeIndex = *type;
+    ORO_CHECK(check_room_in_file(gpu, info, name));
     VkDeviceMemory memory{};
     const VkResult made = vkAllocateMemory(gpu.device(), &info, nullptr, &memory);
     if (full) *full = made == VK_ERROR_OUT_OF_DEVICE_MEMORY;

@@ -252,7 +252,8 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     ORO_CHECK(check_unchanged(view, report.region, options.data_changed, options.quiet));
     if (options.no_paths) view.tells_paths = false;
     say_edited(view, options.quiet);
-    ORO_CHECK(spare_inputs({options.out}, view, report.region));
+    ORO_CHECK(spare_inputs(
+        {options.out}, {files_of_picture(view, report.region), {{options.view_file}, "which is the view"}}));
     // view.mesh tells what is drawn from then on.
     if (const auto drawn = draws_clusters(report.region, view); !drawn.ok()) return drawn.error();
     report.read_s = seconds_since(reading);

@@ -30,6 +30,7 @@
 #include "apps/view/view_changes.h"
 #include "apps/window/picking.h"
 #include "core/base/elapsed.h"
+#include "core/base/files_read.h"
 #include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
 #include "geo/together/rim_diagonals.h"
@@ -205,6 +206,15 @@ void choose_legend(const ShotOptions& options, View& view) {
                                " px wide has no room for the legend of --show");
 }
 
+// A picture that goes back to where it came from is not spared; what is written beside it is no view.
+Result<void> spare_files_of(const ShotOptions& options, const PictureFiles& files, const ShotResult& shot) {
+    if (options.out.empty()) let_replace(files.picture);
+    std::vector<FilesToSpare> inputs{files_of_picture(shot.view, shot.region)};
+    if (!options.out.empty())
+        inputs.push_back({{options.view_file}, "which is the view (without --out it is drawn again)"});
+    return spare_inputs(written_files(options, files), inputs);
+}
+
 // All that can be refused before a GPU is asked for: options, data, files to be written. Gives the style.
 Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, ProgressBar& bar,
                         ShotResult& shot) {
@@ -225,7 +235,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
     if (options.no_paths) shot.view.tells_paths = false;
     if (!is_check(options, files)) say_edited(shot.view, options.quiet);
     shot.times.read_s = seconds_since(reading);
-    ORO_CHECK(spare_inputs(written_files(options, files), shot.view, shot.region));
+    ORO_CHECK(spare_files_of(options, files, shot));
     if (options.layers) ORO_CHECK(check_layers(shot.view.camera));
     return load_style(shot.view, shot.region.field);
 }

@@ -137,11 +137,9 @@ Result<void> run_profile(const ProfileOptions& options) {
     ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
-    if (!options.out.empty()) {
-        ORO_CHECK(spare_ground({options.out}, options.region.paths, ground->region));
-        if (!profile.line.file.empty())
-            ORO_CHECK(spare_files({options.out}, {profile.line.file}, "which the line is read from"));
-    }
+    if (!options.out.empty())
+        ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),
+                                               {{profile.line.file}, "which the line is read from"}}));
     bar.show(1.0, "following the line");
     profile.points = points_of(profile.line, options.step_m, ground->ground());
     if (lower_case(options.out).ends_with(".geojson"))

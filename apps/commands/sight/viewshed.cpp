@@ -245,7 +245,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
-    ORO_CHECK(spare_ground({options.out}, options.region.paths, ground->region));
+    ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region)}));
     ORO_CHECK(place_eyes(options, *ground, report));
     ORO_CHECK(make_window(options, *ground, report));
     const PostGrid& grid = ground->ground().surface(report.grid).field().grid;

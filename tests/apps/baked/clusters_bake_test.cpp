@@ -152,4 +152,28 @@ TEST_F(ClustersBake, DamageIsOneLine) {
     std::printf("seed %u: of 16 damaged files %d were drawn, as the whole one\n", seed, drawn);
 }
 
+// One of them makes the file; the others say why they do not, and leave nothing.
+TEST_F(ClustersBake, EightAtOnceLeaveOneFile) {
+    const std::string session = R"sh(
+        out=$1; shift
+        for i in 1 2 3 4 5 6 7 8; do "$@" & done
+        wait
+        ls "$(dirname "$out")")sh";
+    for (const Words& more : {Words{}, Words{"--overwrite"}}) {
+        SCOPED_TRACE(more.size());
+        Words words{"bash",   "-c",       session, "bash", out_, OROGRAPH_PROGRAM, "bake", part_,
+                    "--mesh", "clusters", "--out", out_,   "-q"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run_program(words);
+        EXPECT_EQ(outcome.out, "tile.oro\n") << outcome.err;
+        for (const std::string& line : outcome.err_lines())
+            EXPECT_TRUE(oro::test::says(line, "written by another program") ||
+                        oro::test::says(line, "taken away") || oro::test::says(line, "is there already") ||
+                        oro::test::says(line, "appeared while"))
+                << line;
+        EXPECT_EQ(run_orograph({"info", out_, "--check"}).exit_code, 0);
+        fs::remove(out_);
+    }
+}
+
 }  // namespace

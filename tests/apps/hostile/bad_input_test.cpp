@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/apps/program.h"
@@ -305,6 +306,30 @@ TEST_F(BadInput, WholeNumbersAreDecimal) {
     expect_refusal(run_orograph({"trade", bundled(), "--views", "0x1"}), usage, {"--views"});
     expect_refusal(run_orograph({"shot", bundled(), "--out", "p.png", "--memory", "0x40"}), usage,
                    {"--memory"});
+}
+
+// The software driver keeps its memory in a file, which the shell's limit of file sizes bounds.
+TEST_F(BadInput, LimitOfFileSizes) {
+    for (const char* command : {"shot", "panorama"}) {
+        for (const char* kib : {"1", "1024", "16384", "32768"}) {
+            SCOPED_TRACE(std::string(command) + " " + kib);
+            const fs::path out = oro::test::scratch_folder() / "p.png";
+            Words words{"bash",      "-c",      "ulimit -f $1; shift; exec \"$@\"",
+                        "bash",      kib,       OROGRAPH_PROGRAM,
+                        command,     bundled(), "--style",
+                        "default",   "-q",      "--out",
+                        out.string()};
+            if (std::string_view(command) == "shot")
+                words.insert(words.end(), {"--size", "64x48"});
+            else
+                words.insert(words.end(),
+                             {"--at", "36.53,-84.23", "--width", "400", "--elevation", "-10,10"});
+            const Outcome outcome = oro::test::run_program(words);
+            if (outcome.exit_code == 0) continue;  // there is room enough, or a GPU
+            expect_refusal(outcome, failed, {"KiB"});
+            EXPECT_FALSE(fs::exists(out));
+        }
+    }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // they were, or cannot lie over any ground.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -158,6 +159,51 @@ TEST_F(Drape, ThatCannotLieOverGroundIsOneLine) {
     expect_refusal(shoot({land, "--drape", image, "--drape-values", "bright", "--out", path("a.png")}), usage,
                    {"--drape-values bright", "auto, codes or reflectance"});
     expect_refusal(shoot({land, "--drape", image, "--out", image, "--overwrite"}), usage, {"image.tif"});
+}
+
+// 16,000 million pixels of which the file holds none, or few: as quick as a small one.
+TEST_F(Drape, OfAnEmptyGiantIsQuick) {
+    for (const char* type : {"Byte", "UInt16"}) {
+        fs::remove(path("giant.tif"));
+        ASSERT_EQ(run_program({"gdal_create",
+                               "-q",
+                               "-of",
+                               "GTiff",
+                               "-outsize",
+                               "128000",
+                               "128000",
+                               "-bands",
+                               "3",
+                               "-ot",
+                               type,
+                               "-co",
+                               "SPARSE_OK=TRUE",
+                               "-co",
+                               "TILED=YES",
+                               "-co",
+                               "BLOCKXSIZE=4096",
+                               "-co",
+                               "BLOCKYSIZE=4096",
+                               "-co",
+                               "COMPRESS=DEFLATE",
+                               "-a_srs",
+                               "EPSG:4269",
+                               "-a_ullr",
+                               "-85",
+                               "37",
+                               "-84",
+                               "36",
+                               path("giant.tif")})
+                      .exit_code,
+                  0);
+        ASSERT_LT(fs::file_size(path("giant.tif")), 40'000U);
+        const auto start = std::chrono::steady_clock::now();
+        const Outcome drawn =
+            shoot({land, "--drape", path("giant.tif"), "--out", path("p.png"), "--overwrite"});
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        EXPECT_LT(took.count(), 20.0) << type;
+    }
 }
 
 }  // namespace

@@ -127,4 +127,22 @@ TEST(ShotLegend, NeedsAPictureThatIsWideEnough) {
     EXPECT_EQ(names_in(folder), Words{});
 }
 
+// A name that is no UTF-8 is a name: it is drawn with a replacement, and in other characters' stead.
+TEST(ShotLegend, OfAFileWithALatin1Name) {
+    const fs::path folder = oro::test::scratch_folder(), land = folder / "Z\xfcrich\xc2\x9b.tif";
+    fs::copy_file(bundled(), land);
+    for (const Words& more : {Words{"--legend"}, Words{"--show", "levels"}}) {
+        Words words = shot_with_legend(folder / "p.png", more);
+        words[1] = land.string();
+        words.insert(words.end(), {"--drape", land.string(), "--overwrite"});
+        const auto outcome = run_orograph(words);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_GT(pixels_of(folder / "p.png").height, 120U);
+        const auto again = run_orograph({"shot", "--view", (folder / "p.png").string(), "-q"});
+        EXPECT_EQ(again.exit_code, 0) << again.err;
+    }
+    const auto told = run_orograph({"info", land.string()});
+    EXPECT_NE(told.out.find("Z\xEF\xBF\xBDrich?.tif"), std::string::npos) << told.out;
+}
+
 }  // namespace

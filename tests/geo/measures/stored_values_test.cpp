@@ -23,7 +23,9 @@ using namespace test;
 std::optional<std::pair<double, double>> by_gdal(const SourcePath& path, double metres) {
     std::array<double, 2> range{};
     if (path.hgt) {
-        const std::string command = "gdalinfo -mm '" + path.file + "' 2>/dev/null";
+        // Else it writes FILE.gz.properties beside the file.
+        const std::string command =
+            "CPL_VSIL_GZIP_WRITE_PROPERTIES=NO gdalinfo -mm '" + path.file + "' 2>/dev/null";
         FILE* const out = popen(command.c_str(), "r");
         std::array<char, 4096> line{};
         bool found = false;

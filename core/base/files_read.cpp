@@ -1,0 +1,163 @@
+#include "core/base/files_read.h"
+
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include "core/base/open_file.h"
+
+namespace oro {
+namespace {
+
+using Identity = std::pair<std::uint64_t, std::uint64_t>;  // device and number
+
+struct StateAtOpening {
+    Identity identity;
+    std::int64_t bytes{};
+    std::int64_t seconds{};
+    std::int64_t nanoseconds{};
+};
+
+struct FilesRead {
+    std::mutex mutex;
+    bool remembers{};
+    std::map<std::string, StateAtOpening> states;
+    std::set<Identity> replaceable;
+    std::string changed, how;  // the first that was another when it was opened again
+};
+
+// Until the end of the program: threads may still read.
+FilesRead& files_read() {
+    static auto* const all = new FilesRead;
+    return *all;
+}
+
+StateAtOpening state_of(const struct stat& found) {
+    return {{found.st_dev, found.st_ino}, found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
+}
+
+// "" where nothing has changed.
+std::string change_between(const StateAtOpening& before, const StateAtOpening& now) {
+    if (before.identity != now.identity) return "another file has its name now";
+    if (before.bytes != now.bytes)
+        return "it had " + std::to_string(before.bytes) + " bytes, and has " + std::to_string(now.bytes);
+    if (before.seconds != now.seconds || before.nanoseconds != now.nanoseconds)
+        return "it was written to meanwhile";
+    return "";
+}
+
+Error changed_while_read(const std::string& path, const std::string& how) {
+    return {
+        ErrorKind::failed, path,
+        "was changed while it was read (" + how + "): nothing is made of it; try again when it is complete"};
+}
+
+// Times of files move on with the system's clock ticks, which may be 10 ms long: a file whose last change is
+// older than this shows the next one.
+constexpr std::chrono::milliseconds longest_tick{20};
+
+bool is_recent(const StateAtOpening& state) {
+    using namespace std::chrono;
+    const nanoseconds changed = seconds(state.seconds) + nanoseconds(state.nanoseconds);
+    const auto age = system_clock::now().time_since_epoch() - changed;
+    return age >= nanoseconds(0) && age < longest_tick;
+}
+
+StateAtOpening state_when_settled(const std::string& path, const struct stat& found) {
+    StateAtOpening state = state_of(found);
+    for (int i = 0; i < 5 && is_recent(state); ++i) {
+        std::this_thread::sleep_for(longest_tick);
+        struct stat again {};
+        if (stat(path.c_str(), &again) != 0 || state_of(again).identity != state.identity) break;
+        state = state_of(again);
+    }
+    return state;
+}
+
+}  // namespace
+
+void remember_files_read() {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    all.remembers = true;
+}
+
+void forget_files_read() {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    all.remembers = false;
+    all.states.clear();
+    all.changed.clear();
+}
+
+void remember_file_read(const std::string& path, const struct stat& found) {
+    if (!S_ISREG(found.st_mode)) return;
+    FilesRead& all = files_read();
+    const auto note = [&](const StateAtOpening& state, bool is_settled) {
+        const std::scoped_lock lock(all.mutex);
+        if (!all.remembers) return true;
+        const auto known = all.states.find(path);
+        if (known == all.states.end()) {
+            if (is_settled) all.states.emplace(path, state);
+            return is_settled;
+        }
+        if (std::string how = change_between(known->second, state); !how.empty() && all.changed.empty()) {
+            all.changed = path;
+            all.how = std::move(how);
+        }
+        return true;
+    };
+    const StateAtOpening state = state_of(found);
+    if (!note(state, !is_recent(state))) note(state_when_settled(path, found), true);
+}
+
+Result<void> check_files_unchanged() {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    if (!all.changed.empty()) return changed_while_read(all.changed, all.how);
+    for (const auto& [path, before] : all.states) {
+        struct stat found {};
+        if (stat(path.c_str(), &found) != 0) {
+            if (errno == ENOENT || errno == ENOTDIR) return changed_while_read(path, "it is gone");
+            return Error{ErrorKind::failed, path, "cannot be asked about: " + system_reason(errno)};
+        }
+        if (const std::string how = change_between(before, state_of(found)); !how.empty())
+            return changed_while_read(path, how);
+    }
+    return {};
+}
+
+Result<void> check_not_read(const std::string& target) {
+    struct stat found {};
+    if (stat(target.c_str(), &found) != 0) {
+        // What leads to nothing cannot be lost.
+        if (errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG || errno == ELOOP) return {};
+        return Error{ErrorKind::failed, target, "cannot be asked about: " + system_reason(errno)};
+    }
+    const Identity identity = state_of(found).identity;
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    if (all.replaceable.contains(identity)) return {};
+    for (const auto& [path, state] : all.states) {
+        if (state.identity == identity)
+            return Error{ErrorKind::usage, "--out",
+                         "would replace " + path + ", which is read here" +
+                             (path == target ? "" : " (by the name " + target + ")")};
+    }
+    return {};
+}
+
+void let_replace(const std::string& target) {
+    struct stat found {};
+    if (stat(target.c_str(), &found) != 0) return;
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    all.replaceable.insert(state_of(found).identity);
+}
+
+}  // namespace oro
