@@ -4,6 +4,8 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cassert>
+#include <cstring>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -32,10 +34,15 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
     if (action == GLFW_RELEASE) return;
     WindowInput& input = input_of(window);
     if (key == GLFW_KEY_ESCAPE) input.escape = true;
-    if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) input.enter = true;
+    if ((key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) && action == GLFW_PRESS) ++input.enters;
     if (key == GLFW_KEY_BACKSPACE) input.backspace = true;
     if (key == GLFW_KEY_P && action == GLFW_PRESS) input.take_picture = true;
     if (key == GLFW_KEY_G && action == GLFW_PRESS) input.go_to = true;
+}
+
+// What a window shows is lost where another covered it, and while it is minimised.
+void on_exposed(GLFWwindow* window) {
+    input_of(window).exposed = true;
 }
 
 // Kept from events: asked for later, the cursor may have moved on from where the button went down.
@@ -111,6 +118,7 @@ Result<std::unique_ptr<Window>> Window::create(const Gpu& gpu, int width_px, int
     glfwSetCharCallback(window->window_, on_character);
     glfwSetCursorPosCallback(window->window_, on_cursor);
     glfwSetMouseButtonCallback(window->window_, on_button);
+    glfwSetWindowRefreshCallback(window->window_, on_exposed);
     ORO_CHECK(window->create_surface());
     ORO_TRY(window->commands_, Commands::create(gpu, "present"));
     ORO_TRY(window->acquired_, create_semaphore(gpu, "image acquired"));
@@ -256,6 +264,35 @@ Result<VkResult> Window::submit_and_present(VkCommandBuffer commands, std::uint3
     if (presented != VK_ERROR_OUT_OF_DATE_KHR && presented != VK_SUBOPTIMAL_KHR)
         ORO_CHECK(vulkan_checked(presented, "vkQueuePresentKHR("));
     return presented;
+}
+
+Result<void> Window::take_pixels(std::span<const std::uint8_t> rgba, VkExtent2D extent) {
+    ORO_TRY(pixels_, create_image(*gpu_, VK_FORMAT_R8G8B8A8_UNORM, extent,
+                                  VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                      VK_IMAGE_USAGE_SAMPLED_BIT,
+                                  VK_IMAGE_ASPECT_COLOR_BIT, "pixels for a window"));
+    ORO_TRY(const Buffer buffer, create_buffer(*gpu_, rgba.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                               MemoryKind::upload, "pixels for a window"));
+    std::memcpy(buffer.mapped, rgba.data(), rgba.size());
+    return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+        const ImageUse fresh{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
+        const ImageUse target{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                              VK_ACCESS_2_TRANSFER_WRITE_BIT};
+        const ImageUse written{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                               VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+        image_barrier(commands, pixels_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, fresh, target);
+        VkBufferImageCopy copy{};
+        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        copy.imageExtent = {extent.width, extent.height, 1};
+        vkCmdCopyBufferToImage(commands, buffer.handle.get(), pixels_.handle.get(), target.layout, 1, &copy);
+        image_barrier(commands, pixels_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, target, written);
+    });
+}
+
+Result<bool> Window::show_pixels(std::span<const std::uint8_t> rgba, VkExtent2D extent) {
+    assert(rgba.size() == std::size_t{4} * extent.width * extent.height);
+    ORO_CHECK(take_pixels(rgba, extent));
+    return show(pixels_);
 }
 
 Result<bool> Window::show(const Image& picture) {

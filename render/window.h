@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,11 +38,12 @@ struct WindowInput {
     // Centre of the pixel under the cursor when the right mouse button went down, from the top left corner.
     std::optional<glm::dvec2> picked_px;
     std::string typed;  // characters, UTF-8
-    bool enter{false};
+    int enters{};       // how often Enter was pressed
     bool backspace{false};
     bool escape{false};
     bool take_picture{false};  // P was pressed
     bool go_to{false};         // G was pressed
+    bool exposed{false};       // what the window shows was lost: it is to be shown again
     bool closed{false};
     double elapsed_s{};  // since the last poll
 
@@ -64,6 +66,9 @@ class Window {
     // Shows a picture that is in GENERAL layout with its writes done. Returns false when the window changed
     // its size meanwhile.
     Result<bool> show(const Image& picture);
+    // The same for pixels from the host: rows of four bytes each, RGBA, sRGB. They fill the window, whatever
+    // their number is beside its own.
+    Result<bool> show_pixels(std::span<const std::uint8_t> rgba, VkExtent2D extent);
     void set_title(const std::string& title);
     // Size of what is shown, in pixels; 0 x 0 while minimised.
     [[nodiscard]] VkExtent2D extent() const;
@@ -71,6 +76,7 @@ class Window {
   private:
     explicit Window(const Gpu& gpu) : gpu_(&gpu) {}
     Result<void> create_surface();
+    Result<void> take_pixels(std::span<const std::uint8_t> rgba, VkExtent2D extent);
     Result<void> create_swapchain();
     void destroy_swapchain();
     // What presenting gave: success, suboptimal or out of date.
@@ -86,6 +92,7 @@ class Window {
     Commands commands_;
     OwnedSemaphore acquired_;
     std::vector<OwnedSemaphore> drawn_;  // one for each image: presenting may still wait for the last one
+    Image pixels_;                       // of show_pixels()
     WindowInput input_;
     glm::dvec2 cursor_{0.0};
     bool dragging_{false};

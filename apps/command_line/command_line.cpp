@@ -98,6 +98,8 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
     add_view_options(command, options.view);
     command.get_option("--at")->description(
         "Where the eye is: latitude,longitude as in 46.57,7.99, or in another way that shot takes.");
+    command.get_option("--above")->description(
+        "Height of the eye over the ground there (default 2). Needs --at. Not with --altitude.");
     command.get_option("--air")->description(
         "standard (default): air that bends light less the higher the eye is, by 0.13 at sea level, 0.091 at "
         "3,000 m and nothing from space. Not with --refraction.");
@@ -250,6 +252,7 @@ void add_sight(CLI::App& app, SightOptions& options) {
     line.number("--altitude", options.altitude_m, "METRES",
                 "Height of the eye above sea level instead. Not with --above.")
         .excludes(&above);
+    add_on_summit(line, options.on_summit, "the eye stands", "--from");
     line.number("--target", options.target_m, "METRES",
                 "Height of what is looked at over the ground at --to (default 0: the ground itself).");
     add_region_options(command, options.region);
@@ -299,6 +302,7 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options) {
     shed.number("--altitude", options.altitude_m, "METRES",
                 "Height of observers above sea level instead. Not with --above.")
         .excludes(&above);
+    add_on_summit(shed, options.on_summit, "each observer stands", "its --at");
     shed.number("--target", options.target_m, "METRES",
                 "Height of what is looked at over the ground of each post (default 0: the ground itself).");
     shed.number("--radius", options.radius_km, "KM", "How far to look, 0.01 to 1000 (default 20).");

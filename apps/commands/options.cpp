@@ -12,6 +12,15 @@
 #include "render/device/raster_request.h"
 
 namespace oro {
+
+void add_on_summit(OptionGroup& group, bool& on_summit, const std::string& who_stands,
+                   const std::string& place_option) {
+    group.flag("--on-summit", on_summit,
+               "Published places of summits lie beside those of the data: with this " + who_stands +
+                   " on the highest post at most two posts from " + place_option +
+                   ". How far that is, is told.");
+}
+
 namespace {
 
 // "0.05 to 120"
@@ -25,28 +34,33 @@ void add_eye_options(CLI::App& command, ViewOptions& options) {
     OptionGroup eye(command, "The eye");
     eye.option(
         "--at", options.at, "PLACE",
-        "Where the eye is: latitude,longitude as in 46.57,7.99; or degrees, minutes and seconds, UTM, MGRS, "
-        "a geohash, geo:46.57,7.99 or a cell (N46E008). Default: where all the data can be seen.");
-    CLI::Option& above =
-        eye.number("--above", options.above_m, "METRES",
-                   "Height of the eye over the ground there (default 2). Needs --at. Not with --altitude.");
+        "The place to look at, in the middle of the picture: latitude,longitude as in 46.57,7.99; or "
+        "degrees, "
+        "minutes and seconds, UTM, MGRS, a geohash, geo:46.57,7.99; all of a cell (N46E008). With --above, "
+        "--altitude, --on-summit or --look-at: where the eye is. Default: all the data.");
+    CLI::Option& above = eye.number(
+        "--above", options.above_m, "METRES",
+        "Stand at --at: height of the eye over the ground there (2 with --look-at or --on-summit). Needs "
+        "--at. Not with --altitude.");
     eye.number("--altitude", options.altitude_m, "METRES",
                "Height of the eye above sea level instead. Needs --at. Not with --above.")
         .excludes(&above);
+    add_on_summit(eye, options.on_summit, "the eye stands", "--at");
     eye.number("--heading", options.heading_deg, "DEGREES",
                "Where the eye looks, clockwise from true north, " + span(view_limits::heading_deg) +
                    ": 90 is east (default 0).");
     eye.number("--pitch", options.pitch_deg, "DEGREES",
                "How far up or down it looks: 0 is level, -90 straight down, 90 straight up. Default: 0; "
-               "without --at, down to the data.");
+               "down to a place that it looks at, or to the data.");
     eye.number("--roll", options.roll_deg, "DEGREES",
                "Tilt of the eye, " + span(view_limits::roll_deg) +
                    ": above 0 its right side goes down (default 0).");
-    eye.option("--look-at", options.look_at, "PLACE",
-               "Look at this place on the ground. Needs --at. Not with --heading or --pitch.");
+    eye.option(
+        "--look-at", options.look_at, "PLACE",
+        "Stand at --at and look at this place on the ground. Needs --at. Not with --heading or --pitch.");
     eye.number("--fov", options.vertical_fov_deg, "DEGREES",
                "Angle of view from the bottom of the picture to its top, " + span(view_limits::fov_deg) +
-                   " (default 45; without --at 30).");
+                   " (default 45; of a cell or all the data 30).");
     eye.option(
         "--size", options.size, "WIDTHxHEIGHT",
         "Size of the picture in pixels, each side " + span(view_limits::side_px) + " (default 1280x720).");
@@ -279,6 +293,7 @@ void add_place_options(CLI::App& command, ViewOptions& options) {
     eye.number("--altitude", options.altitude_m, "METRES",
                "Height of the eye above sea level instead. Needs elevation data. Not with --above.")
         .excludes(&above);
+    add_on_summit(eye, options.on_summit, "the eye stands", "--at");
     OptionGroup detail(command, "Detail and models");
     add_air_options(detail, options, "0 is not at all, 0.13 is usual by day (default: --air standard)");
 }

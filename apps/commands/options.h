@@ -11,6 +11,8 @@ class App;
 
 namespace oro {
 
+class OptionGroup;
+
 // Which terrain.
 struct RegionOptions {
     std::vector<std::string> paths;
@@ -46,6 +48,8 @@ struct ViewOptions {
     std::optional<std::string> show;   // visible, levels, meshlets, triangles, overdraw, clusters, groups
     bool legend{false};                // a strip below the picture
     bool takes_maps{false};            // not an option: whether a view that is a map may be opened
+    bool on_summit{false};             // the eye stands on the highest post near --at
+    bool stands_at_place{false};       // not an option: whether --at alone is where the eye stands
     std::optional<double> exaggeration;
     std::optional<int> samples;
     std::optional<std::string> style;
@@ -159,6 +163,7 @@ struct SightOptions {
     std::optional<double> above_m;
     std::optional<double> altitude_m;
     std::optional<double> target_m;
+    bool on_summit{false};  // the eye stands on the highest post near --from
     bool json{false};
     bool quiet{false};
 };
@@ -183,6 +188,7 @@ struct ViewshedOptions {
     std::optional<double> altitude_m;
     std::optional<double> target_m;
     std::optional<double> radius_km;
+    bool on_summit{false};  // each observer stands on the highest post near its place
     std::string out;
     bool overwrite{false};
     bool json{false};
@@ -240,6 +246,9 @@ void add_region_options(CLI::App& command, RegionOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
 // A place to stand at and the air around it, without a direction to look in.
 void add_place_options(CLI::App& command, ViewOptions& options);
+// That somebody stands on the highest post near a place. who_stands: "the eye stands"; place_option: "--at".
+void add_on_summit(OptionGroup& group, bool& on_summit, const std::string& who_stands,
+                   const std::string& place_option);
 // Air alone, for commands without a view.
 void add_air_options(CLI::App& command, AirOptions& options);
 // How high ground may be where there are no data, above sea level. It decides nothing that is drawn, and so

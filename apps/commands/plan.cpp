@@ -8,11 +8,13 @@
 #include "apps/commands/plan_text.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/eye/asked_summit.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/report/resampling_words.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view_changes.h"
 #include "core/base/parallel.h"
@@ -175,6 +177,8 @@ Result<void> run_plan(const PlanOptions& options) {
     bar.clear();
     say_changes(view, options.quiet);
     say_notes(region, options.quiet);
+    ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));
+    say_summit(summit, options.quiet);
     for (const Region* const grid : all_grids(region))
         if (const std::string sentence = resampling_sentence(*grid); !sentence.empty())
             say(options.quiet, "note: " + sentence);

@@ -7,6 +7,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sun_text.h"
+#include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/light/sun.h"
 #include "apps/report/json_text.h"
@@ -92,6 +93,7 @@ double data_reach_m(const PostGrid& grid, const Geodetic& place, double azimuth_
 // Over the terrain; the eye is where the options put it.
 Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     ViewOptions view_options = options.view;
+    view_options.stands_at_place = true;
     if (!view_options.refraction_k && !view_options.air) view_options.air = "standard";
     ProgressBar bar(options.quiet);
     View view;
@@ -114,6 +116,7 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     say_notes(region, options.quiet);
     report.notes = all_notes(region);
     report.place = eye;
+    ORO_TRY(report.moved, asked_summit(view_options, region, view.exaggeration));
     report.H_m = eye.h_m - N_m;
     if (const auto ground = truth->ground().h_m(eye.lat_deg, eye.lon_deg))
         report.above_ground_m = eye.h_m - *ground;
@@ -127,6 +130,7 @@ Result<void> leave_terrain_out(const SunOptions& options) {
     const RegionOptions& region = options.region;
     for (const auto& [option, is_given] : {std::pair{"--above", view.above_m.has_value()},
                                            {"--altitude", view.altitude_m.has_value()},
+                                           {"--on-summit", view.on_summit},
                                            {"--refraction", view.refraction_k.has_value()},
                                            {"--air", view.air.has_value()},
                                            {"--bbox", !region.bbox.empty()},

@@ -5,6 +5,7 @@
 
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
 
 namespace oro {
@@ -78,6 +79,7 @@ std::string place_text(const SunReport& report) {
         std::snprintf(text, sizeof text, ", %.0f m above the ground", *report.above_ground_m);
         line += text;
     }
+    if (report.moved) line += "\nSummit: " + summit_words("the eye stands", *report.moved);
     return line + "\n";
 }
 
@@ -140,6 +142,7 @@ ordered_json sun_json(const SunReport& report) {
     if (report.H_m) place["H_m"] = *report.H_m;
     if (report.above_ground_m) place["above_ground_m"] = *report.above_ground_m;
     json["date"] = report.date;
+    if (report.moved) json["on_summit"] = summit_json(*report.moved);
     json["from"] = time_there(report, report.from_utc_s);
     json["from_utc_s"] = report.from_utc_s;
     json["light_from"] = time_there(report, report.light_from_utc_s);

@@ -9,6 +9,7 @@
 
 #include "core/earth/world_model.h"
 #include "core/light/sun_position.h"
+#include "core/terrain/summit.h"
 
 namespace oro {
 
@@ -28,6 +29,7 @@ struct SunReport {
     Geodetic place;                        // h is 0 where there is no terrain
     std::optional<double> H_m;             // of the eye, and so are the next two: with terrain
     std::optional<double> above_ground_m;  // nothing where there is no ground below
+    std::optional<MovedToSummit> moved;    // of an eye that was asked to stand on a summit
     std::optional<Air> air;
     std::string date;           // "2026-06-21", there
     std::int64_t from_utc_s{};  // the day that was asked for: its midnight

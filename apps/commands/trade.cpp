@@ -12,10 +12,12 @@
 #include "apps/commands/commands.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/eye/asked_summit.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
+#include "apps/report/summit_words.h"
 #include "apps/trade/trade_measurement.h"
 #include "apps/trade/trade_report.h"
 #include "apps/trade/trade_settings.h"
@@ -153,6 +155,13 @@ class MadeFolder {
     bool was_there_{};
 };
 
+Result<void> spare_inputs_of(const TradeOptions& options, const std::vector<std::string>& written,
+                             const View& view, const Region& region) {
+    std::vector<FilesToSpare> inputs{files_of_picture(view, region)};
+    if (!options.view_file.empty()) inputs.push_back(files_of_view(options.view_file));
+    return spare_inputs(written, inputs);
+}
+
 }  // namespace
 
 Result<void> run_trade(const TradeOptions& options) {
@@ -170,9 +179,9 @@ Result<void> run_trade(const TradeOptions& options) {
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     say_changes(view, options.quiet);
     say_notes(region, options.quiet);
-    std::vector<FilesToSpare> inputs{files_of_picture(view, region)};
-    if (!options.view_file.empty()) inputs.push_back(files_of_view(options.view_file));
-    ORO_CHECK(spare_inputs({csv, html}, inputs));
+    ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));
+    say_summit(summit, options.quiet);
+    ORO_CHECK(spare_inputs_of(options, {csv, html}, view, region));
     if (!view.has_geoid)
         return refused("--view", options.view_file,
                        "was drawn with --geoid none; trade needs one that was not");

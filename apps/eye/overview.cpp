@@ -3,98 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <glm/glm.hpp>
 
 #include "apps/command_line/refusals.h"
+#include "apps/eye/ground_points.h"
 #include "apps/view/view_limits.h"
-#include "core/earth/framing.h"
+#include "core/earth/place_framing.h"
 #include "core/terrain/drawn_heights.h"
+#include "geo/together/cut_regions.h"
 
 namespace oro {
-namespace {
 
-// Posts all over the drawn surface, at most some 64 x 64 of them.
-std::vector<Ecef> inner_points(const HeightField& field, double exaggeration) {
-    std::vector<Ecef> points;
-    const int row_step = std::max(1, field.grid.rows() / 64),
-              column_step = std::max(1, field.grid.columns() / 64);
-    for (int row = 0; row < field.grid.rows(); row += row_step) {
-        for (int column = 0; column < field.grid.columns(); column += column_step) {
-            if (!is_void(field.H_at_post_m(row, column)))
-                points.push_back(post_ecef(field, row, column, exaggeration));
-        }
-    }
-    return points;
-}
-
-// The first post with data of every row and column (of every few where they are many), from both of its ends.
-void add_rim_points(const HeightField& field, double exaggeration, std::vector<Ecef>& points) {
-    const auto add_ends = [&](int lines, int posts, auto post_of) {
-        const int step = std::max(1, lines / 1024);
-        for (int line = 0; line < lines;
-             line = line + 1 == lines ? lines : std::min(line + step, lines - 1)) {
-            const auto add_first = [&](int from, int towards) {
-                for (int i = from; i >= 0 && i < posts; i += towards) {
-                    const auto [row, column] = post_of(line, i);
-                    if (is_void(field.H_at_post_m(row, column))) continue;
-                    points.push_back(post_ecef(field, row, column, exaggeration));
-                    return;
-                }
-            };
-            add_first(0, 1);
-            add_first(posts - 1, -1);
-        }
-    };
-    add_ends(field.grid.rows(), field.grid.columns(), [](int row, int column) {
-        return std::pair{row, column};
-    });
-    add_ends(field.grid.columns(), field.grid.rows(), [](int column, int row) {
-        return std::pair{row, column};
-    });
-}
-
-struct Middle {
-    Geodetic place;
-    double radius_m;  // of a sphere around the mean of all points that holds them
-};
-
-Middle middle_of(const std::vector<Ecef>& points) {
-    glm::dvec3 mean(0.0);
-    for (const Ecef& point : points) mean += point.m / static_cast<double>(points.size());
-    double radius_m = 0.0;
-    for (const Ecef& point : points) radius_m = std::max(radius_m, glm::length(point.m - mean));
-    // Of a region all around the Earth the middle is the Earth's.
-    return {glm::length(mean) > 1e6 ? geodetic_from_ecef({mean}) : Geodetic{0.0, 0.0, 0.0}, radius_m};
-}
-
-// How far down an overview looks: as a guide does from a summit, and steeper the more the Earth is curved,
-// which would hide the far side and put it behind more air.
-double down_deg(double radius_m) {
+double overview_pitch_deg(double radius_m) {
     constexpr double small_m = 1e5, large_m = 1.5e6, oblique_deg = 40.0, steep_deg = 89.9;
     const double share = std::clamp((radius_m - small_m) / (large_m - small_m), 0.0, 1.0);
-    return oblique_deg + (steep_deg - oblique_deg) * share;
+    return -(oblique_deg + (steep_deg - oblique_deg) * share);
 }
 
-// Where the eye stands decides how an oblique picture is turned for its horizon to be level, and the other
-// way round; a picture from far above has no horizon, and is turned by its middle.
-void frame(Camera& camera, const Middle& middle, double heading_deg, double pitch_deg,
-           const std::vector<Ecef>& points) {
-    const double roll_deg = camera.attitude.roll_deg;
-    camera.eye = middle.place;
-    camera.attitude = {heading_deg, pitch_deg, roll_deg};
-    glm::dmat3 axes = glm::transpose(camera.view_from_ecef());
-    const bool oblique = std::abs(pitch_deg) < 75.0;
-    for (int i = 0; i < (oblique ? 8 : 1); ++i) {
-        camera.eye = geodetic_from_ecef(eye_that_frames(camera, glm::transpose(axes), points, overview_margin,
-                                                        std::max(1.0, 0.1 * middle.radius_m)));
-        camera.attitude = oblique ? attitude_of_direction(camera.eye, -axes[2])
-                                  : attitude_of_axes(camera.eye, -axes[2], axes[0]);
-        if (!oblique) break;
-        camera.attitude.roll_deg = roll_deg;
-        axes = glm::transpose(camera.view_from_ecef());
-    }
-}
+namespace {
 
 // Whether a camera's picture shows a point.
 bool is_in_frame(const Camera& camera, const glm::dmat3& view_from_ecef, const glm::dvec3& eye_m,
@@ -126,30 +52,20 @@ bool is_whole_in_view(const View& view, const Region& region) {
         return std::ranges::all_of(
             points, [&](const Ecef& point) { return is_in_frame(camera, view_from_ecef, eye_m, point); });
     };
-    std::vector<const Region*> grids{&region};
-    for (const Region& other : region.beside) grids.push_back(&other);
-    for (const Region* const grid : grids)
+    for (const Region* const grid : all_grids(region))
         if (!shows(corner_points(grid->field, view.exaggeration))) return false;
-    std::vector<Ecef> rim;
-    for (const Region* const grid : grids) add_rim_points(grid->field, view.exaggeration, rim);
+    const std::vector<Ecef> rim = rim_points(region, view.exaggeration);
     return !rim.empty() && shows(rim);
 }
 
 Result<void> see_whole_region(View& view, const ViewOptions& options, const Region& region) {
-    std::vector<Ecef> points = inner_points(region.field, view.exaggeration);
-    std::vector<Ecef> rim;
-    add_rim_points(region.field, view.exaggeration, rim);
-    for (const Region& other : region.beside) {
-        const std::vector<Ecef> more = inner_points(other.field, view.exaggeration);
-        points.insert(points.end(), more.begin(), more.end());
-        add_rim_points(other.field, view.exaggeration, rim);
-    }
-    if (rim.empty()) return Error{ErrorKind::no_data, "region", "every post is void"};
-    const Middle middle = middle_of(points.empty() ? rim : points);
-    points.insert(points.end(), rim.begin(), rim.end());
+    const GroundPoints ground = ground_points(region, view.exaggeration);
+    if (ground.all.empty()) return Error{ErrorKind::no_data, "region", "every post is void"};
     if (!options.vertical_fov_deg) view.camera.vertical_fov_deg = overview_fov_deg;
-    frame(view.camera, middle, options.heading_deg.value_or(0.0),
-          options.pitch_deg.value_or(-down_deg(middle.radius_m)), points);
+    view.camera = camera_on_points(
+        view.camera, ground.middle, ground.radius_m,
+        {options.heading_deg.value_or(0.0), options.pitch_deg.value_or(overview_pitch_deg(ground.radius_m))},
+        ground.all, overview_margin);
     const double h_m = view.camera.eye.h_m;
     if (view_limits::eye_h_m.hold(h_m)) return {};
     char text[120];

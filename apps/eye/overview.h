@@ -12,6 +12,11 @@ inline constexpr double overview_margin = 0.05;
 // so that the far side of the region is not seen through much more air than the near one.
 inline constexpr double overview_fov_deg = 30.0;
 
+// The pitch of an overview of ground within radius_m of its middle: it looks down as a guide does from a
+// summit, and the steeper the more the Earth is curved, which would hide the far side and put it behind more
+// air.
+double overview_pitch_deg(double radius_m);
+
 // Puts the eye of a view so that all of the region's surface (its heights exaggerated as the view has it) is
 // in the picture, with overview_margin around it, touched on two opposite sides: obliquely from the south,
 // the steeper the larger the region; --heading, --pitch and --roll are of the line of sight in the region's

@@ -7,6 +7,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "core/terrain/ground.h"
+#include "geo/places/geodesic.h"
 
 namespace oro {
 
@@ -100,6 +101,64 @@ Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, 
                          " or another place" + where_data_are(field.grid, place.lat_deg, place.lon_deg)};
     return Geodetic{place.lat_deg, place.lon_deg,
                     *ground + standing.above_m.value_or(standing.usual_above_m)};
+}
+
+namespace {
+
+// The highest post near a place, on the ground.
+MovedToSummit moved_to_summit(const Place& place, const HeightField& field, double exaggeration) {
+    MovedToSummit moved;
+    const std::optional<double> ground = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
+    constexpr double below_all_m = -1.0e9;
+    const Geodetic from{place.lat_deg, place.lon_deg, ground.value_or(below_all_m)};
+    const auto highest =
+        highest_post_near(field.grid, from, [&](int row, int column) -> std::optional<double> {
+            if (is_void(field.H_at_post_m(row, column))) return std::nullopt;
+            return static_cast<double>(field.H_at_post_m(row, column)) * exaggeration +
+                   field.N_at_post_m(row, column);
+        });
+    moved.from = moved.to = from;
+    if (highest) {
+        moved.to = *highest;
+        // As the ground there has it, to the last bit.
+        if (const auto there = ground_h_m(field, highest->lat_deg, highest->lon_deg, exaggeration))
+            moved.to.h_m = *there;
+    }
+    if (!ground) moved.from.h_m = moved.to.h_m;
+    const auto H_m = [&](const Geodetic& at) {
+        return (at.h_m - field.undulation.at_m(at.lat_deg, at.lon_deg)) / exaggeration;
+    };
+    moved.H_m = H_m(moved.to);
+    moved.higher_m = ground ? moved.H_m - H_m(moved.from) : 0.0;
+    moved.moved_m =
+        geodesic_between(moved.from.lat_deg, moved.from.lon_deg, moved.to.lat_deg, moved.to.lon_deg)
+            .distance_m;
+    return moved;
+}
+
+}  // namespace
+
+Result<Standpoint> stand(const Standing& standing, const HeightField& field, double exaggeration) {
+    if (!standing.on_summit) {
+        ORO_TRY(const Geodetic eye, standpoint(standing, field, exaggeration));
+        return Standpoint{eye, {}};
+    }
+    ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
+    if (place.height_m)
+        return refused(standing.place_option, standing.place,
+                       "gives a height of its own: leave --on-summit out");
+    const MovedToSummit moved = moved_to_summit(place, field, exaggeration);
+    ORO_CHECK(field.health());
+    if (moved.moved_m == 0.0) {
+        ORO_TRY(const Geodetic eye, standpoint(standing, field, exaggeration));
+        return Standpoint{eye, moved};
+    }
+    Geodetic eye = moved.to;
+    if (standing.altitude_m)
+        eye.h_m = *standing.altitude_m + field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    else
+        eye.h_m += standing.above_m.value_or(standing.usual_above_m);
+    return Standpoint{eye, moved};
 }
 
 }  // namespace oro

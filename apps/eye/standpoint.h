@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 #include "core/earth/ellipsoid.h"
 #include "core/terrain/post_grid.h"
+#include "core/terrain/summit.h"
 #include "geo/places/place.h"
 #include "geo/region/region.h"
 
@@ -21,10 +22,20 @@ struct Standing {
     double usual_above_m;                      // over the ground, where nothing is said
     std::optional<double> altitude_m;          // above sea level instead (--altitude)
     const char* way_out{"--altitude METRES"};  // what to give where there is no ground
+    bool on_summit{};                          // on the highest post nearby, and not on the very place
 };
 
-// Where that is. A geo: place with a height has its own, above the ellipsoid. Errors: text that is no place,
-// two heights (usage); no ground to stand on (no_data), which names the data's box.
+struct Standpoint {
+    Geodetic eye;
+    std::optional<MovedToSummit> moved;  // of who asks for the summit
+};
+
+// Where an eye stands, moved to the summit where that is asked for. Errors: those of standpoint(); a place
+// with a height of its own that is to be moved (usage).
+Result<Standpoint> stand(const Standing& standing, const HeightField& field, double exaggeration = 1.0);
+
+// Where that is, on the very place. A geo: place with a height has its own, above the ellipsoid. Errors: text
+// that is no place, two heights (usage); no ground to stand on (no_data), which names the data's box.
 Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, double exaggeration = 1.0);
 
 // Of regions that lie apart, the one that has ground at a place; the first where none has.

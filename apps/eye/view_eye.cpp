@@ -1,9 +1,11 @@
-// Where the eye of a view is: on a place, or so that the whole region can be seen.
+// Where the eye of a view is: on a place, or so that a place or the whole region can be seen.
 #include <cmath>
 #include <cstdio>
 
 #include "apps/command_line/refusals.h"
+#include "apps/eye/asked_summit.h"
 #include "apps/eye/overview.h"
+#include "apps/eye/place_camera.h"
 #include "apps/eye/standpoint.h"
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
@@ -12,11 +14,34 @@
 namespace oro {
 namespace {
 
-Result<void> stand_at(View& view, const ViewOptions& options, const Region& region) {
-    const Standing standing{"--at", *options.at, "--above", options.above_m, 2.0, options.altitude_m};
-    ORO_TRY(const Place place, place_at("--at", *options.at));
-    const Region& there = region_at(region, place.lat_deg, place.lon_deg);
-    ORO_TRY(view.camera.eye, standpoint(standing, there.field, view.exaggeration));
+Result<Standpoint> standpoint_of(const ViewOptions& options, const Place& place, const Region& region,
+                                 double exaggeration) {
+    Standing standing{"--at", *options.at, "--above", options.above_m, 2.0, options.altitude_m};
+    standing.on_summit = options.on_summit;
+    return stand(standing, region_at(region, place.lat_deg, place.lon_deg).field, exaggeration);
+}
+
+Result<void> stand_at(View& view, const ViewOptions& options, const Place& place, const Region& region) {
+    ORO_TRY(const Standpoint stood, standpoint_of(options, place, region, view.exaggeration));
+    view.camera.eye = stood.eye;
+    return {};
+}
+
+// Whether somebody says how high over the place, or towards what, the eye is: it is then there.
+bool stands(const ViewOptions& options, const Place& place) {
+    return options.stands_at_place || options.above_m || options.altitude_m || options.look_at ||
+           options.on_summit || place.height_m;
+}
+
+Result<void> show_place(View& view, const ViewOptions& options, const Place& place, const Region& region) {
+    AskedLine asked;
+    if (options.heading_deg) asked.heading_deg = view.camera.attitude.heading_deg;
+    if (options.pitch_deg) asked.pitch_deg = view.camera.attitude.pitch_deg;
+    if (is_framed(place, region) && !options.vertical_fov_deg)
+        view.camera.vertical_fov_deg = overview_fov_deg;
+    ORO_TRY(view.camera,
+            camera_showing(view.camera, place, asked, region, view.exaggeration,
+                           "--at " + (place.cell ? *options.at : place_name(place.lat_deg, place.lon_deg))));
     return {};
 }
 
@@ -48,10 +73,20 @@ Result<void> check_eye(const ViewOptions& options, const Geodetic& eye) {
 
 Result<void> place_eye(View& view, const ViewOptions& options, const Region& region) {
     if (!options.at) return see_whole_region(view, options, region);
-    ORO_CHECK(stand_at(view, options, region));
+    ORO_TRY(const Place place, place_at("--at", *options.at));
+    ORO_CHECK(stands(options, place) ? stand_at(view, options, place, region)
+                                     : show_place(view, options, place, region));
     ORO_CHECK(check_eye(options, view.camera.eye));
     if (options.look_at) ORO_CHECK(turn_to(view, *options.look_at, region));
     return {};
+}
+
+Result<std::optional<MovedToSummit>> asked_summit(const ViewOptions& options, const Region& region,
+                                                  double exaggeration) {
+    if (!options.on_summit || !options.at) return std::optional<MovedToSummit>();
+    ORO_TRY(const Place place, place_at("--at", *options.at));
+    ORO_TRY(const Standpoint stood, standpoint_of(options, place, region, exaggeration));
+    return stood.moved;
 }
 
 Result<std::string> nothing_in_view(const View& view, const Region& region, const std::string& view_file) {

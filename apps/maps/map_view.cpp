@@ -32,6 +32,7 @@ Result<void> check_map_options(const ShotOptions& options) {
     ORO_CHECK(refuse({{"--at", view.at.has_value()},
                       {"--above", view.above_m.has_value()},
                       {"--altitude", view.altitude_m.has_value()},
+                      {"--on-summit", view.on_summit},
                       {"--heading", view.heading_deg.has_value()},
                       {"--pitch", view.pitch_deg.has_value()},
                       {"--roll", view.roll_deg.has_value()},

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/base/parallel.h"
+#include "core/terrain/summit.h"
 
 namespace oro {
 namespace {
@@ -90,23 +91,8 @@ bool PointsInView::in_picture(const SeenPoint& point) const {
 
 std::optional<Geodetic> PointsInView::summit_near(const Geodetic& place) const {
     const TrueSurface& surface = ground_.surface(ground_.grid_at(place.lat_deg, place.lon_deg).value_or(0));
-    const PostGrid& grid = surface.field().grid;
-    const auto [row, column] = grid.post_at(place.lat_deg, place.lon_deg);
-    std::optional<Geodetic> highest;
-    for (int down = -posts_to_summit; down <= posts_to_summit; ++down) {
-        for (int right = -posts_to_summit; right <= posts_to_summit; ++right) {
-            const int r = static_cast<int>(std::lround(row)) + down,
-                      c = static_cast<int>(std::lround(column)) + right;
-            if (r < 0 || c < 0 || r >= grid.rows() || c >= grid.columns()) continue;
-            const auto h_m = surface.post_h_m(r, c);
-            if (h_m && *h_m > (highest ? highest->h_m : place.h_m)) {
-                const PostPlace at =
-                    grid.net ? grid.net->place_at(r, c) : PostPlace{grid.lat.at_deg(r), grid.lon.at_deg(c)};
-                highest = Geodetic{at.lat_deg, normalised_lon_deg(at.lon_deg), *h_m};
-            }
-        }
-    }
-    return highest;
+    return highest_post_near(surface.field().grid, place,
+                             [&](int row, int column) { return surface.post_h_m(row, column); });
 }
 
 bool PointsInView::sees_or_moves(SeenPoint& point) const {

@@ -18,9 +18,6 @@ namespace oro {
 // A point is seen where something so high on it is: a person, or the cross of a summit. It lets a point that
 // lies some metres behind the highest post of its summit be named.
 inline constexpr double seen_above_m = 2.0;
-// Mapped summits stand beside those of a grid of posts, and then behind them. A point that is hidden is moved
-// to the highest post so few posts from it, if that is higher than the ground below the point and is seen.
-inline constexpr int posts_to_summit = 2;
 // A point's own height is where it is placed when it is at most so far above the ground; else the ground is.
 inline constexpr double highest_above_ground_m = 300.0;
 // The height that a point tells is what is written of it when it is so near the ground's there, or nearer
@@ -75,7 +72,8 @@ class PointsInView {
     [[nodiscard]] std::optional<SeenPoint> placed(const NamedPoint& point, PointCounts& counts) const;
     void put_at(const Geodetic& place, SeenPoint& point) const;
     [[nodiscard]] bool in_picture(const SeenPoint& point) const;
-    // Whether a point is seen, moved to its summit where it must be.
+    // Whether a point is seen, moved to its summit (core/terrain/summit.h) where it must be: mapped summits
+    // stand behind those of a grid of posts. The summit then is seen, too.
     [[nodiscard]] bool sees_or_moves(SeenPoint& point) const;
     [[nodiscard]] std::optional<Geodetic> summit_near(const Geodetic& place) const;
 

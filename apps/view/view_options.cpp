@@ -266,9 +266,10 @@ Result<View> view_without_eye(const ViewOptions& options, RegionRequest region) 
         return refused("--look-at", "", either_words("--look-at", "--heading and --pitch"));
     if (options.altitude_m) ORO_CHECK(within("--altitude", *options.altitude_m, view_limits::altitude_m));
     if (options.above_m) ORO_CHECK(within("--above", *options.above_m, view_limits::above_m));
-    if (!options.at && (options.above_m || options.altitude_m || options.look_at))
+    if (!options.at && (options.above_m || options.altitude_m || options.on_summit || options.look_at))
         return refused(options.above_m      ? "--above"
                        : options.altitude_m ? "--altitude"
+                       : options.on_summit  ? "--on-summit"
                                             : "--look-at",
                        "", "says nothing without --at PLACE");
     return view;
@@ -282,6 +283,7 @@ Result<void> change_view(View& view, const ViewOptions& options) {
                                            {"--pitch", options.pitch_deg.has_value()},
                                            {"--roll", options.roll_deg.has_value()},
                                            {"--fov", options.vertical_fov_deg.has_value()},
+                                           {"--on-summit", options.on_summit},
                                            {"--look-at", options.look_at.has_value()}}) {
         if (is_given) return refused(option, "", "not together with --view, which has an eye of its own");
     }

@@ -1,4 +1,5 @@
 // orograph view: a window to fly over a region.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -11,14 +12,18 @@
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/legend/legend.h"
 #include "apps/output/picture_file.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/style.h"
 #include "apps/view/view_changes.h"
+#include "apps/window/jump.h"
+#include "apps/window/loading_picture.h"
 #include "apps/window/picking.h"
 #include "apps/window/show_legend.h"
 #include "apps/window/steering.h"
@@ -27,7 +32,6 @@
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
-#include "core/terrain/ground.h"
 #include "core/truth/true_surface.h"
 #include "geo/places/place.h"
 
@@ -54,8 +58,16 @@ struct Viewer {
     bool is_missing{};                 // ... or of any
     std::unique_ptr<const RegionGround> ground{};  // made when it is first asked, for all questions after
     std::unique_ptr<FinerLevels> finer{};          // the levels that the view asks for, until they are here
+    std::unique_ptr<Scene> coming{};               // of them, until what a picture needs is on the GPU
+    Clock::time_point coming_since{};
     Clock::time_point started{};
-    bool is_shown{};            // once something is
+    bool is_shown{};          // once ground is, or a view that has none
+    bool is_whole{};          // once all detail is
+    bool is_exposed{};        // what the window shows was lost
+    bool waits_for_ground{};  // what is in view is not on the GPU yet
+    Clock::time_point waiting_since{};
+    VkExtent2D loading_px{};  // of the sheet that was shown meanwhile
+    Jumps jumps{};
     Clock::time_point moved{};  // when the eye last did
     bool follows_eye{};         // what is fitted to a view is that of an eye that moved, until it rests
     ShowLegend legend{};
@@ -93,31 +105,49 @@ std::string title_of(const Viewer& viewer) {
     char text[160];
     std::snprintf(text, sizeof text, "%.6f° %.6f°  H %.1f m  heading %.1f°", camera.eye.lat_deg,
                   camera.eye.lon_deg, camera.eye.h_m - N_m, camera.attitude.heading_deg);
+    // Done is what is shown, not what is measured: 100 % is never said.
     char coarse[60] = "";
-    if (viewer.finer)
+    if (viewer.waits_for_ground)
+        std::snprintf(coarse, sizeof coarse, "loading  |  ");
+    else if (viewer.finer && viewer.finer->share() < 0.99)
         std::snprintf(coarse, sizeof coarse, "coarse: finer detail is measured, %.0f %%  |  ",
-                      100.0 * viewer.finer->share());
+                      std::floor(100.0 * viewer.finer->share()));
+    else if (viewer.finer || viewer.coming)
+        std::snprintf(coarse, sizeof coarse, "coarse: finer detail comes  |  ");
     return coarse + (viewer.message.empty() ? "" : viewer.message + "  |  ") + text;
 }
 
-// Jumps to a place, as high over its ground as the eye was over the old one.
-void jump(Viewer& viewer) {
-    const auto place = parse_place(viewer.place_text);
-    viewer.asking_place = false;
-    if (!place.ok()) {
-        viewer.message = place.error().line();
-        say(false, viewer.message);
-        return;
-    }
-    Camera& camera = viewer.view.camera;
-    const double exaggeration = viewer.view.exaggeration;
-    const auto from = ground_h_m(field_below(viewer), camera.eye.lat_deg, camera.eye.lon_deg, exaggeration);
-    const HeightField& there = region_at(viewer.region, place->lat_deg, place->lon_deg).field;
-    const auto to = ground_h_m(there, place->lat_deg, place->lon_deg, exaggeration);
-    const double above_m = std::max(eye_clearance_m, camera.eye.h_m - from.value_or(0.0));
-    camera.eye = {place->lat_deg, place->lon_deg, to ? *to + above_m : std::max(camera.eye.h_m, above_m)};
+// The eye is elsewhere at once, and rests there.
+void be_at(Viewer& viewer, const Camera& camera, const std::string& message) {
+    viewer.view.camera = camera;
     viewer.follows_eye = false;
-    viewer.message = to ? "" : "no data there";
+    viewer.message = message;
+}
+
+void stay(Viewer& viewer, const Error& why) {
+    viewer.message = why.line();
+    say(false, viewer.message);
+}
+
+// Enter, once more after a jump.
+void stand(Viewer& viewer) {
+    const auto there = viewer.jumps.stand(viewer.view.camera, viewer.region, viewer.view.exaggeration);
+    if (!there.ok()) return stay(viewer, there.error());
+    if (*there) be_at(viewer, **there, "Backspace goes back");
+}
+
+void jump(Viewer& viewer) {
+    viewer.asking_place = false;
+    const auto place = parse_place(viewer.place_text);
+    if (!place.ok()) return stay(viewer, place.error());
+    const auto there = viewer.jumps.to(viewer.view.camera, *place, viewer.region, viewer.view.exaggeration);
+    if (!there.ok()) return stay(viewer, there.error());
+    be_at(viewer, *there,
+          place->height_m ? "Backspace goes back" : "Enter stands on it, Backspace goes back");
+}
+
+void go_back(Viewer& viewer) {
+    if (const auto there = viewer.jumps.back(viewer.view.camera)) be_at(viewer, *there, "");
 }
 
 // Typing a place: characters, backspace, enter, escape.
@@ -130,27 +160,61 @@ void ask_place(Viewer& viewer, const WindowInput& input) {
         if (!viewer.place_text.empty()) viewer.place_text.pop_back();
     }
     if (input.escape) viewer.asking_place = false;
-    if (input.enter) jump(viewer);
+    if (input.enters > 0) jump(viewer);
+    if (input.enters > 1) stand(viewer);
 }
 
-// Takes the measured levels in place of the coarse ones, and waits for them where they are not ready. The eye
-// stays: from its first frame on, the new scene has what a coarse picture needs.
-Result<void> take_finer_levels(Viewer& viewer) {
-    constexpr double first_tau_px = 4.0;
+// Whether what is shown is of every n-th post.
+bool is_coarse(const Viewer& viewer) {
+    return viewer.finer || viewer.coming;
+}
+
+// The measured levels become a scene that is not shown yet; waits for them where they are not ready.
+Result<void> begin_finer_scene(Viewer& viewer) {
     ORO_TRY(std::unique_ptr<RegionPages> pages, viewer.finer->wait());
     viewer.finer.reset();
     ORO_TRY(Scene scene,
             create_scene(viewer.gpu, std::move(pages), memory_of_pages(viewer.view, viewer.options.memory),
                          viewer.view.heights, asks_for_means(viewer.style.frame)));
     ORO_CHECK(lay_images(viewer.view, viewer.options.memory, viewer.gpu, scene, true));
-    const Camera& camera = viewer.view.camera;
-    scene.hold_for(viewer.style.frame);
-    ORO_CHECK(scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
-                                 std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
-    viewer.scene = std::make_unique<Scene>(std::move(scene));
+    viewer.coming = std::make_unique<Scene>(std::move(scene));
+    viewer.coming_since = Clock::now();
+    return {};
+}
+
+void show_finer_scene(Viewer& viewer) {
+    viewer.scene = std::move(viewer.coming);
     viewer.missing.clear();
     viewer.is_missing = false;
-    say_waited(viewer, "full detail");
+}
+
+// Whole pictures.
+Tile whole_of(const Camera& camera) {
+    return {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+}
+
+// What a coarse picture needs of the scene that comes: with that it takes the place of the one that is shown,
+// and the eye stays. Until then the window goes on. True once it has.
+Result<bool> bring_finer_scene(Viewer& viewer) {
+    constexpr double first_tau_px = 4.0, longest_s = 10.0;
+    Scene& scene = *viewer.coming;
+    const Camera& camera = viewer.view.camera;
+    scene.hold_for(viewer.style.frame);
+    ORO_TRY(const FramePlan plan, scene.plan(camera, whole_of(camera),
+                                             std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
+    // Where the GPU has no room for all of it, it never is whole.
+    if (!plan.is_settled() && seconds_since(viewer.coming_since) < longest_s) {
+        const Result<bool> advanced = scene.advance(plan.missing);
+        return advanced.ok() ? Result<bool>(false) : advanced;
+    }
+    show_finer_scene(viewer);
+    return true;
+}
+
+// All of that at once.
+Result<void> wait_for_finer_scene(Viewer& viewer) {
+    if (viewer.finer) ORO_CHECK(begin_finer_scene(viewer));
+    if (viewer.coming) show_finer_scene(viewer);
     return {};
 }
 
@@ -171,11 +235,11 @@ void follow_sun(Viewer& viewer) {
 
 Result<void> take_picture(Viewer& viewer) {
     follow_sun(viewer);
-    if (viewer.finer) {
+    if (is_coarse(viewer)) {
         // A picture is what its view says, and nothing coarser.
         viewer.message = "the picture waits for finer detail";
         show_title(viewer);
-        ORO_CHECK(take_finer_levels(viewer));
+        ORO_CHECK(wait_for_finer_scene(viewer));
     }
     viewer.view.time_utc_s = time_now_s();
     const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
@@ -207,9 +271,10 @@ Result<void> pick(Viewer& viewer, glm::dvec2 point_px) {
 // One turn of the loop: input, then a frame where something has changed. False when the user leaves.
 Result<bool> turn(Viewer& viewer, bool& changed) {
     const bool can_draw = viewer.window.extent().width > 0;  // not so while minimised
-    const double wait_s = changed && can_draw ? 0.0 : viewer.is_missing ? 0.005 : 0.05;
+    const double wait_s = changed && can_draw ? 0.0 : viewer.is_missing || viewer.coming ? 0.005 : 0.05;
     const WindowInput input = viewer.window.poll(wait_s);
     if (input.closed) return false;
+    viewer.is_exposed = viewer.is_exposed || input.exposed;
     if (viewer.asking_place) {
         ask_place(viewer, input);
         changed = changed || !viewer.asking_place;
@@ -224,6 +289,9 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
         after.typed = g == std::string::npos ? "" : input.typed.substr(g + 1);
         ask_place(viewer, after);
         changed = changed || !viewer.asking_place;
+    } else if (input.backspace || input.enters > 0) {
+        input.backspace ? go_back(viewer) : stand(viewer);
+        changed = true;
     } else {
         // What is clicked at is the picture that is shown, before the eye moves on.
         if (input.picked_px) ORO_CHECK(pick(viewer, *input.picked_px));
@@ -232,6 +300,7 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
             viewer.view.camera =
                 flown(viewer.view.camera, step, field_below(viewer), viewer.view.exaggeration);
             viewer.message.clear();
+            viewer.jumps.moved();
             viewer.moved = Clock::now();
             viewer.follows_eye = changed = true;
         }
@@ -257,57 +326,124 @@ bool comes_to_rest(Viewer& viewer) {
 
 // Over a frame that is whole, of an eye that rests. Finding it takes too long for an eye that moves.
 Result<void> write_over(Viewer& viewer, const FrameReport& drawn) {
-    const bool whole = !viewer.is_missing && drawn.images_settled && !viewer.finer;
+    const bool whole = !viewer.is_missing && drawn.images_settled && !is_coarse(viewer);
     if (viewer.follows_eye || !whole || !has_writing(viewer.view, viewer.style)) return {};
     ORO_TRY(const RegionGround* const ground, ground_of(viewer));
     return write_over_frame(viewer.gpu, *viewer.scene, viewer.view, ground->ground(), viewer.style,
                             viewer.path, viewer.renderer);
 }
 
+bool has_ground(const FramePlan& plan) {
+    return !plan.pages.empty() || std::ranges::any_of(plan.beside, has_ground);
+}
+
+// Whether ground is in view of which nothing is there yet. A grid beside others that have some is waited for
+// a little while: nothing says then that its ground is not void.
+bool lacks_ground(Viewer& viewer, const FramePlan& plan) {
+    constexpr double longest_s = 2.0;
+    const auto lacks = [](const FramePlan& one) { return one.pages_wanted > 0 && one.pages.empty(); };
+    if (!lacks(plan) && std::ranges::none_of(plan.beside, lacks)) return false;
+    if (!viewer.waits_for_ground) viewer.waiting_since = Clock::now();
+    return !has_ground(plan) || seconds_since(viewer.waiting_since) < longest_s;
+}
+
+// A sheet that says so, where no picture was shown before.
+Result<void> show_loading(Viewer& viewer) {
+    const VkExtent2D extent = viewer.window.extent();
+    const bool is_there =
+        extent.width == viewer.loading_px.width && extent.height == viewer.loading_px.height;
+    if (viewer.is_shown || (is_there && !viewer.is_exposed) || extent.width == 0) return {};
+    ORO_TRY(const std::vector<std::uint8_t> pixels,
+            loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));
+    ORO_TRY(const bool shown, viewer.window.show_pixels(pixels, extent));
+    if (shown) viewer.loading_px = extent;
+    viewer.is_exposed = !shown;
+    return {};
+}
+
+// The picture that was shown last, where a window over it has gone.
+Result<void> show_again(Viewer& viewer) {
+    if (!viewer.is_exposed || !viewer.is_shown) return {};
+    ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
+    viewer.is_exposed = !shown;
+    return {};
+}
+
+// A window's size is its camera's and its renderer's.
+Result<void> take_size(Viewer& viewer, const VkExtent2D& extent, bool& changed) {
+    if (extent.width == viewer.renderer.extent().width && extent.height == viewer.renderer.extent().height)
+        return {};
+    changed = true;
+    return viewer.renderer.resize(extent);
+}
+
+void say_what_is_shown(Viewer& viewer, bool whole) {
+    if (!viewer.is_shown) say_waited(viewer, whole ? "first picture" : "first picture, coarse,");
+    if (viewer.is_shown && whole && !viewer.is_whole) say_waited(viewer, "full detail");
+    viewer.is_shown = true;
+    viewer.is_whole = viewer.is_whole || whole;
+}
+
+// What a frame would be drawn from now, and what of it is missing.
+Result<FramePlan> plan_now(Viewer& viewer) {
+    const Camera& camera = viewer.view.camera;
+    viewer.scene->hold_for(viewer.style.frame);
+    ORO_TRY(FramePlan plan,
+            viewer.scene->plan(camera, whole_of(camera), viewer.view.tau_px, viewer.view.model));
+    viewer.missing = plan.missing;
+    viewer.is_missing = !plan.is_settled();
+    viewer.waits_for_ground = lacks_ground(viewer, plan);
+    if (viewer.is_shown || plan.wants_pages()) return plan;
+    // A view of another place: told where the title is read, and where messages are.
+    const auto nothing = nothing_in_view(viewer.view, viewer.region, viewer.options.view_file);
+    viewer.message = nothing.ok() ? *nothing : nothing.error().what;
+    say(viewer.options.quiet, "note: " + viewer.message);
+    show_title(viewer);
+    return plan;
+}
+
 // Draws with what is on the GPU; what is missing comes in the background and is drawn when it is there.
 Result<void> draw_frame(Viewer& viewer, bool& changed) {
     const VkExtent2D extent = viewer.window.extent();
-    Camera& camera = viewer.view.camera;
     if (extent.width == 0 || extent.height == 0) return {};
-    if (extent.width != viewer.renderer.extent().width || extent.height != viewer.renderer.extent().height) {
-        ORO_CHECK(viewer.renderer.resize(extent));
-        changed = true;
-    }
+    ORO_CHECK(take_size(viewer, extent, changed));
     if (viewer.is_missing) {
         ORO_TRY(const bool better, viewer.scene->advance(viewer.missing));
         changed = changed || better;
     }
     changed = comes_to_rest(viewer) || changed;
-    if (!changed) return {};
-    camera.width_px = static_cast<int>(extent.width);
-    camera.height_px = static_cast<int>(extent.height);
+    if (!changed) return viewer.is_shown ? show_again(viewer) : show_loading(viewer);
+    viewer.view.camera.width_px = static_cast<int>(extent.width);
+    viewer.view.camera.height_px = static_cast<int>(extent.height);
     follow_sun(viewer);
-    const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-    viewer.scene->hold_for(viewer.style.frame);
-    ORO_TRY(FramePlan plan, viewer.scene->plan(camera, tile, viewer.view.tau_px, viewer.view.model));
-    viewer.missing = plan.missing;
-    viewer.is_missing = !plan.is_settled();
-    if (!viewer.is_shown && !plan.wants_pages()) {
-        // A view of another place: told where the title is read, and where messages are.
-        const auto nothing = nothing_in_view(viewer.view, viewer.region, viewer.options.view_file);
-        viewer.message = nothing.ok() ? *nothing : nothing.error().what;
-        say(viewer.options.quiet, "note: " + viewer.message);
-        show_title(viewer);
+    ORO_TRY(FramePlan plan, plan_now(viewer));
+    if (viewer.waits_for_ground) {
+        // Asked again with the next page, or soon where some ground is there.
+        changed = has_ground(plan);
+        return show_loading(viewer);
     }
+    const bool is_settled = plan.is_settled();
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field,
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     ORO_TRY(const FrameReport drawn,
             viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
     viewer.scene->saw(drawn.sights);
     ORO_CHECK(write_over(viewer, drawn));
-    const int every = viewer.finer ? coarse_step(viewer.region.field) : 1;
+    const int every = is_coarse(viewer) ? coarse_step(viewer.region.field) : 1;
     ORO_CHECK(viewer.legend.lay_over(viewer.view, viewer.region, viewer.style, every, viewer.renderer));
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown || !drawn.images_settled;
-    if (shown && !viewer.is_shown) {
-        viewer.is_shown = true;
-        say_waited(viewer, viewer.finer ? "first picture, coarse," : "first picture");
-    }
+    viewer.is_exposed = viewer.is_exposed && !shown;
+    if (shown) say_what_is_shown(viewer, is_settled && drawn.images_settled && !is_coarse(viewer));
+    return {};
+}
+
+// Measured levels take the place of coarse ones once they are there.
+Result<void> refine(Viewer& viewer, bool& changed) {
+    if (viewer.finer && viewer.finer->ready()) ORO_CHECK(begin_finer_scene(viewer));
+    if (!viewer.coming || viewer.waits_for_ground) return {};
+    ORO_TRY(const bool is_here, bring_finer_scene(viewer));
+    changed = changed || is_here;
     return {};
 }
 
@@ -315,16 +451,37 @@ Result<void> run_loop(Viewer& viewer) {
     bool changed = true;
     show_title(viewer);
     for (;;) {
-        if (viewer.finer && viewer.finer->ready()) {
-            ORO_CHECK(take_finer_levels(viewer));
-            changed = true;
-        }
+        ORO_CHECK(refine(viewer, changed));
         ORO_CHECK(draw_frame(viewer, changed));
         if (!viewer.gpu.validation_messages().empty())
             return Error{ErrorKind::failed, "Vulkan validation", viewer.gpu.validation_messages().front()};
         ORO_TRY(const bool stays, turn(viewer, changed));
         if (!stays) return {};
     }
+}
+
+Result<void> say_notes_of(const WindowOptions& options, const View& view, const Region& region,
+                          const std::string& note_of_style) {
+    const bool quiet = options.quiet;
+    say_changes(view, quiet);
+    say_notes(region, quiet);
+    ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));
+    say_summit(summit, quiet);
+    if (const std::string note = note_of_year(view.sun); !note.empty()) say(quiet, note);
+    if (!note_of_style.empty()) say(quiet, note_of_style);
+    return {};
+}
+
+// Shows that something comes while the first frame is being made.
+Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera) {
+    ORO_TRY(std::unique_ptr<Window> window,
+            Window::create(gpu, camera.width_px, camera.height_px, "Orograph: loading"));
+    const VkExtent2D extent = window->extent();
+    if (extent.width == 0 || extent.height == 0) return window;
+    ORO_TRY(const std::vector<std::uint8_t> pixels,
+            loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));
+    if (const auto shown = window->show_pixels(pixels, extent); !shown.ok()) return shown.error();
+    return window;
 }
 
 }  // namespace
@@ -358,13 +515,8 @@ Result<void> run_view(const WindowOptions& options) {
     Scene& scene = whole.scene;
     ORO_CHECK(lay_images(view, options.memory, *gpu, scene, options.quiet));
     bar.clear();
-    say_changes(view, options.quiet);
-    say_notes(region, options.quiet);
-    if (const std::string note = note_of_year(view.sun); !note.empty()) say(options.quiet, note);
-    if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
-        say(options.quiet, note);
-    ORO_TRY(const std::unique_ptr<Window> window,
-            Window::create(*gpu, view.camera.width_px, view.camera.height_px, "Orograph"));
+    ORO_CHECK(say_notes_of(options, view, region, note_of_means(style.frame, scene.pages())));
+    ORO_TRY(const std::unique_ptr<Window> window, open_window(*gpu, view.camera));
     FrameRendererOptions renderer_options;
     renderer_options.extent = window->extent();
     ORO_TRY(renderer_options.path, choose_path(view.pipeline, *gpu));

@@ -133,7 +133,9 @@ std::optional<Result<Place>> read_tile_cell(const std::string& text, const std::
     const int west = std::stoi(part[4]) * (lower(part[3]) == "w" ? -1 : 1);
     if (south < -90 || south > 89 || west < -180 || west > 179)
         return refused(text, "there is no such tile: its corner lies outside S90..N89, W180..E179");
-    return checked(text, south + 0.5, west + 0.5, "tile cell", true);
+    Result<Place> place = checked(text, south + 0.5, west + 0.5, "tile cell", true);
+    if (place.ok()) place->cell = PlaceCell{south + 0.0, west + 0.0, south + 1.0, west + 1.0};
+    return place;
 }
 
 // RFC 5870: geo:lat,lon[,altitude][;crs=wgs84][;u=metres][;name=value...]. Of what Android and OpenStreetMap

@@ -8,12 +8,22 @@
 
 namespace oro {
 
+// A part of the ground that one place stands for, in degrees; or the box around it. east may be beyond 180.
+struct PlaceCell {
+    double south_deg{};
+    double west_deg{};
+    double north_deg{};
+    double east_deg{};
+};
+
 struct Place {
     double lat_deg{};  // [-90, 90], WGS 84
     double lon_deg{};  // (-180, 180]
     // geo:lat,lon,height only, as written: RFC 5870 leaves open what it is above.
     std::optional<double> height_m;
     std::string form;  // "degrees", "DMS", "UTM/UPS", "MGRS", "geohash", "geo URI", "tile cell"
+    // What a tile's cell, an MGRS square or a geohash covers; nothing for the others, which are points.
+    std::optional<PlaceCell> cell{};
 };
 
 // One parser for every option that takes a place:

@@ -3,6 +3,8 @@
 #include <GeographicLib/MGRS.hpp>
 #include <GeographicLib/UTMUPS.hpp>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <exception>
 #include <regex>
 
@@ -91,6 +93,30 @@ Result<Place> from_grid(const std::string& text, const GridZone& zone, double x,
     return checked(text, lat, lon, "UTM/UPS", true);
 }
 
+// The box around a square of a zone's grid. Nothing where a corner has no place.
+std::optional<PlaceCell> box_of_square(int zone, bool north, const std::array<double, 2>& middle_m,
+                                       double side_m) {
+    std::optional<PlaceCell> box;
+    double middle_deg = 0;
+    double ignored_deg = 0;
+    UTMUPS::Reverse(zone, north, middle_m[0], middle_m[1], ignored_deg, middle_deg);
+    for (int i = 0; i < 9; ++i) {
+        double lat = 0;
+        double lon = 0;
+        try {
+            UTMUPS::Reverse(zone, north, middle_m[0] + (i % 3 - 1) * 0.5 * side_m,
+                            middle_m[1] + (i / 3 - 1) * 0.5 * side_m, lat, lon);
+        } catch (const GeographicLib::GeographicErr&) {
+            return std::nullopt;
+        }
+        lon = middle_deg + std::remainder(lon - middle_deg, 360.0);
+        if (!box) box = PlaceCell{lat, lon, lat, lon};
+        box->south_deg = std::min(box->south_deg, lat), box->north_deg = std::max(box->north_deg, lat);
+        box->west_deg = std::min(box->west_deg, lon), box->east_deg = std::max(box->east_deg, lon);
+    }
+    return box;
+}
+
 }  // namespace
 
 std::optional<Result<Place>> read_utm_ups(const std::string& text, const std::string& plain) {
@@ -135,7 +161,9 @@ std::optional<Result<Place>> read_mgrs(const std::string& text, const std::strin
         double lon = 0;
         MGRS::Reverse(upper(square), zone, north, x, y, precision);
         UTMUPS::Reverse(zone, north, x, y, lat, lon);
-        return checked(text, lat, lon, "MGRS", true);
+        Result<Place> place = checked(text, lat, lon, "MGRS", true);
+        if (place.ok()) place->cell = box_of_square(zone, north, {x, y}, 1e5 * std::pow(10.0, -precision));
+        return place;
     } catch (const GeographicLib::GeographicErr& fault) {
         return refused(text, fault.what());
     }
@@ -153,7 +181,11 @@ Result<Place> read_geohash(const std::string& text, const std::string& hash) {
         double lon = 0;
         int length = 0;
         GeographicLib::Geohash::Reverse(hash, lat, lon, length);
-        return checked(text, lat, lon, "geohash", true);
+        Result<Place> place = checked(text, lat, lon, "geohash", true);
+        const double up_deg = 0.5 * GeographicLib::Geohash::LatitudeResolution(length);
+        const double right_deg = 0.5 * GeographicLib::Geohash::LongitudeResolution(length);
+        if (place.ok()) place->cell = PlaceCell{lat - up_deg, lon - right_deg, lat + up_deg, lon + right_deg};
+        return place;
     } catch (const GeographicLib::GeographicErr& fault) {
         return refused(text, fault.what());
     }

@@ -63,14 +63,21 @@ std::optional<Picked> picked_of(const std::string& line) {
     return place;
 }
 
-// Clicks at the sky and then at the picture's middle: what they tell, and that they move nothing.
+// Clicks at the sky, at the middle of what is looked at, and at the picture's middle: what they tell, and
+// that they move nothing.
 void expect_picked(const fs::path& folder, const json& destination) {
     std::istringstream lines(oro::test::bytes_of(folder / "picked.txt"));
-    std::string sky, ground, more;
+    std::string sky, aimed, ground, more;
     std::getline(lines, sky);
+    std::getline(lines, aimed);
     std::getline(lines, ground);
     EXPECT_FALSE(std::getline(lines, more)) << more;
     EXPECT_EQ(sky, "nothing there: the sight line meets no ground of this region");
+    // Half a pixel beside it, 10 km away, on ground that is seen from 20 degrees up: some 50 m.
+    const std::optional<Picked> aim = picked_of(aimed);
+    ASSERT_TRUE(aim) << aimed;
+    EXPECT_NEAR(aim->lat_deg, 36.5, 0.002);
+    EXPECT_NEAR(aim->lon_deg, -84.3, 0.002);
     const std::optional<Picked> place = picked_of(ground);
     ASSERT_TRUE(place) << ground;
     ASSERT_TRUE(destination.is_object()) << destination;
@@ -102,6 +109,26 @@ void expect_sun_of_there(const json& told) {
     EXPECT_NEAR(sun.at("elevation_deg").get<double>(), there_then.elevation_deg, 0.001);
 }
 
+void expect_same_eye(const Title& one, const Title& other) {
+    EXPECT_EQ(one.lat_deg, other.lat_deg);
+    EXPECT_EQ(one.lon_deg, other.lon_deg);
+    EXPECT_EQ(one.H_m, other.H_m);
+    EXPECT_EQ(one.heading_deg, other.heading_deg);
+}
+
+// A place without data moves nothing; one with data is looked at, then stood on; two steps back are where it
+// began.
+void expect_jumps(std::map<std::string, Title>& at) {
+    expect_same_eye(at["nowhere"], at["risen"]);
+    EXPECT_GT(std::hypot(at["shown"].lat_deg - 36.5, at["shown"].lon_deg + 84.3), 0.01) << "from a side";
+    EXPECT_NEAR(at["stood"].lat_deg, 36.5, 1e-6);
+    EXPECT_NEAR(at["stood"].lon_deg, -84.3, 1e-6);
+    expect_same_eye(at["unstood"], at["shown"]);
+    expect_same_eye(at["returned"], at["risen"]);
+    EXPECT_NEAR(at["jumped"].lat_deg, 36.5, 1e-6) << "Enter twice";
+    EXPECT_NEAR(at["jumped"].lon_deg, -84.3, 1e-6);
+}
+
 TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
     const fs::path folder = oro::test::scratch_folder();
     const std::string data = (oro::test::bundled_data() / "jacksboro.tif").string();
@@ -113,8 +140,8 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
         there);
     ASSERT_EQ(session.exit_code, 0) << session.out << session.err;
     auto at = titles_of(session.out);
-    for (const char* stop :
-         {"start", "sky", "forward", "turned", "dragged", "risen", "jumped", "sunk", "pictured", "picked"})
+    for (const char* stop : {"start", "sky", "forward", "turned", "dragged", "risen", "nowhere", "shown",
+                             "aimed", "stood", "unstood", "returned", "jumped", "sunk", "pictured", "picked"})
         ASSERT_TRUE(at[stop].read) << stop << " in\n" << session.out;
 
     EXPECT_NEAR(at["start"].lat_deg, 36.6, 1e-6);
@@ -132,8 +159,7 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
     // Dragging to the right takes the scene along: 40 of 240 pixels, a sixth of 45 degrees.
     EXPECT_NEAR(at["dragged"].heading_deg, at["turned"].heading_deg - 7.5, 0.2);
     EXPECT_GT(at["risen"].H_m, at["turned"].H_m);
-    EXPECT_NEAR(at["jumped"].lat_deg, 36.5, 1e-6);
-    EXPECT_NEAR(at["jumped"].lon_deg, -84.3, 1e-6);
+    expect_jumps(at);
     EXPECT_LT(at["sunk"].H_m, at["jumped"].H_m);
 
     // It never goes below the ground.
@@ -217,6 +243,64 @@ std::size_t pixels_like(const std::string& dump, const std::array<int, 3>& rgb) 
             count += alike ? 1U : 0U;
         }
     return count;
+}
+
+// What a window shows while no ground is there is the sheet that says so; the first picture is one of ground.
+TEST(Window, LoadingLooksLikeLoading) {
+    const fs::path folder = oro::test::scratch_folder();
+    oro::test::Circumstances there;
+    there.environment = {"WAYLAND_DISPLAY"};
+    const std::string session =
+        "\"$1\" view \"$3\" --style default --size 320x240 2>said.txt & viewer=$!; "
+        "for try in $(seq 3000); do cp \"$SCREEN_FILE\" now.xwd; grep -q 'first picture' said.txt && break; "
+        "cmp -s now.xwd last.xwd || cp now.xwd shot-$try.xwd; mv now.xwd last.xwd; sleep 0.02; done; "
+        "sleep 0.3; cp \"$SCREEN_FILE\" end.xwd; kill $viewer; wait $viewer; cat said.txt";
+    const auto outcome = oro::test::run_program({OROGRAPH_ON_DISPLAY, "sh", "-c", "cd \"$2\"; " + session,
+                                                 "sh", OROGRAPH_PROGRAM, folder, oro::test::bundled()},
+                                                there);
+    const std::string end = oro::test::bytes_of(folder / "end.xwd");
+    ASSERT_GT(end.size(), 640U * 480U * 4U) << outcome.out << outcome.err;
+    constexpr std::array<int, 3> paper{236, 236, 232}, black{0, 0, 0};
+    EXPECT_LT(pixels_like(end, paper), 1000U) << "ground, after: " << outcome.out;
+    std::size_t sheets = 0;
+    for (const std::string& name : oro::test::names_in(folder)) {
+        if (!name.starts_with("shot-")) continue;
+        const std::string screen = oro::test::bytes_of(folder / name);
+        const std::size_t of_sheet = pixels_like(screen, paper);
+        sheets += of_sheet > 60'000 ? 1U : 0U;
+        // The picture itself may be there before its line is.
+        EXPECT_TRUE(of_sheet > 60'000 || pixels_like(screen, black) > 300'000 || screen == end) << name;
+    }
+    EXPECT_GE(sheets, 1U) << outcome.out;
+}
+
+// What another window covered, or what was put away, is there again without a key being touched; so it is
+// after the window has become larger.
+TEST(Window, IsShownAgainWhereItWasLost) {
+    const fs::path folder = oro::test::scratch_folder();
+    oro::test::Circumstances there;
+    there.environment = {"WAYLAND_DISPLAY"};
+    const std::string session =
+        "\"$1\" view \"$3\" --style default --size 320x240 2>said.txt & viewer=$!; "
+        "for try in $(seq 600); do grep -q 'full detail\\|first picture after' said.txt && break; sleep 0.1; "
+        "done; "
+        "window=$(xdotool search --onlyvisible --pid $viewer | head -n 1); "
+        "sleep 1; cp \"$SCREEN_FILE\" before.xwd; "
+        "xdotool windowunmap --sync $window; sleep 0.5; cp \"$SCREEN_FILE\" gone.xwd; "
+        "xdotool windowmap --sync $window; sleep 1; cp \"$SCREEN_FILE\" after.xwd; "
+        "xdotool windowsize --sync $window 400 300; sleep 2; cp \"$SCREEN_FILE\" larger.xwd; "
+        "kill $viewer; wait $viewer; cat said.txt";
+    const auto outcome = oro::test::run_program({OROGRAPH_ON_DISPLAY, "sh", "-c", "cd \"$2\"; " + session,
+                                                 "sh", OROGRAPH_PROGRAM, folder, oro::test::bundled()},
+                                                there);
+    const std::string before = oro::test::bytes_of(folder / "before.xwd");
+    ASSERT_GT(before.size(), 640U * 480U * 4U) << outcome.out << outcome.err;
+    constexpr std::array<int, 3> black{0, 0, 0};
+    constexpr std::size_t screen_px = 640 * 480;
+    EXPECT_LT(pixels_like(before, black), screen_px - 320 * 240 + 100) << outcome.out;
+    EXPECT_EQ(pixels_like(oro::test::bytes_of(folder / "gone.xwd"), black), screen_px);
+    EXPECT_TRUE(oro::test::bytes_of(folder / "after.xwd") == before);
+    EXPECT_LT(pixels_like(oro::test::bytes_of(folder / "larger.xwd"), black), screen_px - 400 * 300 + 200);
 }
 
 // In the window, in its corner; of a picture by P, below it.

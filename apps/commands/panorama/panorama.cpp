@@ -12,6 +12,7 @@
 #include "apps/commands/panorama/panorama_json.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/eye/asked_summit.h"
 #include "apps/names/names_in_view.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/panorama/elevations.h"
@@ -19,6 +20,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/view_changes.h"
 #include "apps/view/view_limits.h"
 #include "core/base/elapsed.h"
@@ -132,6 +134,7 @@ Result<void> check_words(const PanoramaOptions& options) {
 // Light bends where nothing is said: over the distances of a panorama it counts.
 ViewOptions with_air(const PanoramaOptions& options) {
     ViewOptions view = options.view;
+    view.stands_at_place = true;
     if (options.view_file.empty() && !view.air && !view.refraction_k && !view.accuracy) view.air = "standard";
     return view;
 }
@@ -140,8 +143,7 @@ ViewOptions with_air(const PanoramaOptions& options) {
 std::string note_of_skyline(const Elevations& found) {
     if (!found.leaves_out_near) return "";
     return "ground within 250 m of the eye stands higher than is shown: --elevation shows it, a larger "
-           "--above "
-           "looks over it";
+           "--above looks over it, and --on-summit stands on the highest post nearby";
 }
 
 // Completes the view's frame and its camera, which stands for the scene until the sheet is laid out.
@@ -194,6 +196,7 @@ Result<Style> style_of(const View& view, const Region& region) {
 
 void say_notes_of(const PanoramaOptions& options, const PanoramaReport& report) {
     say_notes(report.region, options.quiet);
+    say_summit(report.on_summit, options.quiet);
     if (const std::string note = note_of_year(report.view.sun); !note.empty()) say(options.quiet, note);
     if (report.view.vectors_read) say_vectors(*report.view.vectors_read, report.view.vectors, options.quiet);
 }
@@ -250,6 +253,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
         report.region, PictureKind::panorama));
     ORO_CHECK(check_unchanged(view, report.region, options.data_changed, options.quiet));
+    ORO_TRY(report.on_summit, asked_summit(options.view, report.region, view.exaggeration));
     if (options.no_paths) view.tells_paths = false;
     say_edited(view, options.quiet);
     ORO_CHECK(spare_inputs(

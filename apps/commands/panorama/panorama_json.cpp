@@ -3,6 +3,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
 
 namespace oro {
@@ -60,6 +61,7 @@ ordered_json panorama_json(const PanoramaReport& report, const std::string& file
     json["view"] = ordered_json::parse(view_to_json(view, false));
     if (!view.tells_paths) json["view"]["sources"] = ordered_json::array();
     json["eye"] = eye_json(report);
+    if (report.on_summit) json["on_summit"] = summit_json(*report.on_summit);
     json["size_px"] = json_list(report.laid.sheet.width_px, report.laid.sheet.height_px);
     json["scene"] = scene_json(report.laid);
     json["rulers"] = rulers_json(report.laid.rulers);

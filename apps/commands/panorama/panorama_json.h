@@ -2,10 +2,12 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "apps/panorama/panorama_picture.h"
 #include "apps/view/view.h"
+#include "core/terrain/summit.h"
 #include "geo/region/region.h"
 
 namespace oro {
@@ -18,6 +20,7 @@ struct PanoramaReport {
     double read_s{};
     double layout_s{};  // names asked of the oracle
     double draw_s{};
+    std::optional<MovedToSummit> on_summit{};  // how the eye came to stand there, where that was asked for
 };
 
 nlohmann::ordered_json panorama_json(const PanoramaReport& report, const std::string& file,

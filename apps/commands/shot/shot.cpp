@@ -14,6 +14,7 @@
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/layers/picture_layers.h"
 #include "apps/legend/legend.h"
@@ -25,6 +26,7 @@
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/report/resampling_words.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_changes.h"
@@ -40,6 +42,7 @@ namespace {
 
 void say_notes(const ShotOptions& options, const ShotResult& shot) {
     say_notes(shot.region, options.quiet);
+    say_summit(shot.on_summit, options.quiet);
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
     if (shot.view.vectors_read) say_vectors(*shot.view.vectors_read, shot.view.vectors, options.quiet);
     const Geodetic& eye = shot.view.camera.eye;
@@ -229,6 +232,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
         options.view_file, options.view, options.region,
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
         shot.region));
+    ORO_TRY(shot.on_summit, asked_summit(options.view, shot.region, shot.view.exaggeration));
     if (options.ortho && options.view_file.empty()) ORO_CHECK(make_map(shot.view, options, shot.region));
     choose_legend(options, shot.view);
     ORO_CHECK(check_unchanged(shot.view, shot.region, options.data_changed, options.quiet));

@@ -5,6 +5,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
 #include "render/device/device_words.h"
 
@@ -163,6 +164,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["view"] = ordered_json::parse(view_to_json(shot.view, false));
     if (!shot.view.tells_paths) json["view"]["sources"] = ordered_json::array();
     json["eye"] = eye_json(shot, tags);
+    if (shot.on_summit) json["on_summit"] = summit_json(*shot.on_summit);
     json["heading_deg"] = tags.heading_deg;
     json["pitch_deg"] = tags.pitch_deg;
     json["roll_deg"] = tags.roll_deg;

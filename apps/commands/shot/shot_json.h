@@ -13,6 +13,7 @@
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/window/picking.h"
+#include "core/terrain/summit.h"
 #include "geo/region/region.h"
 #include "render/device/gpu.h"
 
@@ -64,6 +65,7 @@ struct ShotResult {
     std::optional<PictureDifference> beside;
     bool same_bytes{};
     ShotTimes times;
+    std::optional<MovedToSummit> on_summit;  // how the eye came to stand there, where that was asked for
 };
 
 nlohmann::ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,

@@ -53,14 +53,15 @@ Result<void> run_sight(const SightOptions& options) {
     ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
             }));
-    ORO_TRY(const Geodetic from,
-            point_over_ground({"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m},
-                              *ground));
+    Standing standing{"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m};
+    standing.on_summit = options.on_summit;
+    ORO_TRY(const Standpoint from, stand_over_ground(standing, *ground));
     ORO_TRY(const Geodetic to, point_over_ground({"--to", options.to, "--target", options.target_m, 0.0,
                                                   std::nullopt, "geo:LAT,LON,HEIGHT"},
                                                  *ground));
     bar.show(1.0, "looking");
-    const SightReport report = look(from, to, air, *ground);
+    SightReport report = look(from.eye, to, air, *ground);
+    report.moved = from.moved;
     ORO_CHECK(ground->region.health());
     bar.clear();
     if (report.slant_m <= least_above_m)

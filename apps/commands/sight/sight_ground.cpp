@@ -39,10 +39,16 @@ Result<void> check_above(const char* option, const std::optional<double>& above_
 }
 
 Result<Geodetic> point_over_ground(const Standing& standing, const SightGround& ground) {
+    ORO_TRY(const Standpoint stood, stand_over_ground(standing, ground));
+    return stood.eye;
+}
+
+Result<Standpoint> stand_over_ground(const Standing& standing, const SightGround& ground) {
     ORO_CHECK(check_above(standing.above_option, standing.above_m));
     ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
     const Region& there = region_at(ground.region, place.lat_deg, place.lon_deg);
-    ORO_TRY(Geodetic point, standpoint(standing, there.field));
+    ORO_TRY(Standpoint stood, stand(standing, there.field));
+    Geodetic& point = stood.eye;
     if (!view_limits::sight_h_m.hold(point.h_m)) {
         char text[120];
         std::snprintf(text, sizeof text, "would be at h %g m, not between %g and %g", point.h_m,
@@ -58,7 +64,7 @@ Result<Geodetic> point_over_ground(const Standing& standing, const SightGround& 
         return refused(standing.place_option, standing.place, text);
     }
     if (above_m) point.h_m += std::max(0.0, least_above_m - *above_m);
-    return point;
+    return stood;
 }
 
 nlohmann::ordered_json point_json(const SightGround& ground, const Geodetic& point) {

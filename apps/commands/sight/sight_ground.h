@@ -30,7 +30,9 @@ Result<std::unique_ptr<const SightGround>> open_sight_ground(const RegionOptions
 // Refuses a height over the ground below 0: `option` is how it was given.
 Result<void> check_above(const char* option, const std::optional<double>& above_m);
 // Where somebody stands, or what is looked at. On the ground means least_above_m over it. Errors: those of
-// standpoint(), and a point under the ground (usage).
+// stand(), and a point under the ground (usage).
+Result<Standpoint> stand_over_ground(const Standing& standing, const SightGround& ground);
+// The same without how it came there.
 Result<Geodetic> point_over_ground(const Standing& standing, const SightGround& ground);
 
 // {"lat_deg", "lon_deg", "h_m", "H_m"}

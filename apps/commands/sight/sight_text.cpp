@@ -4,6 +4,7 @@
 
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
 
 namespace oro {
@@ -66,7 +67,9 @@ ordered_json end_json(const Geodetic& point, const SightGround& ground) {
 }  // namespace
 
 std::string sight_text(const SightReport& report, const SightGround& ground) {
-    std::string text = end_text("From:", report.from, ground) + end_text("To:  ", report.to, ground);
+    std::string text = end_text("From:", report.from, ground);
+    if (report.moved) text += "Summit: " + summit_words("the eye stands", *report.moved) + "\n";
+    text += end_text("To:  ", report.to, ground);
     text += report.obstacle ? hidden_text(report, ground) : "Visible\n";
     if (report.line.without_data_m < report.slant_m)
         text += printed("Least clearance: %.2f m, over ", report.line.clearance_m) +
@@ -81,6 +84,7 @@ std::string sight_text(const SightReport& report, const SightGround& ground) {
 ordered_json sight_json(const SightReport& report, const SightGround& ground) {
     ordered_json json = json_object("visible", !report.obstacle);
     json["from"] = end_json(report.from, ground);
+    if (report.moved) json["on_summit"] = summit_json(*report.moved);
     json["to"] = end_json(report.to, ground);
     json["target_missed_by_m"] = report.obstacle ? or_null(report.target_missed_by_m) : ordered_json(0.0);
     json["eye_missed_by_m"] = report.obstacle ? or_null(report.eye_missed_by_m) : ordered_json(0.0);

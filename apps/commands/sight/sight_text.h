@@ -15,6 +15,7 @@ namespace oro {
 struct SightReport {
     Geodetic from;
     Geodetic to;
+    std::optional<MovedToSummit> moved;  // of an eye that was asked to stand on a summit
     Air air;
     GeodesicPath path{};     // over the ellipsoid
     double slant_m{};        // straight

@@ -14,6 +14,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
 #include "core/base/elapsed.h"
@@ -33,6 +34,7 @@ constexpr double most_posts = 2.0e8;
 
 struct ViewshedReport {
     std::vector<Geodetic> eyes;
+    std::vector<MovedToSummit> moved;  // of each of them, where they were asked to stand on summits
     Air air;
     double target_m{};
     double radius_km{};
@@ -174,6 +176,8 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const Si
             json_object("file", options.out, "cells", report.cells, "seen", report.seen, "seen_share", share);
         json["observers"] = nlohmann::ordered_json::array();
         for (const Geodetic& eye : report.eyes) json["observers"].push_back(point_json(ground, eye));
+        for (std::size_t i = 0; i < report.moved.size(); ++i)
+            json["observers"][i]["on_summit"] = summit_json(report.moved[i]);
         json["target_m"] = report.target_m;
         json["radius_km"] = report.radius_km;
         json["columns"] = report.window.columns;
@@ -189,7 +193,11 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const Si
     std::printf("Seen: %s of %s within %s km, %.2f %%\n", grouped(report.seen).c_str(),
                 counted(report.cells, "post", "posts").c_str(), figure(report.radius_km).c_str(),
                 100.0 * share);
-    for (const Geodetic& eye : report.eyes) std::printf("From: %s\n", eye_text(eye, ground).c_str());
+    for (std::size_t i = 0; i < report.eyes.size(); ++i) {
+        std::printf("From: %s\n", eye_text(report.eyes[i], ground).c_str());
+        if (!report.moved.empty())
+            std::printf("Summit: %s\n", summit_words("the observer stands", report.moved[i]).c_str());
+    }
     std::printf("Light: %s\n", light_words(report.air, report.eyes.front().h_m).c_str());
 }
 
@@ -226,9 +234,11 @@ std::string sides_beyond(const ViewshedReport& report, const PostGrid& grid) {
 
 Result<void> place_eyes(const ViewshedOptions& options, const SightGround& ground, ViewshedReport& report) {
     for (const std::string& at : options.at) {
-        ORO_TRY(const Geodetic eye,
-                point_over_ground({"--at", at, "--above", options.above_m, 2.0, options.altitude_m}, ground));
-        report.eyes.push_back(eye);
+        Standing standing{"--at", at, "--above", options.above_m, 2.0, options.altitude_m};
+        standing.on_summit = options.on_summit;
+        ORO_TRY(const Standpoint stood, stand_over_ground(standing, ground));
+        report.eyes.push_back(stood.eye);
+        if (stood.moved) report.moved.push_back(*stood.moved);
     }
     return {};
 }

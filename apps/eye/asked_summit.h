@@ -1,0 +1,18 @@
+// How the eye of a view came to stand on a summit.
+#pragma once
+
+#include <optional>
+
+#include "apps/commands/options.h"
+#include "core/base/result.h"
+#include "core/terrain/summit.h"
+#include "geo/region/region.h"
+
+namespace oro {
+
+// What --on-summit did to the place of a view that open_view() made of these options and this region: nothing
+// where it was not asked for. Errors: ground that cannot be read.
+Result<std::optional<MovedToSummit>> asked_summit(const ViewOptions& options, const Region& region,
+                                                  double exaggeration);
+
+}  // namespace oro

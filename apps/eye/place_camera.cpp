@@ -1,0 +1,106 @@
+#include "apps/eye/place_camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/eye/ground_points.h"
+#include "apps/eye/overview.h"
+#include "apps/eye/standpoint.h"
+#include "core/terrain/ground.h"
+
+namespace oro {
+namespace {
+
+// From one post to the next, about.
+double spacing_m(const PostGrid& grid) {
+    return wgs84_a_m * std::max(grid.row_step_rad(), 1e-12);
+}
+
+const HeightField& field_at(const Region& region, double lat_deg, double lon_deg) {
+    return region_at(region, lat_deg, lon_deg).field;
+}
+
+Error no_ground(const Place& place, const Region& region, const std::string& name, const char* where) {
+    return {ErrorKind::no_data, name,
+            std::string("no elevation data ") + where +
+                where_data_are(region.field.grid, place.lat_deg, place.lon_deg)};
+}
+
+Error nothing_sees(const AskedLine& asked, const std::string& name) {
+    const std::string given = asked.heading_deg && asked.pitch_deg ? "this --heading and --pitch"
+                              : asked.pitch_deg                    ? "this --pitch"
+                                                                   : "this --heading";
+    return {ErrorKind::usage, name,
+            "ground hides the place from every eye that looks at it with " + given +
+                ": leave that out, or give --above METRES to stand there"};
+}
+
+struct TriedCamera {
+    Camera camera;
+    bool sees{};
+};
+
+// The first camera of those along the lines that are worth a trial whose eye sees a place; else the last.
+template <class CameraAlong>
+TriedCamera first_that_sees(const Geodetic& place, const AskedLine& asked, const Region& region,
+                            double exaggeration, CameraAlong camera_along) {
+    const GroundHeightAt ground = [&](double lat_deg, double lon_deg) {
+        return ground_h_m(field_at(region, lat_deg, lon_deg), lat_deg, lon_deg, exaggeration);
+    };
+    const double step_m = 0.5 * spacing_m(field_at(region, place.lat_deg, place.lon_deg).grid);
+    TriedCamera tried;
+    for (const LineOfSight& line : lines_to_try(asked)) {
+        tried.camera = camera_along(line);
+        tried.sees = is_line_free(tried.camera.eye, place, step_m, ground);
+        if (tried.sees) break;
+    }
+    return tried;
+}
+
+Result<Camera> camera_framing(const Camera& camera, const Place& place, AskedLine asked, const Region& region,
+                              double exaggeration, const std::string& name) {
+    const GroundPoints ground = ground_points(region, exaggeration, &*place.cell);
+    ORO_CHECK(region.health());
+    if (ground.all.empty()) return no_ground(place, region, name, "in this cell");
+    asked.usual_pitch_deg = overview_pitch_deg(ground.radius_m);
+    const auto along = [&](const LineOfSight& line) {
+        return camera_on_points(camera, ground.middle, ground.radius_m, line, ground.all, overview_margin);
+    };
+    const auto middle_h_m = ground_h_m(field_at(region, place.lat_deg, place.lon_deg), place.lat_deg,
+                                       place.lon_deg, exaggeration);
+    // Of a cell it is the whole that is asked for: what its middle hides behind is ground of it, too.
+    if (!middle_h_m || asked.pitch_deg) return along(lines_to_try(asked).front());
+    return first_that_sees({place.lat_deg, place.lon_deg, *middle_h_m}, asked, region, exaggeration, along)
+        .camera;
+}
+
+}  // namespace
+
+bool is_framed(const Place& place, const Region& region) {
+    if (!place.cell) return false;
+    constexpr double least_posts = 4.0;
+    const double side_rad = radians_from_deg(place.cell->north_deg - place.cell->south_deg).rad;
+    return side_rad >= least_posts * field_at(region, place.lat_deg, place.lon_deg).grid.row_step_rad();
+}
+
+Result<Camera> camera_showing(const Camera& camera, const Place& place, const AskedLine& asked,
+                              const Region& region, double exaggeration, const std::string& name) {
+    if (is_framed(place, region)) return camera_framing(camera, place, asked, region, exaggeration, name);
+    const HeightField& field = field_at(region, place.lat_deg, place.lon_deg);
+    const auto h_m = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
+    ORO_CHECK(field.health());
+    if (!h_m) return no_ground(place, region, name, "there to look at");
+    constexpr double least_m = 20.0, most_m = 2.0e6;
+    const double radius_m = std::clamp(posts_around_place * spacing_m(field.grid), least_m, most_m);
+    const Geodetic there{place.lat_deg, place.lon_deg, *h_m};
+    const TriedCamera tried =
+        first_that_sees(there, asked, region, exaggeration, [&](const LineOfSight& line) {
+            return camera_on_place(camera, there, line, radius_m, overview_margin);
+        });
+    ORO_CHECK(region.health());
+    // From almost straight above a place is seen, however narrow its valley.
+    if (!tried.sees && (asked.heading_deg || asked.pitch_deg)) return nothing_sees(asked, name);
+    return tried.camera;
+}
+
+}  // namespace oro

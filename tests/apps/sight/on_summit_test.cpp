@@ -1,0 +1,109 @@
+// --on-summit: who stands on a summit by its published place stands on the highest post nearby, and is told
+// so.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
+
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using oro::test::run_orograph;
+using oro::test::says;
+using oro::test::Words;
+
+// A cone of 30 m a post around the post at 10.5 N 20.5 E, 2,000 m high; the place below is that of the post
+// one row to the south and one column to the west: 1,957.6, rounded to 1958 m.
+constexpr const char* published = "10.499166666666666,20.499166666666667";
+constexpr double post_deg = 1.0 / 1200.0;
+
+class OnSummit : public testing::Test {
+  protected:
+    const fs::path folder = oro::test::scratch_folder();
+    const std::string tile = (folder / "N10E020.hgt").string();
+
+    void SetUp() override {
+        std::string heights;
+        for (int row = 0; row <= 1200; ++row) {
+            for (int column = 0; column <= 1200; ++column) {
+                const int H_m = static_cast<int>(
+                    std::lround(std::max(0.0, 2000.0 - 30.0 * std::hypot(row - 600.0, column - 600.0))));
+                heights += {static_cast<char>(H_m / 256), static_cast<char>(H_m % 256)};
+            }
+        }
+        oro::test::write_bytes(tile, heights);
+    }
+
+    static void expect_moved(const json& moved) {
+        ASSERT_TRUE(moved.is_object());
+        EXPECT_NEAR(moved["asked_lat_deg"].get<double>(), 10.5 - post_deg, 1e-12);
+        EXPECT_NEAR(moved["lat_deg"].get<double>(), 10.5, 1e-12);
+        EXPECT_NEAR(moved["lon_deg"].get<double>(), 20.5, 1e-12);
+        EXPECT_NEAR(moved["H_m"].get<double>(), 2000.0, 1e-6);
+        EXPECT_NEAR(moved["higher_m"].get<double>(), 42.0, 0.01);  // 2000 - 1958
+        // A post of 92.16 m along the meridian, 91.24 m along the parallel (Vincenty).
+        EXPECT_NEAR(moved["moved_m"].get<double>(), 129.69, 0.05);
+    }
+};
+
+TEST_F(OnSummit, MovesTheEyeOfEachCommandThatStands) {
+    const Words sight{"sight", tile, "--from", published, "--to", "10.6,20.5", "--json", "-q"};
+    const json plain = oro::test::object_said_by(sight);
+    EXPECT_FALSE(plain.contains("on_summit"));
+    const json seen = oro::test::object_said_by(oro::test::joined(sight, {"--on-summit"}));
+    expect_moved(seen["on_summit"]);
+    EXPECT_NEAR(seen["from"]["H_m"].get<double>(), 2002.0, 0.001);
+    EXPECT_NEAR(seen["from"]["above_ground_m"].get<double>(), 2.0, 0.001);
+
+    const json sun = oro::test::object_said_by(
+        {"sun", tile, "--at", published, "--on-summit", "--date", "2026-03-21", "--json", "-q"});
+    expect_moved(sun["on_summit"]);
+    EXPECT_NEAR(sun["place"]["H_m"].get<double>(), 2002.0, 0.001);
+
+    const json shed =
+        oro::test::object_said_by({"viewshed", tile, "--at", published, "--at", "10.5,20.5", "--on-summit",
+                                   "--radius", "1", "--out", folder / "v.tif", "--json", "-q"});
+    expect_moved(shed["observers"][0]["on_summit"]);
+    EXPECT_EQ(shed["observers"][1]["on_summit"]["moved_m"], 0.0) << "it stands on the summit";
+
+    const json shot = oro::test::object_said_by({"shot", tile, "--at", published, "--on-summit", "--above",
+                                                 "5", "--heading", "90", "--size", "64x48", "--out",
+                                                 folder / "s.png", "--json", "-q"});
+    expect_moved(shot["on_summit"]);
+    EXPECT_NEAR(shot["eye"]["H_m"].get<double>(), 2005.0, 0.001);
+
+    const json around =
+        oro::test::object_said_by({"panorama", tile, "--at", published, "--on-summit", "--width", "400",
+                                   "--sector", "0,90", "--out", folder / "p.png", "--json", "-q"});
+    expect_moved(around["on_summit"]);
+    EXPECT_NEAR(around["eye"]["H_m"].get<double>(), 2002.0, 0.001);
+}
+
+TEST_F(OnSummit, IsSaidInWords) {
+    const auto sight = run_orograph(
+        {"sight", tile, "--from", published, "--to", "10.6,20.5", "--on-summit", "--refraction", "0"});
+    EXPECT_EQ(sight.exit_code, 0) << sight.err;
+    EXPECT_TRUE(
+        says(sight.out,
+             "Summit: the eye stands on the highest post nearby: 10.500000 20.500000, H 2000.0 m, 130 "
+             "m from the place that was given and 42.0 m higher\n"))
+        << sight.out;
+    const auto shot = run_orograph(
+        {"shot", tile, "--at", "10.5,20.5", "--on-summit", "--size", "64x48", "--out", folder / "w.png"});
+    EXPECT_TRUE(says(shot.err, "the eye stands on the place itself: no post nearby is higher")) << shot.err;
+}
+
+TEST_F(OnSummit, NeedsAPlaceOnTheGround) {
+    oro::test::expect_refusal(run_orograph({"shot", tile, "--on-summit", "--out", folder / "x.png"}),
+                              oro::test::usage, {"--on-summit: says nothing without --at PLACE"});
+    oro::test::expect_refusal(
+        run_orograph({"shot", tile, "--at", "geo:10.5,20.5,3000", "--on-summit", "--out", folder / "x.png"}),
+        oro::test::usage, {"gives a height of its own: leave --on-summit out"});
+}
+
+}  // namespace

@@ -1,0 +1,192 @@
+// What a picture of a place shows: all of a cell; any other place in its middle, with nothing before it.
+#include "apps/eye/place_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "apps/eye/overview.h"
+#include "apps/window/jump.h"
+#include "core/terrain/drawn_heights.h"
+#include "core/terrain/ground.h"
+#include "tests/support/made_terrain.h"
+
+namespace oro {
+namespace {
+
+Camera wide() {
+    Camera camera;
+    camera.width_px = 160;
+    camera.height_px = 90;
+    return camera;
+}
+
+Region region_of(HeightField field) {
+    Region region;
+    region.field = std::move(field);
+    return region;
+}
+
+// Two degrees of hills of up to 1,000 m, 120 posts a degree: cells N46E007 and N46E008.
+Region two_cells() {
+    return region_of(test::made_field(47.0, 7.0, 120.0, 121, 241, [](double lat, double lon) {
+        return static_cast<float>(500.0 + 500.0 * std::sin(40.0 * lat) * std::cos(30.0 * lon));
+    }));
+}
+
+Place place_of(const char* text) {
+    return parse_place(text).value();
+}
+
+Camera shown(const Region& region, const char* text, const AskedLine& asked = {}) {
+    const auto camera = camera_showing(wide(), place_of(text), asked, region, 1.0, text);
+    EXPECT_TRUE(camera.ok()) << camera.error().line();
+    return camera.ok() ? *camera : Camera();
+}
+
+// Where a post is on the picture: within -1 and 1 across and up.
+glm::dvec2 on_picture(const Camera& camera, const glm::dvec3& ecef) {
+    const glm::dvec3 at = camera.view_from_ecef() * (ecef - camera.eye_ecef().m);
+    EXPECT_LT(at.z, 0.0);
+    return glm::dvec2(at) / (-at.z * camera.half_fov_tangent());
+}
+
+TEST(CameraShowing, FramesACellAsAnOverviewOfItAlone) {
+    const Region both = two_cells();
+    const Camera camera = shown(both, "N46E008");
+    glm::dvec2 low(9.0), high(-9.0);
+    for (int row = 0; row < 121; ++row) {
+        for (int column = 120; column < 241; ++column) {
+            const glm::dvec2 at = on_picture(camera, post_ecef(both.field, row, column, 1.0).m);
+            low = glm::min(low, at);
+            high = glm::max(high, at);
+        }
+    }
+    // A margin of 5 % of each side, touched on two opposite ones.
+    EXPECT_GT(std::min(low.x, low.y), -0.9001);
+    EXPECT_LT(std::max(high.x, high.y), 0.9001);
+    EXPECT_GT(std::max(std::min(-low.x, high.x), std::min(-low.y, high.y)), 0.899);
+
+    const Region east = region_of(test::made_field(47.0, 8.0, 120.0, 121, 121, [](double lat, double lon) {
+        return static_cast<float>(500.0 + 500.0 * std::sin(40.0 * lat) * std::cos(30.0 * lon));
+    }));
+    View alone;
+    alone.camera = wide();
+    ViewOptions options;
+    options.vertical_fov_deg = 45.0;
+    ASSERT_TRUE(see_whole_region(alone, options, east).ok());
+    EXPECT_NEAR(camera.eye.lat_deg, alone.camera.eye.lat_deg, 1e-9);
+    EXPECT_NEAR(camera.eye.lon_deg, alone.camera.eye.lon_deg, 1e-9);
+    EXPECT_NEAR(camera.eye.h_m, alone.camera.eye.h_m, 1e-3);
+    EXPECT_NEAR(camera.attitude.pitch_deg, alone.camera.attitude.pitch_deg, 1e-9);
+}
+
+TEST(CameraShowing, OtherCellsAreFramedTooWhereTheyAreLargeEnough) {
+    const Region region = two_cells();
+    EXPECT_TRUE(is_framed(place_of("u0m"), region)) << "a geohash of 1.4 degrees";
+    EXPECT_TRUE(is_framed(place_of("32TMS"), region)) << "100 km";
+    EXPECT_FALSE(is_framed(place_of("32TMS2200058000"), region)) << "a square metre is a place";
+    EXPECT_FALSE(is_framed(place_of("46.5,7.5"), region));
+    const Camera camera = shown(region, "u0m");
+    EXPECT_GT(camera.eye.h_m, 50'000.0);
+}
+
+// Ground of 46.5 N, on a slope to the north of 45 degrees that ends on a crest 2,000 m higher to the south.
+Region northern_face() {
+    return region_of(test::made_field(46.6, 7.9, 1200.0, 241, 241, [](double lat, double) {
+        const double south_m = (46.5 - lat) * 111'170.0;
+        return static_cast<float>(std::clamp(south_m, -2000.0, 2000.0));
+    }));
+}
+
+TEST(CameraShowing, LooksAtAPlaceFromASideThatSeesIt) {
+    const Region face = northern_face();
+    const Geodetic place{46.5, 8.0, *ground_h_m(face.field, 46.5, 8.0)};
+    const Camera camera = shown(face, "46.5,8.0");
+    EXPECT_LT(glm::length(on_picture(camera, ecef_from_geodetic(place).m)), 1e-9) << "in the middle";
+    // From 20 degrees up and the south the crest hides it; from the east it does not.
+    EXPECT_NEAR(camera.attitude.pitch_deg, -20.0, 0.2);
+    EXPECT_GT(camera.attitude.heading_deg, 80.0);
+    EXPECT_LT(camera.attitude.heading_deg, 280.0);
+    const auto ground = [&](double lat_deg, double lon_deg) {
+        return ground_h_m(face.field, lat_deg, lon_deg);
+    };
+    EXPECT_TRUE(is_line_free(camera.eye, place, 10.0, ground));
+    // 40 posts of 92.8 m around it, 5 % of margin: 3,711 m / sin(atan(0.9 tan 22.5 degrees)).
+    EXPECT_NEAR(glm::length(camera.eye_ecef().m - ecef_from_geodetic(place).m), 10'612.0, 15.0);
+}
+
+TEST(CameraShowing, KeepsTheAskedSideWithMoreHeight) {
+    AskedLine asked;
+    asked.heading_deg = 0.0;
+    const Camera camera = shown(northern_face(), "46.5,8.0", asked);
+    EXPECT_NEAR(camera.attitude.heading_deg, 0.0, 0.1);
+    EXPECT_NEAR(camera.attitude.pitch_deg, -60.0, 0.2) << "40 degrees graze the face";
+    asked.pitch_deg = -20.0;
+    const auto refused =
+        camera_showing(wide(), place_of("46.5,8.0"), asked, northern_face(), 1.0, "--at 46.5,8.0");
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().kind, ErrorKind::usage);
+    EXPECT_NE(refused.error().line().find("--above METRES"), std::string::npos) << refused.error().line();
+}
+
+TEST(CameraShowing, RefusesPlacesWithoutData) {
+    for (const char* text : {"10,10", "N10E010"}) {
+        const auto none = camera_showing(wide(), place_of(text), {}, two_cells(), 1.0, text);
+        ASSERT_FALSE(none.ok()) << text;
+        EXPECT_EQ(none.error().kind, ErrorKind::no_data);
+        EXPECT_NE(none.error().line().find("no elevation data"), std::string::npos);
+    }
+}
+
+bool same(const Camera& a, const Camera& b) {
+    return a.eye.lat_deg == b.eye.lat_deg && a.eye.lon_deg == b.eye.lon_deg && a.eye.h_m == b.eye.h_m &&
+           a.attitude.heading_deg == b.attitude.heading_deg && a.attitude.pitch_deg == b.attitude.pitch_deg &&
+           a.attitude.roll_deg == b.attitude.roll_deg && a.vertical_fov_deg == b.vertical_fov_deg;
+}
+
+TEST(Jumps, GoThereStandAndComeBackToTheLastBit) {
+    const Region region = two_cells();
+    Camera start = wide();
+    start.eye = {46.123456789, 7.3, 94'321.0123};
+    start.attitude = {205.125, -31.7, 0.0};
+    Jumps jumps;
+    EXPECT_FALSE(jumps.back(start)) << "nothing to go back to";
+    EXPECT_FALSE(jumps.stand(start, region, 1.0).value()) << "nothing to stand on";
+    const Camera framed = jumps.to(start, place_of("N46E008"), region, 1.0).value();
+    EXPECT_NEAR(framed.attitude.heading_deg, 205.1, 1.0) << "from the side that it looked from";
+    const auto standing = jumps.stand(framed, region, 1.0).value();
+    ASSERT_TRUE(standing);
+    EXPECT_EQ(standing->eye.lat_deg, 46.5);
+    EXPECT_EQ(standing->eye.lon_deg, 8.5);
+    EXPECT_NEAR(standing->eye.h_m, *ground_h_m(region.field, 46.5, 8.5) + 2.0, 1e-9);
+    EXPECT_EQ(standing->attitude.pitch_deg, 0.0);
+    Camera resized = *standing;
+    resized.width_px = 333;
+    const auto back = jumps.back(resized);
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(same(*back, framed));
+    EXPECT_EQ(back->width_px, 333) << "the window stays as large as it is";
+    EXPECT_TRUE(same(*jumps.back(*back), start));
+    EXPECT_FALSE(jumps.back(start));
+}
+
+TEST(Jumps, StayWhereThereIsNoData) {
+    const Region region = two_cells();
+    Camera start = wide();
+    start.eye = {46.5, 7.5, 3000.0};
+    Jumps jumps;
+    EXPECT_FALSE(jumps.to(start, place_of("0,0"), region, 1.0).ok());
+    EXPECT_FALSE(jumps.back(start));
+    // A place with a height of its own is where the eye goes.
+    const Camera there = jumps.to(start, place_of("geo:46.5,8.5,5000"), region, 1.0).value();
+    EXPECT_EQ(there.eye.h_m, 5000.0);
+    EXPECT_EQ(there.eye.lon_deg, 8.5);
+    jumps.moved();
+    EXPECT_FALSE(jumps.stand(there, region, 1.0).value());
+    EXPECT_TRUE(same(*jumps.back(there), start)) << "the way back stays";
+}
+
+}  // namespace
+}  // namespace oro
