@@ -116,18 +116,15 @@ std::string verification_text(const Verification& verification, const View& view
             table_line("  surface, m", ground.summary_surface_m) +
             table_line("  surface, px", ground.summary_surface_px) +
             table_line("  seen, px", seen.summary_px) + table_line("  skyline, px", skyline.summary_px);
-    text += "99 %: 99 of 100 are off by no more than this.
-";
+    text += "99 %: 99 of 100 are off by no more than this.\n";
     if (ground.summary_displacement_px.at_least + ground.summary_surface_px.at_least +
             seen.summary_px.at_least >
         0)
         text += ">=: at least this. Nothing like it is seen within " + std::to_string(seen_reach_px) +
-                " px (seen), or its place is beside or behind the eye (displacement, surface).
-";
+                " px (seen), or its place is beside or behind the eye (displacement, surface).\n";
     text += allowed_line(verification, view);
     if (const std::string beyond = unseen_sentence(unseen); !beyond.empty())
-        text += "Where the data end: " + beyond + "
-";
+        text += "Where the data end: " + beyond + "\n";
     return text;
 }
 

@@ -60,7 +60,9 @@ PostsInCell part_in(const PostGrid& grid, const PlaceCell& cell) {
     return part;
 }
 
-PostsInCell whole_part(const PostGrid& grid) { return {0, grid.rows() - 1, 0, grid.columns() - 1, nullptr}; }
+PostsInCell whole_part(const PostGrid& grid) {
+    return {0, grid.rows() - 1, 0, grid.columns() - 1, nullptr};
+}
 
 bool has_ground(const HeightField& field, const PostsInCell& part, int row, int column) {
     return !is_void(field.H_at_post_m(row, column)) &&
@@ -127,8 +129,7 @@ GroundPoints ground_points(const Region& region, double exaggeration, const Plac
     std::vector<Ecef> rim;
     for (const Region* const one : all_grids(region)) {
         const PostGrid& grid = one->field.grid;
-        const PostsInCell part =
-            cell ? part_in(grid, *cell) : whole_part(grid);
+        const PostsInCell part = cell ? part_in(grid, *cell) : whole_part(grid);
         if (part.rows() <= 0 || part.columns() <= 0) continue;
         add_inner_points(one->field, part, exaggeration, ground.all);
         add_rim_points(one->field, part, exaggeration, rim);

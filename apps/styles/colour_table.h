@@ -15,10 +15,11 @@ namespace oro {
 // way from the region's lowest post to its highest, or `nv`), then red, green and blue from 0 to 255, or the
 // name of a colour; a further number (how opaque) counts for nothing. Separated by spaces, tabs, commas or
 // colons; lines that begin with # or / are comments. A height that stands twice is a step from the first
-// colour to the last. A line INTERPOLATION, as QGIS exports it, says how colours go between heights: INTERPOLATED,
-// mixed; DISCRETE, each holds up to its own height, and the height `inf` is above all; EXACT, each at its own height
-// alone. What no class holds has the colour of the background. `range`: is asked for where there is a percentage. Errors: the file and the line,
-// and what is wrong with it; more than tint_stops_max heights; no height at all.
+// colour to the last. A line INTERPOLATION, as QGIS exports it, says how colours go between heights:
+// INTERPOLATED, mixed; DISCRETE, each holds up to its own height, and the height `inf` is above all; EXACT,
+// each at its own height alone. What no class holds has the colour of the background. `range`: is asked for
+// where there is a percentage. Errors: the file and the line, and what is wrong with it; more than
+// tint_stops_max heights; no height at all.
 // Source: GDAL, gdaldem manual, "color-relief"; held against GDALDEMProcessing by tests.
 Result<gpu::FrameStyle> style_of_colour_table(const std::string& text, const std::string& file,
                                               const std::function<HeightRange()>& range);

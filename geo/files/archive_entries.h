@@ -20,7 +20,7 @@ enum class ArchiveKind { zip, tar };
 struct ArchiveEntry {
     std::string name;  // with '/' between folders, as GDAL names it
     std::uint64_t bytes{};
-    std::string unreadable;  // why it cannot be unpacked here (a password, a rare way of packing), or ""
+    std::string unreadable;    // why it cannot be unpacked here (a password, a rare way of packing), or ""
     std::uint32_t checksum{};  // CRC-32 of its bytes, of a .zip
 };
 

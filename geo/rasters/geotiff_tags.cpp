@@ -64,12 +64,13 @@ GeoTiffTags tags_in(std::span<const std::uint8_t> bytes) {
     return tags;
 }
 
-// A GeoTIFF says nothing of the order of latitude and longitude (OGC:CRS84 differs from EPSG:4326 in that alone): its x
-// is always the longitude, as here.
+// A GeoTIFF says nothing of the order of latitude and longitude (OGC:CRS84 differs from EPSG:4326 in that
+// alone): its x is always the longitude, as here.
 bool reads_back(const SpatialReference& crs) {
     const Dataset again(GDALOpen(in_memory, GA_ReadOnly));
     const OGRSpatialReferenceH read = again ? GDALGetSpatialRef(again.get()) : nullptr;
-    const char* const how[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+    const char* const how[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
+                               "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
     return read != nullptr && OSRIsSameEx(read, crs.get(), how) != 0;
 }
 

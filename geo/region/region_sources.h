@@ -32,9 +32,9 @@ Source source_of_cell(const TileName& cell);
 
 // Looks at names, sizes and headers. What the user named must open; in folders and archives, rasters that are
 // no elevation are passed over and noted, but a damaged file is an error wherever it lies (a hole in the
-// terrain is no way to hear of it). What belongs to elevation data and is none (companions.h) is left out with
-// one note, whoever named it, and refused where nothing else is there. With a box, tiles that by their names lie elsewhere
-// are not opened. Errors: those of find_sources and of each file.
+// terrain is no way to hear of it). What belongs to elevation data and is none (companions.h) is left out
+// with one note, whoever named it, and refused where nothing else is there. With a box, tiles that by their
+// names lie elsewhere are not opened. Errors: those of find_sources and of each file.
 Result<RegionSources> look_at_sources(const RegionRequest& request, const Progress& progress);
 
 // Whole-degree cells that the region touches and no source does. Names as N45E008.

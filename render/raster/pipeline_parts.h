@@ -12,8 +12,9 @@
 
 namespace oro {
 
-// SPIR-V words whose loops all stay loops, whatever they ask for. A driver that compiles for processors unrolls
-// those of few turns, and then takes up to twice as long for a program: it works on each turn by itself.
+// SPIR-V words whose loops all stay loops, whatever they ask for. A driver that compiles for processors
+// unrolls those of few turns, and then takes up to twice as long for a program: it works on each turn by
+// itself.
 std::vector<std::uint32_t> with_whole_loops(std::span<const std::uint32_t> words);
 
 // A module of SPIR-V words; where a processor draws, of their with_whole_loops(). Errors: the device.

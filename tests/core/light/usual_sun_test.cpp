@@ -1,7 +1,7 @@
-// The usual sun: ten o'clock by the sun, on a day when the place has one. Expected values by the formula of the
-// sky's turn, sin(elevation) = sin(lat) sin(decl) + cos(lat) cos(decl) cos(hour), tan(azimuth from south) =
-// sin(hour) / (cos(hour) sin(lat) - tan(decl) cos(lat)), with the hour 30 degrees before noon. Source: J. Meeus,
-// Astronomical Algorithms, 2nd ed. 1998, eq. 13.5 and 13.6. Tolerance: 0.06 degree, that of the hour.
+// The usual sun: ten o'clock by the sun, on a day when the place has one. Expected values by the formula of
+// the sky's turn, sin(elevation) = sin(lat) sin(decl) + cos(lat) cos(decl) cos(hour), tan(azimuth from south)
+// = sin(hour) / (cos(hour) sin(lat) - tan(decl) cos(lat)), with the hour 30 degrees before noon. Source: J.
+// Meeus, Astronomical Algorithms, 2nd ed. 1998, eq. 13.5 and 13.6. Tolerance: 0.06 degree, that of the hour.
 #include "core/light/usual_sun.h"
 
 #include <gtest/gtest.h>
