@@ -230,8 +230,10 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
                 "--bbox.")
         .excludes(&bbox);
     data.choice("--height-unit", options.height_unit, {"m", "ft", "us-ft", "cm", "dm", "mm"},
-                "Take heights in this unit, whatever a file says. Default: the file's, or metres where it "
-                "says nothing. ft is the international foot, us-ft the US survey foot.");
+                "Take heights in this unit, whatever a file says: m, ft, us-ft, cm, dm or mm. Default: the "
+                "file's, or metres where it says nothing. ft is the international foot, us-ft the US survey "
+                "foot.")
+        .type_name("UNIT");
     data.option("--source-crs", options.source_crs, "CRS",
                 "Where files lie that state no coordinate reference system: EPSG:2056, or another that PROJ "
                 "knows. Files that state one keep it.");

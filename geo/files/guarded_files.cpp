@@ -220,7 +220,8 @@ CPLHTTPResult* refuse_http(const char* address, CSLConstList, GDALProgressFunc, 
 
 void guard_files() {
     static constexpr std::array allowed{"/vsimem/", "/vsizip/", "/vsitar/", "/vsigzip/", "/vsisubfile/"};
-    const CPLStringList prefixes(VSIFileManager::GetPrefixes());
+    CPLStringList prefixes(VSIFileManager::GetPrefixes());
+    prefixes.AddString("/vsicurl?");  // another name of /vsicurl/, which GDAL leaves out of its list
     std::map<VSIFilesystemHandler*, std::shared_ptr<VSIFilesystemHandler>> before;  // some have two names
     for (int i = 0; i < prefixes.size(); ++i) {
         const std::string prefix = prefixes[i];

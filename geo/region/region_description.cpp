@@ -40,6 +40,7 @@ ordered_json source_text(const SourceReport& s) {
     text["lat_spacing_deg"] = s.lat_spacing_deg;
     text["lon_spacing_deg"] = s.lon_spacing_deg;
     text["spacing_m"] = s.spacing_m;
+    if (s.nominal_spacing_deg > 0.0) text["nominal_spacing_deg"] = s.nominal_spacing_deg;
     text["box_deg"] = ordered_json::array();
     for (const double side_deg : {s.box.west_deg, s.box.south_deg, s.box.east_deg, s.box.north_deg})
         text["box_deg"].push_back(side_deg);
@@ -232,6 +233,7 @@ SourceReport source_of(const Field& field) {
     s.lat_spacing_deg = field["lat_spacing_deg"].number();
     s.lon_spacing_deg = field["lon_spacing_deg"].number();
     s.spacing_m = field["spacing_m"].number();
+    s.nominal_spacing_deg = field.number_if_any("nominal_spacing_deg").value_or(0.0);
     s.box = box_of(field["box_deg"]);
     s.lowest_m = field["lowest_m"].number();
     s.highest_m = field["highest_m"].number();

@@ -141,7 +141,7 @@ struct SourceReport {
     double lon_spacing_deg{};
     double spacing_m{};  // north-south, metres
     // As its CRS counts it, the mean of both ways, in degrees of the equator: equal for all files of one
-    // lattice. 0 where posts lie on degrees, and in a baked region.
+    // lattice. 0 where posts lie on degrees, and in a region that was baked before 2026-11-27.
     double nominal_spacing_deg{};
     // Where the one named first wins (RegionRequest::listed_first): its number among all, from 1. Else 0.
     int listed{};

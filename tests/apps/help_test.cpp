@@ -101,7 +101,8 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
 TEST(Help, ExplainsEachOption) {
     const Words flags{"--verify",       "--layers",     "--ortho",        "--legend",    "--no-paths",
                       "--data-changed", "--overwrite",  "--json",         "-q, --quiet", "--check",
-                      "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample"};
+                      "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample",
+                      "--on-summit"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;

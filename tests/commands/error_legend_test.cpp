@@ -52,10 +52,10 @@ TEST(ErrorLegend, SaysWhatColoursMeanAndItsUnits) {
 TEST(ErrorLegend, SaysWhatIsAtLeastThat) {
     Verification far = measured(0.0042);
     far.errors.seen.summary_px = {32.0, 32.0, 4.5, 1.25, 1000, 7, 32.0};
-    EXPECT_EQ(error_legend(far, 0.5)[5], "seen            >=32.0    >=32.0       4.5     >=1.3");
+    EXPECT_EQ(error_legend(far, 0.5)[5], "seen            >=32.0    >=32.0       4.5     >=1.2");
     for (const std::string& line : error_legend(far, 0.5)) expect_readable(line);
     const std::string text = verification_text(far, {}, {});
-    EXPECT_NE(text.find("\n  seen, px           >= 32.0     >= 32.0        4.50     >= 1.25\n"),
+    EXPECT_NE(text.find("\n  seen, px           >= 32.0     >= 32.0         4.50     >= 1.25\n"),
               std::string::npos)
         << text;
     EXPECT_NE(text.find("\n>=: at least this."), std::string::npos) << text;

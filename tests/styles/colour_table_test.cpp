@@ -100,8 +100,8 @@ std::array<int, 3> colour_at(const gpu::FrameStyle& style, float H_m) {
     return codes;
 }
 
-using Codes = std::array<int, 3>;
-constexpr Codes outside{244, 243, 238}, blue{43, 131, 186}, green{171, 221, 164}, yellow{255, 255, 191},
+using MapCodes = std::array<int, 3>;
+constexpr MapCodes no_class{244, 243, 238}, blue{43, 131, 186}, green{171, 221, 164}, yellow{255, 255, 191},
     red{215, 25, 28};
 
 // QGIS 3 (QgsColorRampShader::shade): the colour of the first class that is not below the height.
@@ -126,7 +126,7 @@ TEST(ColourTableText, ClassesOfQgisHoldUpToTheirHeight) {
     const auto open = style_of_colour_table(table, "t", [] { return HeightRange{}; });
     ASSERT_TRUE(open.ok()) << open.error().line();
     EXPECT_EQ(colour_at(*open, 550.0F), yellow);
-    EXPECT_EQ(colour_at(*open, 551.0F), outside);
+    EXPECT_EQ(colour_at(*open, 551.0F), no_class);
 }
 
 TEST(ColourTableText, QgisMixesColoursAndHasExactOnes) {
@@ -136,17 +136,17 @@ TEST(ColourTableText, QgisMixesColoursAndHasExactOnes) {
         "t", [] { return HeightRange{}; });
     ASSERT_TRUE(mixed.ok()) << mixed.error().line();
     EXPECT_EQ(colour_at(*mixed, 250.0F), blue);
-    EXPECT_EQ(colour_at(*mixed, 325.0F), (Codes{107, 176, 175}));  // the mean
-    EXPECT_EQ(colour_at(*mixed, 5000.0F), green);                  // no share of what is infinitely far
+    EXPECT_EQ(colour_at(*mixed, 325.0F), (MapCodes{107, 176, 175}));  // the mean
+    EXPECT_EQ(colour_at(*mixed, 5000.0F), green);                     // no share of what is infinitely far
     const auto exact =
         style_of_colour_table("INTERPOLATION:EXACT\n250,43,131,186,255,250\n251,171,221,164,255,251\n", "t",
                               [] { return HeightRange{}; });
     ASSERT_TRUE(exact.ok()) << exact.error().line();
-    for (const auto& [H_m, codes] : {std::pair{249.99F, outside},
+    for (const auto& [H_m, codes] : {std::pair{249.99F, no_class},
                                      {250.0F, blue},
-                                     {250.01F, outside},
+                                     {250.01F, no_class},
                                      {251.0F, green},
-                                     {252.0F, outside}})
+                                     {252.0F, no_class}})
         EXPECT_EQ(colour_at(*exact, H_m), codes) << H_m;
 }
 

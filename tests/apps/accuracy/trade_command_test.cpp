@@ -210,7 +210,10 @@ TEST_F(TradeCommand, MakesItsFolder) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(names_in(made), (Words{"trade.csv", "trade.html"}));
     std::vector<std::string> limits;
-    std::istringstream lines(outcome.out.substr(0, outcome.out.find("\nWhat was predicted ")));
+    const std::size_t errors = outcome.out.find("\nHow close "),
+                      predictions = outcome.out.find("\nWhat was predicted ");
+    ASSERT_LT(errors, predictions) << outcome.out;
+    std::istringstream lines(outcome.out.substr(errors, predictions - errors));
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
         Words row{std::istream_iterator<std::string>(words), {}};

@@ -89,7 +89,7 @@ TEST_F(TextInput, NestedJsonIsRefusedWhereverItStands) {
     EXPECT_EQ(names_in(drawn), Words{});
 }
 
-// What auto has measured is a cache: damaged, it is measured again.
+// What doctor has measured for auto is a cache: damaged, it hinders no picture, and is measured again.
 TEST_F(TextInput, NestedCacheIsWrittenAnew) {
     write_bytes(folder / "pipelines.json",
                 "{\"orograph_pipelines\":1,\"measured\":[" + nested(100'000) + "]}");
@@ -97,6 +97,7 @@ TEST_F(TextInput, NestedCacheIsWrittenAnew) {
     own_cache.environment = {"OROGRAPH_CACHE=" + folder.string()};
     const Outcome outcome = shoot({}, own_cache);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(run_orograph({"doctor"}, own_cache).exit_code, 0);
     EXPECT_EQ(oro::test::bytes_of(folder / "pipelines.json").find("[[["), std::string::npos);
 }
 

@@ -61,7 +61,7 @@ TEST(AtPlace, ACellIsFramed) {
     EXPECT_EQ(cell["fov_deg"], all["fov_deg"]);
     EXPECT_EQ(cell["fov_deg"], 30.0);
     // A geohash of 0.044 x 0.044 degrees, of which much less ground is in view.
-    const json hash = shot({"--at", "dnkpf"});
+    const json hash = shot({"--at", "geohash:dnkpf"});
     EXPECT_LT(hash["eye"]["h_m"].get<double>(), all["eye"]["h_m"].get<double>());
 }
 
