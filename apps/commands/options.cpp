@@ -233,7 +233,7 @@ void add_region_options(CLI::App& command, RegionOptions& options) {
                 "Take heights in this unit, whatever a file says: m, ft, us-ft, cm, dm or mm. Default: the "
                 "file's, or metres where it says nothing. ft is the international foot, us-ft the US survey "
                 "foot.")
-        .type_name("UNIT");
+        .option_text("UNIT");
     data.option("--source-crs", options.source_crs, "CRS",
                 "Where files lie that state no coordinate reference system: EPSG:2056, or another that PROJ "
                 "knows. Files that state one keep it.");

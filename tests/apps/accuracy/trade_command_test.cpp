@@ -220,7 +220,7 @@ TEST_F(TradeCommand, MakesItsFolder) {
         if (row.size() > 2 && row[0] == "*") row.erase(row.begin());
         if (row.size() > 2 && row[0] == "no" && row[1] == "full") row.erase(row.begin());
         for (const char* name : {"full", "balanced", "survey", "draft"}) {
-            if (row.size() < 9 || row[0] != name) continue;
+            if (row.size() < 7 || row[0] != name) continue;
             limits.push_back(row.back());
         }
     }
