@@ -1,5 +1,5 @@
-# Tests of more than eight seconds, but for one of each suite: scripts/test --long runs them, scripts/test leaves them out.
-# Tests that are not in the folder that includes this are passed over.
+# Tests of more than some five seconds, but for one of most suites: scripts/test --long runs them, scripts/test leaves them
+# out. Tests that are not in the folder that includes this are passed over.
 set_tests_properties(
   Bake.AFlippedByteIsTold
   Bake.PicturesAreThoseOfItsSources
@@ -8,44 +8,75 @@ set_tests_properties(
   ClustersBake.GoesOnWhereItWasBrokenOff
   ClustersBake.IsToldAndDrawn
   ClustersDrawn.OneLevelOfTheGraph
+  ClustersDrawn.PanoramasOfOneLevelToo
   ClustersDrawn.PanoramasToo
   ClustersDrawn.PicturesExplainTheGraph
+  ClustersDrawn.WhatDoesNotGoTogetherIsRefused
+  ClustersDrawn.WithLittleMemoryForTheirGroups
   ClustersTold.FiguresOfTheGraph
   ClustersTold.PlanRefusesWhatIsNotDrawn
   ClustersTold.TradeHasARowForEachTau
   ComparedPixels.GoldenPicturesPass
   ComparedPixels.OtherFormatsPass
+  ComparedPixels.TheOtherWayOfDrawingPasses
+  DamagedGeoidGrid.EveryCommandRefusesAndDoctorNamesTheFile
   DamagedRegion.AnyMutationThroughEachCommand
   DamagedRegion.EachPageInCoarsePictures
+  DefaultStyle.IsNatural
   DeviceChoice.TakesTheBestThatCanDraw
+  DeviceChoice.TakesTheOneThatIsNamed
+  Drape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
   FilesFarApart.AreEachDrawnAsAlone
+  FilesFarApart.AreMeasured
   FoundViews.APlaneIsCutOppositeToTheEye
+  FoundViews.AtTheFootOfAWall
   FoundViews.FarGroundOverAPlane
   FoundViews.GroundFromBelowThroughAHole
+  FoundViews.WidePagesOnAPlane
   GpuMemory.FewerPagesAreEnoughWhereTheyAre
   GridsBake.DamageIsFound
   GridsBake.IsDrawnAsTheFilesAre
   GridsBake.IsTheSameTwiceAndAfterKills
+  GridsOverEachOther.AreDrawnAgainFromTheirView
+  GridsOverEachOther.AreForetold
   GridsOverEachOther.AreInTheOrderThatIsAskedFor
   GridsOverEachOther.AreLookedOverTogether
   GridsOverEachOther.AreMappedTogether
   GridsOverEachOther.AreMeasured
+  GridsOverEachOther.AreStoodOnWhereTheFinerHasGround
   GridsOverEachOther.HaveARimThatIsForetold
   GridsUnderImages.LieOnTheSamePlaces
   HostileInput.AnInterruptedPictureLeavesNothing
+  HostileSources.SourcesOfAVrtReachNoNetwork
+  InputsSpared.TheViewOfShotAndPanorama
+  KinkedGrid.IsTheSamePictureBaked
   LabelsOfShots.AreLeftOutWhereTheViewSaysSo
+  LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
   ModelOptions.AreSaidAndKeptAndDrawnAgain
+  ModelOptions.PackedHeightsDrawTheSamePicture
   NetBake.PicturesAreThoseOfItsSources
   OwnPostsOfShots.AreDrawnAgainByEitherWayFromTheirView
+  OwnPostsOfShots.ArePlannedAndTraded
   OwnPostsOfShots.ViewsThatSayNothingOfThemAreDrawnResampled
+  Panorama.IsTheSameTwiceAndByItsView
+  Panorama.RefusesWhatCannotBe
   PanoramaPeaks.AreWhereGeographicLibHasThemAndNamedWhereTheyAreSeen
+  Pipeline.APictureMeasuresNothingWhereAProcessorDraws
+  Pipeline.IsMeasuredOnceAndRemembered
   Pipeline.NeedsNoCache
   Pipeline.ViewsNameTheWayThatDrewThem
   Pipelines/EachCallOfVulkan.FailsWithALineAndNothingLeft/compute
   Pipelines/EachCallOfVulkan.FailsWithALineAndNothingLeft/mesh
+  Prints.AnotherGeoidGridIsTold
+  Prints.AnotherVersionIsANoteUnlessPixelsDiffer
   Prints.DataChangedGoesOnAndSaysSo
+  Prints.EachOfTheFourHasALineOfItsOwn
+  Prints.SwappedDataAreTold
   Prints.TheSameDataUnderAnotherNameOrBakedAreTheSame
+  Prints.ViewsWithoutAnyOpenAsTheyDid
+  RegionWords.VoidsAndMissingTilesAreCountedApart
+  ResamplingTold.WithoutBeingAskedForThereIsNone
   SameEverywhere.AViewUnderAnImage
   SameEverywhere.AViewWithEveryEffect
   SameEverywhere.EachEffectIsInTheView
@@ -53,36 +84,63 @@ set_tests_properties(
   Shot.AntimeridianAndPoles
   Shot.ViewDrawsTheSameBytes
   ShotLegend.ItsViewDrawsItAgain
+  ShotLegend.OfAFileWithALatin1Name
   SkyBands.AreBrokenUpByDither
+  SunOfAShot.IsTheUsualOneInTheStyleOfDaylight
+  SunOfAShot.OlderPicturesKeepTheirs
+  SunOfAShot.OtherStylesKeepTheirOwn
   ToldView.LimitsAreTheSameOnBothSides
+  ToldView.PathsStartFromThePicture
   ToldView.PictureAndErrorsAreOneStep
   TradeCommand.WritesATableAndAPage
+  Unseen.APartThatWasChosenEndsAndMissesNothing
+  Unseen.APictureOfAllTheDataSaysNothing
+  Unseen.NothingIsSaidWhereAllLinesEndOnData
   Unseen.TheBundledRegionEndsToo
   Unseen.TheTileThatIsMissingIsNamedWithItsBound
+  Vectors.AreInTheViewWhichDrawsThemAgain
   Verify.CompareTellsTheSameOfAWrittenPicture
   Verify.QuietLeavesWhatWasAskedFor
   Verify.WhatAModelLeavesOutIsMeasured
+  ViewshedCommand.IsAGeoTiffThatSaysWhatSightSays
+  ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
   Window.FliesJumpsTakesAPictureAndLeaves
+  Window.IsShownAgainWhereItWasLost
   WindowFaults.EndItWithALine
+  WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")
 set_tests_properties(
+  Commands/FailedAllocations.AllFromOneOn/Shot
+  Commands/FailedAllocations.OfAll/Bake
   Commands/FailedAllocations.OfAll/Info
   Commands/FailedAllocations.OfAll/Shot
+  Commands/FailedAllocations.OfAll/ShotOfBaked
+  Commands/FailedAllocations.OfAll/Viewshed
+  Commands/FailedAllocations.OfTheProgram/Shot
+  Commands/FailedAllocations.OfTheProgram/Viewshed
+  Commands/FailedAllocations.OneInSix/Shot
   Commands/FailedAllocationsOfC.ForTheProgram/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ShotOfBaked
+  Commands/FailedSystemCalls.OfAll/Shot
+  Commands/FailedSystemCalls.OfAll/ShotOfBaked
   Commands/FailedSystemCalls.OfTheProgram/Shot
+  Commands/FailedSystemCalls.OfTheProgram/ShotOfBaked
+  Commands/FailedSystemCalls.OfWriting/Bake
+  Commands/FailedSystemCalls.OfWriting/BakeAgain
   Commands/FailedSystemCalls.OfWriting/Shot
   Commands/FailedSystemCalls.OfWriting/ShotOfBaked
   Commands/FailedThreads.EachAndAllFromOneOn/Shot
   Commands/FailedThreads.EachAndAllFromOneOn/ShotOfBaked
   FailedAllocationsOfFreetype.ForLabels
   FailedAllocationsOfLibpng.ForAPicture
+  Mutated.Rasters
   PROPERTIES LABELS "faults;long")
 set_tests_properties(
   AirTables.GroundIsSeenThroughWhatBruteForceGives
   AirTables.PixelsOfTheSkyAreWhatBruteForceGives
   AirTables.SkyIsWhatBruteForceGives
+  CastShadows.AreTheSameBytesHoweverTheyAreDrawn
   ClusterPictures.AreWithinTau
   ClusterPictures.HaveNoCracks
   ClusterPictures.HaveNoCracksWhileTheyStream
@@ -93,23 +151,31 @@ set_tests_properties(
   Cover.GoesByHeightAboveTheSnowLine
   Cover.IceLiesOnWideLevelGround
   Cover.SlopesTowardsThePoleLieLower
+  Cover.SteepGroundIsRock
   Drape.IsTheSameByBothWaysOfDrawingAndTwice
   Drape.KeepsToItsMemoryAndSaysWhereThatIsTooLittle
   Drape.LiesWhereProjPutsIt
   Drape.LiesWhereProjPutsItOverANet
+  Drape.OpacityMixesAndLaterImagesLieOnTop
   ErrorsOfPictures.OfRealTerrainIsWithinTau
   ErrorsOfPictures.OnNetsIsWithinTau
+  ExtremePlaces.Antimeridian
   ExtremePlaces.FlightAcrossThePoles
+  ExtremeSize.HundredMillionPosts
+  ExtremeSurfaces.WallEdgeOn
   Footprint.HoldsForMaps
   Footprint.HoldsForRandomViews
   Footprint.HoldsOnTurnedRows
   Footprint.IsTheMeanOfSixtyFourSamples
   Footprint.IsTheSameByOneProgramOrSeveral
+  Footprint.LeavesAnglesOfLargePosts
+  Footprint.ShadowsFollowTheSunInOneRenderer
   Footprint.ShadowsOfFarGroundAreNoSpeckle
   Halves.ShowTheTrianglesOfWholeMeshletsAtRims
   Halves.ShowTheTrianglesOfWholeMeshletsInRounds
   HatchToTheHorizon.IsSeenFromAPersonsHeight
   HeightsOnGpu.PackedDrawTheSamePictures
+  Jitter.OfAThousandSteps
   Labels.TellTheHeightOfRealGround
   Labels.TellTheHeightOfTheGroundBelowThem
   LayersOfPictures.OfMadeTerrainAreTheOracles
@@ -118,36 +184,52 @@ set_tests_properties(
   Memory.OfSixtyFourMegabytesIsEnoughForSixtyEightTiles
   ModelPlacement.PostsAreWhereTheModelPutsThem
   OrthoMaps.LieOverTheirSourceInEveryCrs
+  Paths/Choice.IsThatOfCore/compute
+  Paths/Choice.IsThatOfCore/mesh
+  Paths/ClusterCuts.AreTheProcessors/compute
   Paths/ClusterCuts.AreTheProcessors/mesh
+  Paths/ClusterCuts.OfLevelsAreTheProcessors/compute
   Paths/ClustersShaded.AsAMap/compute
   Paths/ClustersShaded.AsAMap/mesh
   Paths/ClustersShaded.InAir/compute
   Paths/ClustersShaded.InAir/mesh
   Paths/ClustersShaded.InSunlight/compute
   Paths/ClustersShaded.InSunlight/mesh
+  Paths/Cracks.NoneInPoland/compute
+  Paths/Cracks.NoneInPoland/mesh
+  Paths/Cracks.NoneInTheAlps/compute
+  Paths/Cracks.NoneInTheAlps/mesh
   Paths/Cracks.NoneInTheHimalaya/compute
   Paths/Cracks.NoneInTheHimalaya/mesh
+  Paths/Cracks.NoneOnNets/mesh
   Paths/Frame.CullingChangesNoPixel/mesh
   Paths/GridsTogether.AreWithinTauOfTheTruth/compute
   Paths/GridsTogether.AreWithinTauOfTheTruth/mesh
+  Paths/GridsTogether.JoinOverGaps/compute
+  Paths/GridsTogether.JoinOverGaps/mesh
   Paths/GridsTogether.LeaveNoGap/compute
   Paths/GridsTogether.LeaveNoGap/mesh
   Paths/Models.CullingChangesNoPixel/compute
   Paths/Models.CullingChangesNoPixel/mesh
+  Paths/Models.LookingDownShowsNoGap/compute
   Paths/Models.LookingDownShowsNoGap/mesh
   Paths/Occluded.HiddenPagesNeedNoRoom/compute
   Paths/Occluded.HiddenPagesNeedNoRoom/mesh
+  Paths/Occluded.PicturesAreThoseWithout/compute
   Paths/Occluded.PicturesAreThoseWithout/mesh
+  Paths/Occluded.PicturesAreThoseWithoutInOtherModels/compute
   Paths/Occluded.PicturesAreThoseWithoutInOtherModels/mesh
   Paths/OccludedClusters.AWrongPyramidIsNoticed/mesh
   Paths/OccludedClusters.PicturesAreThoseWithout/compute
   Paths/OccludedClusters.PicturesAreThoseWithout/mesh
   Paths/OccludedClusters.PicturesAreThoseWithoutInOtherModels/compute
   Paths/OccludedClusters.PicturesAreThoseWithoutInOtherModels/mesh
+  Paths/OccludedClusters.TakeTurnsWithBlocks/compute
   Paths/OccludedClusters.TakeTurnsWithBlocks/mesh
   Paths/OccludedClusters.WindowsAreThoseWithout/compute
   Paths/OccludedClusters.WindowsAreThoseWithout/mesh
   Paths/OccludedScene.GridsWithSeamsAreThoseWithout/mesh
+  Paths/OccludedScene.TheAlpsAreThoseWithout/compute
   Paths/OccludedScene.TheAlpsAreThoseWithout/mesh
   Paths/ShownParts.OverdrawCountsTriangles/compute
   Paths/ShownParts.OverdrawCountsTriangles/mesh
@@ -161,6 +243,7 @@ set_tests_properties(
   ShadowsOfPictures.BetweenGridsAreTheOracles
   ShadowsOfPictures.BetweenGridsAreTheSameEitherWay
   ShadowsOfPictures.HaveNoEdgesOfTrianglesNearTheEye
+  ShadowsOfPictures.OfAGridBesideThePictureAreTheOracles
   ShadowsOfPictures.OfGridsOverEachOtherAreTheOracles
   ShadowsOfPictures.OfRealTerrainAreTheOracles
   ShadowsOfPictures.OfSmoothGroundAreNearlyThoseOfTriangles
@@ -173,6 +256,8 @@ set_tests_properties(
   SmoothEdges.AreTheSameByBothWaysOfDrawing
   SmoothEdges.AreThoseOfSixtyFourSamples
   SmoothEdges.FitTogetherInTiles
+  SmoothEdges.LeaveGroundWithoutEdgesAlone
+  SurroundingsTest.HatchHasLines
   SurroundingsTest.LakesAreWaterAndSmallFlatFieldsAreNot
   SurroundingsTest.LowGroundIsTheSeaOnDemand
   SurroundingsTest.SkirtIsNoGround
@@ -181,6 +266,8 @@ set_tests_properties(
   TradeOfViews.PredictionsHoldOnMadeTerrain
   TradeOfViews.PredictionsHoldOnRealTerrain
   TradeOfViews.PredictionsHoldOnSeveralGrids
+  TradeOrder.CountsAreThoseOfAnyOrderAndAnyRepeats
+  TradeOrder.NorDoTheyDependOnWhatFillsTheMemory
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/blocks
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/clusters
   Triangles/FullLists.WhatCannotBeClippedIsAnError/clusters
@@ -189,17 +276,35 @@ set_tests_properties(
   Certificate.NothingInViewIsFartherThanTauFromItsPlace
   ClusterFile.AFlippedBitAnywhereIsFound
   ClusterFileOfRealGround.N46E008
+  ClusteredFile.DamageIsToldInOneLine
   Culling.NoVisiblePostIsEverCulled
+  DamagedGeoid.CutEmptyAndHeaderOnlyGridsAreErrors
+  FrameChoice.MeetsItselfRoundTheEarth
+  GraphInBands.GroundWithHoles
   GraphInBands.RoughGround
   GraphInBands.WindowOfARegion
+  GraphWindow.AtTheRegionsOwnRimNothingIsOpen
+  GraphWindow.WholeGroupsAreThoseOfTheRegion
+  Ground.FromTheMoonOntoTheWholeEarth
   GroundProfile.TenThousandLinesLeaveNothingOut
+  HostileVectors.AMillionPlacesAreReadAtOnce
   Listing.HeadersOfTenThousandFilesAreReadOnce
   Lookout.TenThousandPairsAreTheMarchedLines
+  MeshForecasts.AreTheSameOfPostsReadPageByPage
   NetViewshed.IsTheLookoutsTurnedOverTheAntimeridianAndAPole
+  NetViewshed.WindowsHoldTheCircle
+  PackedRegion.OfEveryKindComesBack
+  PackedRegion.OfTheAlpsTakesLessThanAThird
+  RegionFile.SurvivesRandomHeaders
+  RegionFileWriter.GoesOnAfterAnyBreak
   RegionGround.LookoutsSeeOverSteps
   RegionGround.SightLinesMeetWhatMarchingFinds
+  ResamplingError.RotatedInFeetAndAnotherProjection
+  ResamplingError.TheHighestPostOfManyIsAlwaysThere
   StoredValues.OfAllRealFilesAreThoseOfGdal
   StreamedChoices.CoverEachPlaceOnceWhateverIsHere
+  StreamedChoices.WhatIsHiddenComesLast
+  SunOverAlps.WithinTenSecondsOfBruteForce
   Viewshed.IsTheLookoutsOverHills
   Viewshed.OfARealTileIsGdals
   ViewshedOfGrids.IsWhatMarchedLinesSee
@@ -207,4 +312,5 @@ set_tests_properties(
   WindowedGraph.HasTheBytesOfOneGo
   WindowedGraph.HasTheBytesOfOneGoInStages
   WindowedGraph.HasTheBytesOfOneGoOverASea
+  WorldBox.EveryPartOfEveryWorldIsTheRastersOwn
   PROPERTIES LABELS "unit;long")
