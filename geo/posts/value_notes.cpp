@@ -47,10 +47,15 @@ bool all_read_like_no_data(const ValueFindings& values) {
 void tell_undeclared(const Source& source, std::vector<Told>& all) {
     const ValueFindings& values = source.values;
     for (const StoredCount& count : values.undeclared)
-        tell(all, source, count.posts, value_words(count.value));
+        if (count.value != blurred_value) tell(all, source, count.posts, value_words(count.value));
     if (!all_read_like_no_data(values)) return;
     for (const StoredCount& count : values.implausible)
         tell(all, source, count.posts, value_words(count.value));
+}
+
+void tell_blurred(const Source& source, std::vector<Told>& all) {
+    for (const StoredCount& count : source.values.undeclared)
+        if (count.value == blurred_value) tell(all, source, count.posts);
 }
 
 // "; 5 of them hold -32678, which no tag declares as no data"
@@ -83,10 +88,11 @@ std::string files_words(const std::string& first, std::size_t files) {
 }
 
 void note_values(std::span<const Source> sources, std::vector<std::string>& notes) {
-    std::vector<Told> undeclared, implausible, unwritten, steep;
+    std::vector<Told> undeclared, blurred, implausible, unwritten, steep;
     for (const Source& source : sources) {
         const ValueFindings& values = source.values;
         tell_undeclared(source, undeclared);
+        tell_blurred(source, blurred);
         if (values.implausible_posts > 0 && !all_read_like_no_data(values))
             tell(implausible, source, values.implausible_posts,
                  among_implausible(values) +
@@ -105,6 +111,11 @@ void note_values(std::span<const Source> sources, std::vector<std::string>& note
         return std::to_string(told.posts) + (told.posts == 1 ? " post holds " : " posts hold ") + told.about +
                ", which no tag declares as no data; " + (told.posts == 1 ? "it is" : "they are") +
                " taken as void";
+    });
+    put(blurred, notes, [](const Told& told) {
+        return std::to_string(told.posts) + (told.posts == 1 ? " post lies" : " posts lie") +
+               " between a no-data value and the terrain, as resampling leaves them, and " +
+               (told.posts == 1 ? "is" : "are") + " taken as void; heights beside voids may be blurred, too";
     });
     put(implausible, notes, [](const Told& told) {
         return std::to_string(told.posts) + " heights below -12,000 m or above 9,000 m are taken as void" +

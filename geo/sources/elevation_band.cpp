@@ -83,19 +83,32 @@ int band_of_heights(GDALDatasetH dataset, int bands) {
     return others.size() == 1 && others.front() == 1 ? 1 : 0;
 }
 
-// GDAL before 3.7 has no type for them, and says so in the band's metadata; a VRT says nothing, and its
-// sources do.
-bool has_signed_bytes(GDALDatasetH dataset, int band, int depth) {
+// Where the bytes of a band's sources are signed. GDAL before 3.7 has no type for them, and says so in the
+// band's metadata; a VRT says nothing, gives 0 to 255 in whatever type it has, and its sources tell.
+enum class SignedBytes { none, all, mixed };
+
+SignedBytes signed_bytes(GDALDatasetH dataset, int band, int depth) {
     const GDALRasterBandH raster = GDALGetRasterBand(dataset, band);
-    if (raster == nullptr || GDALGetRasterDataType(raster) != GDT_Byte) return false;
+    if (raster == nullptr) return SignedBytes::none;
     const char* const type = GDALGetMetadataItem(raster, "PIXELTYPE", "IMAGE_STRUCTURE");
-    if (type != nullptr && std::string_view(type) == "SIGNEDBYTE") return true;
+    if (type != nullptr && std::string_view(type) == "SIGNEDBYTE") return SignedBytes::all;
     constexpr int deepest = 4;
-    const std::vector<VrtPart> parts = parts_of_vrt_band(dataset, band);
-    if (parts.empty() || depth >= deepest) return false;
-    const Dataset first(GDALOpenEx(parts.front().file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
-                                   trusted_drivers(), nullptr, nullptr));
-    return first && has_signed_bytes(first.get(), parts.front().band, depth + 1);
+    constexpr std::size_t most_files = 16;  // of a mosaic: one program wrote them all
+    std::vector<VrtPart> parts = parts_of_vrt_band(dataset, band);
+    if (const auto warped = source_of_warped_vrt(dataset, band)) parts = {*warped};
+    if (depth >= deepest) return SignedBytes::none;
+    if (parts.size() > most_files) parts.resize(most_files);
+    std::size_t all = 0, none = 0;
+    for (const VrtPart& part : parts) {
+        const Dataset source(GDALOpenEx(part.file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
+                                        trusted_drivers(), nullptr, nullptr));
+        const SignedBytes own = source ? signed_bytes(source.get(), part.band, depth + 1) : SignedBytes::none;
+        if (own == SignedBytes::mixed || (own == SignedBytes::all && part.changes_values))
+            return SignedBytes::mixed;
+        ++(own == SignedBytes::all ? all : none);
+    }
+    if (all > 0 && none > 0) return SignedBytes::mixed;
+    return all > 0 ? SignedBytes::all : SignedBytes::none;
 }
 
 }  // namespace
@@ -125,7 +138,12 @@ Result<ElevationBand> elevation_band(GDALDatasetH dataset) {
     }
     if (const std::string why = never_elevation(GDALGetRasterBand(dataset, chosen.band)); !why.empty())
         return no_elevation(why);
-    chosen.signed_bytes = has_signed_bytes(dataset, chosen.band, 0);
+    const SignedBytes bytes = signed_bytes(dataset, chosen.band, 0);
+    if (bytes == SignedBytes::mixed)
+        return no_elevation(
+            "mixes or scales signed bytes (PIXELTYPE=SIGNEDBYTE) as if they were 0 to 255: "
+            "convert its sources to Int16 first");
+    chosen.signed_bytes = bytes == SignedBytes::all;
     return chosen;
 }
 

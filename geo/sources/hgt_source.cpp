@@ -107,6 +107,37 @@ Result<void> check_packing(VSILFILE* file, std::uint64_t bytes_left, const GdalM
     return Error{ErrorKind::failed, shown, "its packing is damaged: " + said};
 }
 
+// How rough posts are, read with their bytes in the tile's order and in the other one.
+class ByteOrder {
+  public:
+    void add_row(const std::vector<unsigned char>& row, const PostWindow& window) {
+        for (int c = window.column + 1; c < window.column + window.columns; ++c) {
+            const std::size_t at = 2 * static_cast<std::size_t>(c);
+            add(row[at - 2], row[at - 1], row[at], row[at + 1]);
+        }
+    }
+    // True where noise from one end of the numbers to the other becomes a surface in the other order.
+    [[nodiscard]] bool seems_swapped() const {
+        constexpr double least_pairs = 1000.0, least_step_m = 20.0, smoother = 20.0;
+        return pairs_ >= least_pairs && steps_m_ >= least_step_m * pairs_ &&
+               steps_m_ >= smoother * swapped_m_;
+    }
+
+  private:
+    double pairs_{}, steps_m_{}, swapped_m_{};
+
+    static double number(unsigned char high, unsigned char low) {
+        return static_cast<double>(static_cast<std::int16_t>(high << 8 | low));
+    }
+    void add(unsigned char a, unsigned char b, unsigned char c, unsigned char d) {
+        for (const double value : {number(a, b), number(c, d), number(b, a), number(d, c)})
+            if (value == static_cast<double>(hgt_void)) return;
+        ++pairs_;
+        steps_m_ += std::abs(number(a, b) - number(c, d));
+        swapped_m_ += std::abs(number(b, a) - number(d, c));
+    }
+};
+
 std::string srtm_attribution(const SourcePath& path) {
     const std::string names = lower_case(path.name + " " + path.archive);
     if (names.find("srtmgl1") != std::string::npos) return "NASA SRTM v3 (SRTMGL1), public domain";
@@ -220,6 +251,7 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
     block.window = window;
     block.height_m.reserve(static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns));
     std::vector<unsigned char> row(2 * side);
+    ByteOrder order;
     VSIFSeekL(file.get(), static_cast<vsi_l_offset>(window.row) * row.size(), SEEK_SET);
     for (int r = 0; r < window.rows; ++r) {
         const std::size_t got = VSIFReadL(row.data(), 1, row.size(), file.get());
@@ -230,6 +262,7 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
                              : "ends in post row " + std::to_string(window.row + r) + " of " +
                                    std::to_string(side) + ": " +
                                    messages.last("the file is truncated or its packing is damaged")};
+        order.add_row(row, window);
         for (int c = window.column; c < window.column + window.columns; ++c) {
             const std::size_t byte = 2 * static_cast<std::size_t>(c);
             const auto value = static_cast<std::int16_t>(row[byte] << 8 | row[byte + 1]);
@@ -244,6 +277,10 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
             block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(value));
         }
     }
+    if (order.seems_swapped())
+        return Error{ErrorKind::failed, source.report.path,
+                     "its bytes seem to be in the other order: a .hgt tile has the high byte of each height "
+                     "first, and this one is a surface only with the low byte first"};
     const std::uint64_t bytes_left = row.size() * (side - static_cast<std::size_t>(window.row + window.rows));
     if (source.file.starts_with("/vsi"))
         ORO_CHECK(check_packing(file.get(), bytes_left, messages, source.report.path));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <span>
 
 namespace oro {
@@ -158,6 +159,254 @@ bool is_no_height(float suspect_m, const Steps& rim, const Cliffs& cliffs) {
            std::max(has_depths ? least_sea_cliff_m : least_cliff_m, 2.0 * cliffs.of_others.at_share(0.999));
 }
 
+constexpr std::uint64_t least_posts = 9;      // that hold a value for it to be a code of any digits
+constexpr double code_spread_m = 8.0;         // by lossy packing values of one code lie so near each other
+constexpr double least_zero_cliff_m = 100.0;  // what is filled with 0 lies so far below all heights
+
+// A pair of neighbours with a larger step lies in a rim, not in terrain: a slope of 63 degrees.
+double calm_step_m(const Source& source) {
+    return std::clamp(2.0 * source.report.spacing_m, least_cliff_m, least_sea_cliff_m);
+}
+
+// True near a number that reads like no data, as lossy packing leaves it.
+bool is_near_code(double stored) {
+    if (reads_like_no_data(stored)) return true;
+    if (std::abs(stored) < 900.0) return false;
+    const double whole = std::round(stored);
+    for (const double step : {0.0, -1.0, 1.0, -2.0, 2.0})
+        if (reads_like_no_data(whole + step)) return true;
+    return false;
+}
+
+// Some consecutive heights of a file, with nothing near them.
+struct Level {
+    double first_m{}, end_m{};
+    std::uint64_t posts{};
+    double code_m{};  // the height that most of them have
+};
+
+// A cut of a file's heights: those below it are none.
+struct Cut {
+    double below_m{};
+    double gap_m{};   // between it and the highest value below it that holds many posts
+    double code_m{};  // that value
+    bool is_blurred{};
+    bool is_zero{};
+};
+
+// How often each height comes, by whole metres; with a sign of -1 all heights are turned round, so that the
+// highest come first. Calm posts have no rim beside them.
+class Survey {
+  public:
+    explicit Survey(double sign)
+        : sign_(sign), base_m_(sign > 0.0 ? lowest_plausible_m : -highest_plausible_m) {}
+    void add(float height_m, bool is_calm) {
+        const std::size_t bin = bin_of(sign_ * static_cast<double>(height_m));
+        ++all_[bin];
+        calm_[bin] += is_calm;
+    }
+    void add_plateau(float height_m) {
+        constexpr std::size_t most = 1U << 16U;
+        const float value = static_cast<float>(sign_) * height_m;
+        const auto known = plateaus_.find(value);
+        if (known != plateaus_.end())
+            ++known->second;
+        else if (plateaus_.size() < most)
+            plateaus_.emplace(value, 1);
+    }
+    // Posts that no terrain has, which hold a code.
+    void add_beyond(const PostBlock& block) {
+        for (const StoredCount& count : block.values.implausible)
+            if (sign_ * count.value < 0.0 && reads_like_no_data(count.value)) {
+                beyond_ += count.posts;
+                beyond_stored_ = count.value;
+            }
+    }
+    [[nodiscard]] std::vector<Cut> cuts(const Source& source) const {
+        std::vector<Cut> found = cuts_between(source, levels_of(all_, least_cliff_m), false);
+        const double rim_m = calm_step_m(source);
+        for (const Cut& cut : cuts_between(source, levels_of(calm_, rim_m), true))
+            if (posts_between(cut.code_m + code_spread_m, cut.below_m - rim_m) >= least_posts)
+                found.push_back(cut);
+        return found;
+    }
+
+  private:
+    static constexpr std::size_t bins = 21002;
+    double sign_, base_m_;
+    std::vector<std::uint64_t> all_ = std::vector<std::uint64_t>(bins);
+    std::vector<std::uint64_t> calm_ = std::vector<std::uint64_t>(bins);
+    std::map<float, std::uint64_t> plateaus_;
+    std::uint64_t beyond_{};
+    double beyond_stored_{};
+
+    [[nodiscard]] std::size_t bin_of(double value_m) const {
+        return static_cast<std::size_t>(
+            std::clamp(std::floor(value_m - base_m_), 0.0, static_cast<double>(bins - 1)));
+    }
+    [[nodiscard]] std::uint64_t posts_between(double from_m, double to_m) const {
+        std::uint64_t posts = 0;
+        for (std::size_t bin = bin_of(from_m); bin < bin_of(to_m); ++bin) posts += all_[bin];
+        return posts;
+    }
+    [[nodiscard]] std::vector<Level> levels_of(const std::vector<std::uint64_t>& posts, double gap_m) const {
+        std::vector<Level> levels;
+        std::uint64_t most = 0;
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            if (posts[bin] == 0) continue;
+            const double at_m = base_m_ + static_cast<double>(bin);
+            if (levels.empty() || at_m - levels.back().end_m >= gap_m) {
+                levels.push_back({at_m, at_m, 0, at_m});
+                most = 0;
+            }
+            Level& level = levels.back();
+            level.end_m = at_m + 1.0;
+            level.posts += posts[bin];
+            if (posts[bin] <= most) continue;
+            most = posts[bin];
+            level.code_m = at_m;
+        }
+        return levels;
+    }
+    // The value that most squares of 2 x 2 posts of a level hold, and how many.
+    [[nodiscard]] std::pair<float, std::uint64_t> plateau_of(const Level& level) const {
+        std::pair<float, std::uint64_t> found{static_cast<float>(level.code_m), 0};
+        for (auto at = plateaus_.lower_bound(static_cast<float>(level.first_m));
+             at != plateaus_.end() && static_cast<double>(at->first) < level.end_m; ++at)
+            if (at->second > found.second) found = *at;
+        return found;
+    }
+    // The cut above a level, if all that speaks for a code is there.
+    [[nodiscard]] std::optional<Cut> cut_above(const Source& source, const Level& level, const Level& next,
+                                               const std::vector<std::uint64_t>& posts,
+                                               bool is_blurred) const {
+        const auto [plateau, squares] = plateau_of(level);
+        const double code = static_cast<double>(plateau);
+        std::uint64_t core = 0;
+        for (std::size_t bin = bin_of(code - code_spread_m); bin <= bin_of(code + code_spread_m); ++bin)
+            core += posts[bin];
+        if (core < least_posts || 2 * core < level.posts) return std::nullopt;
+        const double stored = stored_of(source, static_cast<float>(sign_ * code));
+        const double gap_m = next.first_m - level.end_m;
+        const bool is_plateau = squares >= 4 && 5 * squares >= level.posts;
+        const Cut cut{next.first_m, next.first_m - code, code, is_blurred, stored == 0.0};
+        if (sign_ > 0.0 && next.first_m < sea_floor_m && gap_m < least_sea_cliff_m) return std::nullopt;
+        if (cut.is_zero)
+            return sign_ > 0.0 && is_plateau && code == 0.0 && cut.gap_m >= least_zero_cliff_m
+                       ? std::optional(cut)
+                       : std::nullopt;
+        if (sign_ * stored > 0.0) return std::nullopt;
+        if (is_near_code(stored)) return cut;
+        const bool is_depth = sign_ > 0.0 && stored <= -50.0 && stored == std::floor(stored);
+        const double least_m = sign_ < 0.0 ? least_sea_cliff_m : is_depth ? 80.0 : 200.0;
+        return is_plateau && gap_m >= least_m ? std::optional(cut) : std::nullopt;
+    }
+    // One cut above each code, from the lowest on. A few stray posts of blurred rims between a code and the
+    // terrain go with it.
+    [[nodiscard]] std::vector<Cut> cuts_between(const Source& source, const std::vector<Level>& levels,
+                                                bool is_blurred) const {
+        std::vector<Cut> found;
+        std::uint64_t code_posts = 0;
+        if (is_blurred && beyond_ >= least_posts && !levels.empty()) {
+            found.push_back(
+                {levels[0].first_m, levels[0].first_m - base_m_, sign_ * beyond_stored_, true, false});
+            code_posts = beyond_;
+        }
+        for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+            const Level& level = levels[i];
+            const Level& next = levels[i + 1];
+            const auto cut = cut_above(source, level, next, is_blurred ? calm_ : all_, is_blurred);
+            if (cut && !(cut->is_zero && is_blurred && found.empty())) {
+                found.push_back(*cut);
+                code_posts = level.posts;
+                continue;
+            }
+            const bool is_stray = is_blurred && !found.empty() && 10 * level.posts <= next.posts &&
+                                  level.posts < std::max(least_posts, code_posts / 1000);
+            if (!is_stray) break;
+            found.back().gap_m += next.first_m - found.back().below_m;
+            found.back().below_m = next.first_m;
+        }
+        return found;
+    }
+};
+
+struct Surveys {
+    HeightEnds ends;
+    Survey low{1.0};
+    Survey high{-1.0};
+};
+
+// The height that all four posts of a square have, or void_height_m.
+float plateau_at(const PostBlock& block, std::size_t post, std::size_t columns) {
+    const float height_m = block.height_m[post];
+    if ((post + 1) % columns == 0 || post + columns >= block.height_m.size()) return void_height_m;
+    const bool all = block.height_m[post + 1] == height_m && block.height_m[post + columns] == height_m &&
+                     block.height_m[post + columns + 1] == height_m;
+    return all ? height_m : void_height_m;
+}
+
+// The largest step between a post and its four neighbours.
+double step_beside_m(const PostBlock& block, std::size_t post, std::size_t columns) {
+    double largest_m = 0.0;
+    const float height_m = block.height_m[post];
+    const auto look = [&](std::size_t other) {
+        if (!is_void(block.height_m[other]))
+            largest_m = std::max(largest_m, std::abs(static_cast<double>(block.height_m[other]) -
+                                                     static_cast<double>(height_m)));
+    };
+    if (post % columns != 0) look(post - 1);
+    if ((post + 1) % columns != 0) look(post + 1);
+    if (post >= columns) look(post - columns);
+    if (post + columns < block.height_m.size()) look(post + columns);
+    return largest_m;
+}
+
+void add_to_surveys(const PostBlock& block, double rim_m, Surveys& surveys) {
+    const auto columns = static_cast<std::size_t>(block.window.columns);
+    surveys.ends.add(block.height_m);
+    surveys.low.add_beyond(block);
+    surveys.high.add_beyond(block);
+    for (std::size_t post = 0; post < block.height_m.size(); ++post) {
+        const float height_m = block.height_m[post];
+        if (is_void(height_m)) continue;
+        const bool is_calm = step_beside_m(block, post, columns) < rim_m;
+        surveys.low.add(height_m, is_calm);
+        surveys.high.add(height_m, is_calm);
+        if (const float level_m = plateau_at(block, post, columns); !is_void(level_m)) {
+            surveys.low.add_plateau(level_m);
+            surveys.high.add_plateau(level_m);
+        }
+    }
+}
+
+// A cut with the steps between the heights that it leaves.
+struct CutSteps {
+    double sign{};
+    Cut cut;
+    Steps steps;
+    void add(float a, float b) {
+        const double first_m = sign * static_cast<double>(a), second_m = sign * static_cast<double>(b);
+        if (!is_void(a) && !is_void(b) && std::min(first_m, second_m) >= cut.below_m)
+            steps.add(std::abs(first_m - second_m));
+    }
+    // True where the step down to the code is far larger than those of terrain.
+    [[nodiscard]] bool holds() const {
+        const double usual_m = steps.at_share(cut.is_blurred ? 0.99 : cut.is_zero ? 0.9999 : 0.999);
+        return cut.gap_m >= 2.0 * usual_m;
+    }
+};
+
+void add_cut_steps(const PostBlock& block, std::vector<CutSteps>& cuts) {
+    const auto columns = static_cast<std::size_t>(block.window.columns);
+    for (std::size_t post = 0; post < block.height_m.size(); ++post)
+        for (CutSteps& cut : cuts) {
+            if ((post + 1) % columns != 0) cut.add(block.height_m[post], block.height_m[post + 1]);
+            if (post + columns < block.height_m.size())
+                cut.add(block.height_m[post], block.height_m[post + columns]);
+        }
+}
+
 using ReadPosts = Result<PostBlock> (*)(const Source&, const PostWindow&);
 
 // All posts of a file, in strips that fit memory.
@@ -178,19 +427,91 @@ Result<void> for_all_posts(const Source& source, const PostBlock& block, ReadPos
     return {};
 }
 
+// Heights from the first to the last are none. A file's are kept as one list of numbers, three for each.
+struct NoHeights {
+    float first_m{}, last_m{};
+    float code_m{};  // the height that the code has which they are or come from
+};
+
+void keep(const NoHeights& range, std::vector<float>& kept) {
+    kept.insert(kept.end(), {range.first_m, range.last_m, range.code_m});
+}
+
+std::optional<NoHeights> range_of(const std::vector<float>& kept, float height_m) {
+    for (std::size_t i = 0; i + 2 < kept.size(); i += 3)
+        if (height_m >= kept[i] && height_m <= kept[i + 1])
+            return NoHeights{kept[i], kept[i + 1], kept[i + 2]};
+    return std::nullopt;
+}
+
+void keep_cut(const CutSteps& found, std::vector<float>& kept) {
+    constexpr float farthest_m = 1e30F;
+    const auto sign = static_cast<float>(found.sign);
+    const float last_m = std::nextafter(static_cast<float>(found.cut.below_m), -farthest_m);
+    const auto code_m = static_cast<float>(found.sign * found.cut.code_m);
+    if (sign > 0.0F)
+        keep({-farthest_m, last_m, code_m}, kept);
+    else
+        keep({-last_m, farthest_m, code_m}, kept);
+}
+
 Result<std::vector<float>> no_heights_of_file(const Source& source, const PostBlock& block, ReadPosts read) {
-    HeightEnds ends;
-    ORO_CHECK(for_all_posts(source, block, read, [&](const PostBlock& part) { ends.add(part.height_m); }));
-    const std::vector<float> suspects = suspects_in(source, ends);
-    if (suspects.empty()) return std::vector<float>();
+    Surveys surveys;
+    const double rim_m = calm_step_m(source);
+    ORO_CHECK(for_all_posts(source, block, read,
+                            [&](const PostBlock& part) { add_to_surveys(part, rim_m, surveys); }));
+    const std::vector<float> suspects = suspects_in(source, surveys.ends);
+    std::vector<CutSteps> cuts;
+    for (const Cut& cut : surveys.low.cuts(source)) cuts.push_back({1.0, cut, {}});
+    for (const Cut& cut : surveys.high.cuts(source)) cuts.push_back({-1.0, cut, {}});
+    if (suspects.empty() && cuts.empty()) return std::vector<float>();
     Cliffs cliffs;
     cliffs.of_suspect.resize(suspects.size());
-    ORO_CHECK(for_all_posts(source, block, read,
-                            [&](const PostBlock& part) { add_cliffs(suspects, part, cliffs); }));
+    ORO_CHECK(for_all_posts(source, block, read, [&](const PostBlock& part) {
+        add_cliffs(suspects, part, cliffs);
+        add_cut_steps(part, cuts);
+    }));
     std::vector<float> no_heights;
     for (std::size_t i = 0; i < suspects.size(); ++i)
-        if (is_no_height(suspects[i], cliffs.of_suspect[i], cliffs)) no_heights.push_back(suspects[i]);
+        if (is_no_height(suspects[i], cliffs.of_suspect[i], cliffs))
+            keep({suspects[i], suspects[i], suspects[i]}, no_heights);
+    for (const CutSteps& cut : cuts)
+        if (cut.holds()) keep_cut(cut, no_heights);
     return no_heights;
+}
+
+// What a post without a height is counted as: its code, or blurred_value.
+double told_value(const Source& source, float height_m, const NoHeights& range) {
+    const double stored = stored_of(source, height_m);
+    if (reads_like_no_data(stored) && stored == std::floor(stored)) return stored;
+    const double off_m = static_cast<double>(height_m) - static_cast<double>(range.code_m);
+    return std::abs(off_m) <= code_spread_m ? stored_of(source, range.code_m) : blurred_value;
+}
+
+// True where a block may hold a value that is no height in its whole file.
+bool is_suspicious(const Source& source, const PostBlock& block) {
+    HeightEnds ends;
+    ends.add(block.height_m);
+    if (!suspects_in(source, ends).empty()) return true;
+    const std::size_t count = ends.lowest.count();
+    if (count == 0) return false;
+    const auto lowest_m = static_cast<double>(ends.lowest.at(0));
+    if (is_near_code(stored_of(source, ends.lowest.at(0))) && lowest_m < 0.0) return true;
+    constexpr double few_posts = 1 << 24;  // of a small file all are looked at for the sake of a flat part
+    if (count == 1 &&
+        (lowest_m < 0.0 ||
+         (lowest_m == 0.0 && static_cast<double>(source.report.rows) * source.report.columns <= few_posts)))
+        return true;
+    for (const Ends* const end : {&ends.lowest, &ends.highest})
+        for (std::size_t i = 0; i + 1 < end->count(); ++i)
+            if (std::abs(static_cast<double>(end->at(i + 1)) - static_cast<double>(end->at(i))) >=
+                least_cliff_m)
+                return true;
+    const auto columns = static_cast<std::size_t>(block.window.columns);
+    const double step_m = std::clamp(steep_m_per_m * source.report.spacing_m, 150.0, least_sea_cliff_m);
+    for (std::size_t post = 0; post < block.height_m.size(); ++post)
+        if (!is_void(block.height_m[post]) && step_beside_m(block, post, columns) >= step_m) return true;
+    return false;
 }
 
 void add_count(std::vector<StoredCount>& counts, double value, std::uint64_t posts, std::size_t most) {
@@ -240,9 +561,7 @@ void count_implausible(PostBlock& block, double stored) {
 }
 
 Result<void> take_out_undeclared(const Source& source, PostBlock& block, ReadPosts read) {
-    HeightEnds ends;
-    ends.add(block.height_m);
-    if (suspects_in(source, ends).empty()) return {};
+    if (!is_suspicious(source, block)) return {};
     std::vector<float> no_heights;
     {
         UndeclaredVoids& found = *source.undeclared;
@@ -253,18 +572,15 @@ Result<void> take_out_undeclared(const Source& source, PostBlock& block, ReadPos
         no_heights = *found.height_m;
     }
     if (no_heights.empty()) return {};
-    std::vector<std::uint64_t> posts(no_heights.size());
     HeightEnds left;
     for (float& height_m : block.height_m) {
-        const auto which = std::ranges::find(no_heights, height_m);
-        if (is_void(height_m) || which == no_heights.end()) continue;
-        ++posts[static_cast<std::size_t>(which - no_heights.begin())];
+        if (is_void(height_m)) continue;
+        const auto range = range_of(no_heights, height_m);
+        if (!range) continue;
+        add_count(block.values.undeclared, told_value(source, height_m, *range), 1, 2 * most_values);
         height_m = void_height_m;
         ++block.voids;
     }
-    for (std::size_t i = 0; i < no_heights.size(); ++i)
-        if (posts[i] > 0)
-            add_count(block.values.undeclared, stored_of(source, no_heights[i]), posts[i], 2 * most_values);
     // What stands for no height is no stored height, unless no terrain has it, either.
     left.add(block.height_m);
     if (block.values.implausible_posts > 0) return {};

@@ -125,7 +125,13 @@ TEST(ElevationBand, SignedBytesAreNegative) {
         << (GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 7, 0) ? "Int8" : "Byte")
         << "\" band=\"1\"><SimpleSource><SourceFilename relativeToVRT=\"1\">int8.tif</SourceFilename>"
            "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
-    for (const char* name : {"int8.tif", "int8.vrt"}) {
+    std::ofstream(folder / "float.vrt")
+        << "<VRTDataset rasterXSize=\"40\" "
+           "rasterYSize=\"40\"><SRS>EPSG:32632</SRS><GeoTransform>500000,100,0,"
+           "5000000,0,-100</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource>"
+           "<SourceFilename relativeToVRT=\"1\">int8.tif</SourceFilename>"
+           "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    for (const char* name : {"int8.tif", "int8.vrt", "float.vrt"}) {
         std::string reason;
         const auto region = opened(request_for({(folder / name).string()}), &reason);
         ASSERT_TRUE(region) << name << ": " << reason;

@@ -264,6 +264,19 @@ TEST(Hgt, VoidsAndImplausibleHeightsAreHolesAndCounted) {
 
 // Posts half a second of arc apart: 7201 a side. A file of zeros but for a few posts, most of it never
 // written.
+// Heights of 500 to 700 m with the low byte first.
+TEST(Hgt, BytesInTheOtherOrderAreAnError) {
+    const fs::path folder = scratch_folder();
+    const std::string file = write_hgt(folder / "N46E008.hgt", 1201, [](int r, int c) {
+        const int height_m = 500 + (r + c) / 12;
+        const int swapped = (height_m & 255) << 8 | height_m >> 8;
+        return swapped > 32767 ? swapped - 65536 : swapped;
+    });
+    const auto refused = open_region(request_for({file}));
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().line().find("its bytes seem to be in the other order"), std::string::npos);
+}
+
 TEST(Hgt, TilesOfHalfASecond) {
     const fs::path file = scratch_folder() / "N46E008.hgt";
     constexpr int side = 7201;

@@ -219,6 +219,33 @@ TEST(UndeclaredVoids, PlateausAndPitsStay) {
     }
 }
 
+// A hole of 36 posts: any digits, where nothing else comes near it; 0, too, where all else lies far above.
+TEST(UndeclaredVoids, CodesOfAnyDigitsAreVoid) {
+    for (const double code :
+         {-10000.0, -10000.5, -5000.0, -500.0, -100.0, -88.0, -327.68, -1.0, 8888.0, 0.0}) {
+        auto [source, block] =
+            block_of(40, [&](int r, int c) { return is_in_hole(r, c) ? code : hills_m(r, c); });
+        source.report.spacing_m = 100.0;
+        ASSERT_TRUE(take_out_undeclared(source, block, never_read).ok());
+        EXPECT_EQ(block.voids, 36U) << code;
+    }
+}
+
+// Rims of a resampled hole: 36 posts of -9999, and 28 around them half way between it and the hills.
+TEST(UndeclaredVoids, BlurredRimsAreVoid) {
+    auto [source, block] = block_of(40, [&](int r, int c) {
+        const bool is_rim = r >= 9 && r < 17 && c >= 11 && c < 19;
+        return is_in_hole(r, c) ? -9999.0 : is_rim ? 0.5 * (hills_m(r, c) - 9999.0) : hills_m(r, c);
+    });
+    source.report.spacing_m = 100.0;
+    ASSERT_TRUE(take_out_undeclared(source, block, never_read).ok());
+    EXPECT_EQ(block.voids, 64U);
+    std::uint64_t blurred = 0;
+    for (const StoredCount& count : block.values.undeclared)
+        if (count.value == blurred_value) blurred += count.posts;
+    EXPECT_EQ(blurred, 28U);
+}
+
 // Heights that count in millimetres, and nothing says so.
 TEST(UndeclaredVoids, HeightsInMillimetresAreToldWithTheOption) {
     Raster raster = hundred_metres(30, 30);

@@ -111,6 +111,23 @@ TEST(UnwrittenParts, SeveralGapsAndGroundAtSeaLevel) {
     EXPECT_TRUE(declared->notes.empty());
 }
 
+// A part that leaves its own no-data value out leaves 0 there: columns 10 to 19 of 30.
+TEST(UnwrittenParts, NoDataOfAPartIsNoGround) {
+    const fs::path folder = scratch_folder();
+    Raster raster = flat_utm(30, 30);
+    write_raster(folder / "a.tif", raster, [](int, int c) { return c >= 10 && c < 20 ? -9999.0 : 20.0; });
+    const std::string size = "xSize=\"30\" ySize=\"30\"";
+    const std::string part =
+        "<ComplexSource><SourceFilename relativeToVRT=\"1\">a.tif</SourceFilename><SourceBand>1</SourceBand>"
+        "<SrcRect xOff=\"0\" yOff=\"0\" " +
+        size + "/><DstRect xOff=\"0\" yOff=\"0\" " + size + "/><NODATA>-9999</NODATA></ComplexSource>";
+    const auto region = opened(request_for({write_mosaic(folder / "none.vrt", 30, part)}));
+    ASSERT_TRUE(region);
+    EXPECT_EQ(region->voids, 300U);
+    EXPECT_EQ(height_range(region->field).lowest_m, 20.0F);
+    EXPECT_EQ(gap_notes(*region, "300"), 1U);
+}
+
 TEST(UnwrittenParts, BlocksThatWereNeverWrittenHaveNoData) {
     const fs::path folder = scratch_folder();
     const auto region = opened(request_for({write_sparse(folder / "sparse.tif", std::nullopt)}));
