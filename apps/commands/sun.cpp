@@ -13,6 +13,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/view.h"
 #include "core/base/parallel.h"
 #include "core/light/sun_over_terrain.h"
@@ -117,6 +118,8 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     report.notes = all_notes(region);
     report.place = eye;
     ORO_TRY(report.moved, asked_summit(view_options, region, view.exaggeration));
+    ORO_TRY(const auto wall, wall_near(view_options, region, view.exaggeration));
+    say_wall(wall, options.quiet);
     report.H_m = eye.h_m - N_m;
     if (const auto ground = truth->ground().h_m(eye.lat_deg, eye.lon_deg))
         report.above_ground_m = eye.h_m - *ground;

@@ -15,4 +15,9 @@ namespace oro {
 Result<std::optional<MovedToSummit>> asked_summit(const ViewOptions& options, const Region& region,
                                                   double exaggeration);
 
+// Where --on-summit was not asked for: the post near that stands as a wall before the eye (Standpoint::wall);
+// nothing where the eye does not stand on its place. Errors: likewise.
+Result<std::optional<MovedToSummit>> wall_near(const ViewOptions& options, const Region& region,
+                                               double exaggeration);
+
 }  // namespace oro

@@ -60,6 +60,21 @@ PostsInCell part_in(const PostGrid& grid, const PlaceCell& cell) {
     return part;
 }
 
+// Whether there is ground between posts of a part: one row of posts, as neighbours share it, bounds none.
+bool has_surface(const PostGrid& grid, const PostsInCell& part) {
+    if (part.rows() < 2 || part.columns() < 2) return false;
+    if (part.cell == nullptr) return true;
+    const auto is_inside = [&](int row, int column) {
+        return is_in_cell(*part.cell, grid.place_at(row, column));
+    };
+    for (int row = part.first_row; row < part.last_row; ++row)
+        for (int column = part.first_column; column < part.last_column; ++column)
+            if (is_inside(row, column) && is_inside(row, column + 1) && is_inside(row + 1, column) &&
+                is_inside(row + 1, column + 1))
+                return true;
+    return false;
+}
+
 PostsInCell whole_part(const PostGrid& grid) {
     return {0, grid.rows() - 1, 0, grid.columns() - 1, nullptr};
 }
@@ -130,7 +145,7 @@ GroundPoints ground_points(const Region& region, double exaggeration, const Plac
     for (const Region* const one : all_grids(region)) {
         const PostGrid& grid = one->field.grid;
         const PostsInCell part = cell ? part_in(grid, *cell) : whole_part(grid);
-        if (part.rows() <= 0 || part.columns() <= 0) continue;
+        if (cell ? !has_surface(grid, part) : part.rows() <= 0 || part.columns() <= 0) continue;
         add_inner_points(one->field, part, exaggeration, ground.all);
         add_rim_points(one->field, part, exaggeration, rim);
     }

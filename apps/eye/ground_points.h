@@ -17,7 +17,8 @@ struct GroundPoints {
 
 // The points of all grids of a region, or of what of them is in a cell: the first and the last post with data
 // of every row and column (of every few where a grid has more than 1,024 of them), and some 64 x 64 posts
-// inside. Heights are exaggerated. Posts that cannot be read count as void: region.health() tells.
+// inside. Grids that have no two rows and two columns of posts in the cell have no ground there: they share
+// its border. Heights are exaggerated. Posts that cannot be read count as void: region.health() tells.
 GroundPoints ground_points(const Region& region, double exaggeration, const PlaceCell* cell = nullptr);
 
 // The rim alone of all grids of a region, in the same way.

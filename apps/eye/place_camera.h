@@ -16,7 +16,8 @@ inline constexpr double posts_around_place = 40.0;
 
 // A cell of at least 4 posts a side is framed: all of its ground is in the picture, as an overview has that
 // of a region, whatever is asked of its line of sight. Any other place is in the middle of the picture, with
-// posts_around_place of ground around it, seen from a side and a height from which no ground hides it.
+// posts_around_place of ground around it (less where the grid is smaller), seen from a side and a height from
+// which no ground hides it, and so that the picture's foreground is ground where any such side has that.
 // Of the camera only its roll, angle of view and size count. Heights are exaggerated. `name` is how errors
 // call the place ("--at 46,8"). Errors: no elevation data there (no_data), with the data's box; no eye on the
 // asked line of sight sees the place (usage).

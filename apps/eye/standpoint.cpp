@@ -103,62 +103,79 @@ Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, 
                     *ground + standing.above_m.value_or(standing.usual_above_m)};
 }
 
-namespace {
-
-// The highest post near a place, on the ground.
-MovedToSummit moved_to_summit(const Place& place, const HeightField& field, double exaggeration) {
-    MovedToSummit moved;
-    const std::optional<double> ground = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
-    constexpr double below_all_m = -1.0e9;
-    const Geodetic from{place.lat_deg, place.lon_deg, ground.value_or(below_all_m)};
-    const auto highest =
-        highest_post_near(field.grid, from, [&](int row, int column) -> std::optional<double> {
-            if (is_void(field.H_at_post_m(row, column))) return std::nullopt;
-            return static_cast<double>(field.H_at_post_m(row, column)) * exaggeration +
-                   field.N_at_post_m(row, column);
-        });
-    moved.from = moved.to = from;
-    if (highest) {
-        moved.to = *highest;
-        // As the ground there has it, to the last bit.
-        if (const auto there = ground_h_m(field, highest->lat_deg, highest->lon_deg, exaggeration))
-            moved.to.h_m = *there;
-    }
-    if (!ground) moved.from.h_m = moved.to.h_m;
-    const auto H_m = [&](const Geodetic& at) {
+MovedToSummit moved_to_summit(const Geodetic& place, const HeightField& field, double exaggeration) {
+    const auto ground_m = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
+    const auto H_over = [&](const Geodetic& at) {
         return (at.h_m - field.undulation.at_m(at.lat_deg, at.lon_deg)) / exaggeration;
     };
-    moved.H_m = H_m(moved.to);
-    moved.higher_m = ground ? moved.H_m - H_m(moved.from) : 0.0;
+    const auto post_H_m = [&](int row, int column) -> std::optional<double> {
+        const float H_m = field.H_at_post_m(row, column);
+        return is_void(H_m) ? std::nullopt : std::optional<double>(H_m);
+    };
+    constexpr double below_all_m = -1.0e9;
+    MovedToSummit moved;
+    moved.from = {place.lat_deg, place.lon_deg, ground_m.value_or(0.0)};
+    moved.to = moved.from;
+    // Which of two posts is higher is a question of heights above sea level: the geoid leans.
+    Geodetic from_H = moved.from;
+    from_H.h_m = ground_m ? H_over(moved.from) : below_all_m;
+    moved.H_m = ground_m ? from_H.h_m : 0.0;
+    if (ground_m) moved.higher_m = 0.0;
+    const auto highest = highest_post_near(field.grid, from_H, post_H_m);
+    if (!highest || highest->h_m - from_H.h_m < least_higher_m) return moved;
+    moved.to = *highest;
+    moved.to.h_m = highest->h_m * exaggeration + field.undulation.at_m(highest->lat_deg, highest->lon_deg);
+    // As the ground there has it, to the last bit.
+    if (const auto there_m = ground_h_m(field, highest->lat_deg, highest->lon_deg, exaggeration))
+        moved.to.h_m = *there_m;
+    moved.H_m = H_over(moved.to);
+    if (ground_m) moved.higher_m = moved.H_m - from_H.h_m;
+    moved.goes_on_rising = rises_beyond(field.grid, from_H, *highest, post_H_m);
     moved.moved_m =
         geodesic_between(moved.from.lat_deg, moved.from.lon_deg, moved.to.lat_deg, moved.to.lon_deg)
             .distance_m;
     return moved;
 }
 
+namespace {
+
+// The summit near a place that is so much higher than its ground that who stands there sees a wall. On a
+// slope that goes on rising there is none: that people stand there is no mistake.
+Result<std::optional<MovedToSummit>> wall_before(const Geodetic& eye, const HeightField& field,
+                                                 double exaggeration) {
+    const MovedToSummit post = moved_to_summit(eye, field, exaggeration);
+    ORO_CHECK(field.health());
+    const double higher_m = post.higher_m.value_or(0.0);
+    const bool hides =
+        !post.goes_on_rising && higher_m > least_wall_m && eye.h_m - post.from.h_m < higher_m * exaggeration;
+    return hides ? std::optional(post) : std::nullopt;
+}
+
 }  // namespace
 
 Result<Standpoint> stand(const Standing& standing, const HeightField& field, double exaggeration) {
+    ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
     if (!standing.on_summit) {
         ORO_TRY(const Geodetic eye, standpoint(standing, field, exaggeration));
-        return Standpoint{eye, {}};
+        if (place.height_m) return Standpoint{eye, {}, {}};
+        ORO_TRY(const auto wall, wall_before(eye, field, exaggeration));
+        return Standpoint{eye, {}, wall};
     }
-    ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
     if (place.height_m)
         return refused(standing.place_option, standing.place,
                        "gives a height of its own: leave --on-summit out");
-    const MovedToSummit moved = moved_to_summit(place, field, exaggeration);
+    const MovedToSummit moved = moved_to_summit({place.lat_deg, place.lon_deg, 0.0}, field, exaggeration);
     ORO_CHECK(field.health());
     if (moved.moved_m == 0.0) {
         ORO_TRY(const Geodetic eye, standpoint(standing, field, exaggeration));
-        return Standpoint{eye, moved};
+        return Standpoint{eye, moved, {}};
     }
     Geodetic eye = moved.to;
     if (standing.altitude_m)
         eye.h_m = *standing.altitude_m + field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     else
         eye.h_m += standing.above_m.value_or(standing.usual_above_m);
-    return Standpoint{eye, moved};
+    return Standpoint{eye, moved, {}};
 }
 
 }  // namespace oro

@@ -28,7 +28,16 @@ struct Standing {
 struct Standpoint {
     Geodetic eye;
     std::optional<MovedToSummit> moved;  // of who asks for the summit
+    // Of who does not: the highest post near, where it is a summit, more than least_wall_m higher than the
+    // ground of the place, and higher than the eye. A wall is then before the eye.
+    std::optional<MovedToSummit> wall;
 };
+inline constexpr double least_wall_m = 20.0;
+
+// The highest post near a place (core/terrain/summit.h), by heights above sea level, of a surface that is
+// exaggerated. The height of `place` does not count. Posts that cannot be read count as void: field.health()
+// tells.
+MovedToSummit moved_to_summit(const Geodetic& place, const HeightField& field, double exaggeration);
 
 // Where an eye stands, moved to the summit where that is asked for. Errors: those of standpoint(); a place
 // with a height of its own that is to be moved (usage).

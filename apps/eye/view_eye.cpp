@@ -89,6 +89,15 @@ Result<std::optional<MovedToSummit>> asked_summit(const ViewOptions& options, co
     return stood.moved;
 }
 
+Result<std::optional<MovedToSummit>> wall_near(const ViewOptions& options, const Region& region,
+                                               double exaggeration) {
+    if (options.on_summit || !options.at) return std::optional<MovedToSummit>();
+    ORO_TRY(const Place place, place_at("--at", *options.at));
+    if (!stands(options, place)) return std::optional<MovedToSummit>();
+    ORO_TRY(const Standpoint stood, standpoint_of(options, place, region, exaggeration));
+    return stood.wall;
+}
+
 Result<std::string> nothing_in_view(const View& view, const Region& region, const std::string& view_file) {
     const Geodetic& eye = view.camera.eye;
     const PostGrid& grid = region_at(region, eye.lat_deg, eye.lon_deg).field.grid;

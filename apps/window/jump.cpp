@@ -1,5 +1,7 @@
 #include "apps/window/jump.h"
 
+#include <cmath>
+
 #include "apps/eye/place_camera.h"
 #include "apps/eye/standpoint.h"
 #include "apps/window/flight.h"
@@ -8,43 +10,70 @@
 namespace oro {
 namespace {
 
+constexpr double usual_above_m = 2.0;
+
 const HeightField& field_under(const Region& region, const Geodetic& place) {
     return region_at(region, place.lat_deg, place.lon_deg).field;
 }
 
+// The same line of sight, turned as the user asked for.
+Attitude users_attitude(const Attitude& attitude, double roll_deg) {
+    return {picture_top_deg(attitude, roll_deg), attitude.pitch_deg, roll_deg};
+}
+
 }  // namespace
 
-Result<Camera> Jumps::to(const Camera& camera, const Place& place, const Region& region,
-                         double exaggeration) {
+double users_roll_deg(const Camera& camera, const std::optional<double>& option_deg) {
+    if (option_deg) return *option_deg;
+    return std::abs(camera.attitude.pitch_deg) < steep_pitch_deg ? camera.attitude.roll_deg : 0.0;
+}
+
+Result<Camera> Jumps::to(const Camera& camera, const Place& place, const Region& region, double exaggeration,
+                         const std::string& typed) {
+    stay();
     Camera there = camera;
+    there.attitude = users_attitude(camera.attitude, roll_deg_);
+    const double heading_deg = heading_deg_.value_or(there.attitude.heading_deg);
     if (place.height_m) {
         there.eye = {place.lat_deg, place.lon_deg, *place.height_m};
         there = above_ground(there, field_under(region, there.eye), exaggeration);
     } else {
         AskedLine asked;
-        asked.usual_heading_deg = camera.attitude.heading_deg;
-        ORO_TRY(there, camera_showing(camera, place, asked, region, exaggeration,
-                                      place_name(place.lat_deg, place.lon_deg)));
+        asked.usual_heading_deg = heading_deg;
+        const std::string name =
+            place.cell && !typed.empty() ? typed : place_name(place.lat_deg, place.lon_deg);
+        ORO_TRY(there, camera_showing(there, place, asked, region, exaggeration, name));
     }
     before_.push_back(camera);
     shown_ = place;
+    heading_deg_ = heading_deg;
     return there;
 }
 
 Result<std::optional<Camera>> Jumps::stand(const Camera& camera, const Region& region, double exaggeration) {
-    if (!shown_ || shown_->height_m) return std::optional<Camera>();
-    const Geodetic place{shown_->lat_deg, shown_->lon_deg, 0.0};
-    const auto ground_m = ground_h_m(field_under(region, place), place.lat_deg, place.lon_deg, exaggeration);
-    ORO_CHECK(region.health());
-    if (!ground_m)
-        return Error{ErrorKind::no_data, place_name(place.lat_deg, place.lon_deg),
-                     "no elevation data there to stand on"};
-    constexpr double usual_above_m = 2.0;
     Camera there = camera;
-    there.eye = {place.lat_deg, place.lon_deg, *ground_m + usual_above_m};
+    std::optional<MovedToSummit> higher;
+    if (higher_) {
+        there.eye = higher_->to;
+    } else if (shown_ && !shown_->height_m) {
+        const Geodetic place{shown_->lat_deg, shown_->lon_deg, 0.0};
+        const HeightField& field = field_under(region, place);
+        const auto ground_m = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
+        if (ground_m) higher = moved_to_summit(place, field, exaggeration);
+        ORO_CHECK(region.health());
+        if (!ground_m)
+            return Error{ErrorKind::no_data, place_name(place.lat_deg, place.lon_deg),
+                         "no elevation data there to stand on"};
+        there.eye = {place.lat_deg, place.lon_deg, *ground_m};
+    } else {
+        return std::optional<Camera>();
+    }
+    there.eye.h_m += usual_above_m;
+    there.attitude = users_attitude(camera.attitude, roll_deg_);
     there.attitude.pitch_deg = 0.0;
     before_.push_back(camera);
-    shown_.reset();
+    stay();
+    if (higher && higher->moved_m > 0.0) higher_ = higher;
     return std::optional(there);
 }
 
@@ -54,8 +83,18 @@ std::optional<Camera> Jumps::back(const Camera& camera) {
     before_.pop_back();
     there.width_px = camera.width_px;
     there.height_px = camera.height_px;
-    shown_.reset();
+    moved();
     return there;
+}
+
+void Jumps::moved() {
+    stay();
+    heading_deg_.reset();
+}
+
+void Jumps::stay() {
+    shown_.reset();
+    higher_.reset();
 }
 
 }  // namespace oro

@@ -66,7 +66,8 @@ struct Viewer {
     bool is_exposed{};        // what the window shows was lost
     bool waits_for_ground{};  // what is in view is not on the GPU yet
     Clock::time_point waiting_since{};
-    VkExtent2D loading_px{};  // of the sheet that was shown meanwhile
+    VkExtent2D loading_px{};  // of the sheet that is shown meanwhile
+    bool has_picture{};       // the renderer's picture is of the window's size, and drawn
     Jumps jumps{};
     Clock::time_point moved{};  // when the eye last did
     bool follows_eye{};         // what is fitted to a view is that of an eye that moved, until it rests
@@ -129,21 +130,37 @@ void stay(Viewer& viewer, const Error& why) {
     say(false, viewer.message);
 }
 
-// Enter, once more after a jump.
+// Enter, once more after a jump: on the place; then on what is higher near it.
 void stand(Viewer& viewer) {
     const auto there = viewer.jumps.stand(viewer.view.camera, viewer.region, viewer.view.exaggeration);
     if (!there.ok()) return stay(viewer, there.error());
-    if (*there) be_at(viewer, **there, "Backspace goes back");
+    if (!*there) return;
+    std::string message = "Backspace goes back";
+    if (const auto& higher = viewer.jumps.higher())
+        message += ", Enter stands on the highest post near: " + wall_words(*higher);
+    be_at(viewer, **there, message);
+}
+
+// A place with a height in the ground: the eye is over it.
+std::string message_of_jump(const Place& place, const Camera& there) {
+    if (!place.height_m) return "Enter stands on it, Backspace goes back";
+    const double lifted_m = there.eye.h_m - *place.height_m;
+    if (!(lifted_m > 0.0)) return "Backspace goes back";
+    char text[100];
+    std::snprintf(text, sizeof text, "the ground there is higher: the eye is lifted by %.1f m, ", lifted_m);
+    return text + std::string("Backspace goes back");
 }
 
 void jump(Viewer& viewer) {
     viewer.asking_place = false;
+    if (viewer.place_text.find_first_not_of(" \t") == std::string::npos) return;
+    viewer.jumps.stay();
     const auto place = parse_place(viewer.place_text);
     if (!place.ok()) return stay(viewer, place.error());
-    const auto there = viewer.jumps.to(viewer.view.camera, *place, viewer.region, viewer.view.exaggeration);
+    const auto there = viewer.jumps.to(viewer.view.camera, *place, viewer.region, viewer.view.exaggeration,
+                                       viewer.place_text);
     if (!there.ok()) return stay(viewer, there.error());
-    be_at(viewer, *there,
-          place->height_m ? "Backspace goes back" : "Enter stands on it, Backspace goes back");
+    be_at(viewer, *there, message_of_jump(*place, *there));
 }
 
 void go_back(Viewer& viewer) {
@@ -161,7 +178,7 @@ void ask_place(Viewer& viewer, const WindowInput& input) {
     }
     if (input.escape) viewer.asking_place = false;
     if (input.enters > 0) jump(viewer);
-    if (input.enters > 1) stand(viewer);
+    for (int enter = 1; enter < input.enters; ++enter) stand(viewer);
 }
 
 // Whether what is shown is of every n-th post.
@@ -290,7 +307,8 @@ Result<bool> turn(Viewer& viewer, bool& changed) {
         ask_place(viewer, after);
         changed = changed || !viewer.asking_place;
     } else if (input.backspace || input.enters > 0) {
-        input.backspace ? go_back(viewer) : stand(viewer);
+        if (input.backspace) go_back(viewer);
+        for (int enter = input.backspace ? 1 : 0; enter < input.enters; ++enter) stand(viewer);
         changed = true;
     } else {
         // What is clicked at is the picture that is shown, before the eye moves on.
@@ -347,12 +365,12 @@ bool lacks_ground(Viewer& viewer, const FramePlan& plan) {
     return !has_ground(plan) || seconds_since(viewer.waiting_since) < longest_s;
 }
 
-// A sheet that says so, where no picture was shown before.
+// A sheet that says so, where no picture of the window's size was drawn.
 Result<void> show_loading(Viewer& viewer) {
     const VkExtent2D extent = viewer.window.extent();
     const bool is_there =
         extent.width == viewer.loading_px.width && extent.height == viewer.loading_px.height;
-    if (viewer.is_shown || (is_there && !viewer.is_exposed) || extent.width == 0) return {};
+    if ((is_there && !viewer.is_exposed) || extent.width == 0) return {};
     ORO_TRY(const std::vector<std::uint8_t> pixels,
             loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));
     ORO_TRY(const bool shown, viewer.window.show_pixels(pixels, extent));
@@ -361,9 +379,11 @@ Result<void> show_loading(Viewer& viewer) {
     return {};
 }
 
-// The picture that was shown last, where a window over it has gone.
+// The picture that was shown last, where a window over it has gone; the sheet where there is none of this
+// size.
 Result<void> show_again(Viewer& viewer) {
-    if (!viewer.is_exposed || !viewer.is_shown) return {};
+    if (!viewer.is_shown || !viewer.has_picture) return show_loading(viewer);
+    if (!viewer.is_exposed) return {};
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     viewer.is_exposed = !shown;
     return {};
@@ -374,6 +394,7 @@ Result<void> take_size(Viewer& viewer, const VkExtent2D& extent, bool& changed) 
     if (extent.width == viewer.renderer.extent().width && extent.height == viewer.renderer.extent().height)
         return {};
     changed = true;
+    viewer.has_picture = false;
     return viewer.renderer.resize(extent);
 }
 
@@ -412,7 +433,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         changed = changed || better;
     }
     changed = comes_to_rest(viewer) || changed;
-    if (!changed) return viewer.is_shown ? show_again(viewer) : show_loading(viewer);
+    if (!changed) return show_again(viewer);
     viewer.view.camera.width_px = static_cast<int>(extent.width);
     viewer.view.camera.height_px = static_cast<int>(extent.height);
     follow_sun(viewer);
@@ -420,7 +441,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     if (viewer.waits_for_ground) {
         // Asked again with the next page, or soon where some ground is there.
         changed = has_ground(plan);
-        return show_loading(viewer);
+        return show_again(viewer);
     }
     const bool is_settled = plan.is_settled();
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field,
@@ -431,6 +452,8 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     ORO_CHECK(write_over(viewer, drawn));
     const int every = is_coarse(viewer) ? coarse_step(viewer.region.field) : 1;
     ORO_CHECK(viewer.legend.lay_over(viewer.view, viewer.region, viewer.style, every, viewer.renderer));
+    viewer.has_picture = true;
+    viewer.loading_px = {};
     ORO_TRY(const bool shown, viewer.window.show(viewer.renderer.picture()));
     changed = !shown || !drawn.images_settled;
     viewer.is_exposed = viewer.is_exposed && !shown;
@@ -467,6 +490,8 @@ Result<void> say_notes_of(const WindowOptions& options, const View& view, const 
     say_notes(region, quiet);
     ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));
     say_summit(summit, quiet);
+    ORO_TRY(const auto wall, wall_near(options.view, region, view.exaggeration));
+    say_wall(wall, quiet);
     if (const std::string note = note_of_year(view.sun); !note.empty()) say(quiet, note);
     if (!note_of_style.empty()) say(quiet, note_of_style);
     return {};
@@ -475,7 +500,7 @@ Result<void> say_notes_of(const WindowOptions& options, const View& view, const 
 // Shows that something comes while the first frame is being made.
 Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera) {
     ORO_TRY(std::unique_ptr<Window> window,
-            Window::create(gpu, camera.width_px, camera.height_px, "Orograph: loading"));
+            Window::create(gpu, camera.width_px, camera.height_px, "loading  |  Orograph"));
     const VkExtent2D extent = window->extent();
     if (extent.width == 0 || extent.height == 0) return window;
     ORO_TRY(const std::vector<std::uint8_t> pixels,
@@ -536,6 +561,7 @@ Result<void> run_view(const WindowOptions& options) {
                   renderer,
                   renderer_options.path};
     viewer.started = started;
+    viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, options.view.roll_deg));
     if (coarse_first) viewer.finer = std::make_unique<FinerLevels>(viewer.region, viewer.view.exaggeration);
     return run_loop(viewer);
 }

@@ -14,7 +14,11 @@ namespace oro {
 // place.
 inline constexpr int posts_to_summit = 2;
 
-// Gives the height of a post above the ellipsoid, in metres; nothing where it is void.
+// A place is not moved for less than this: summits that differ by less are as high as each other.
+inline constexpr double least_higher_m = 0.05;
+
+// Gives the height of a post in metres, above whatever the heights of places are told above (the geoid, the
+// ellipsoid); nothing where it is void.
 using PostHeight = std::function<std::optional<double>(int row, int column)>;
 
 // The highest post at most posts_to_summit from the post nearest to a place, as high as post_h_m tells;
@@ -22,13 +26,20 @@ using PostHeight = std::function<std::optional<double>(int row, int column)>;
 std::optional<Geodetic> highest_post_near(const PostGrid& grid, const Geodetic& place,
                                           const PostHeight& post_h_m);
 
+// Whether a post that highest_post_near() gave for `place` is no summit: a post beside it, farther from the
+// place than posts_to_summit, is higher than it.
+bool rises_beyond(const PostGrid& grid, const Geodetic& place, const Geodetic& highest,
+                  const PostHeight& post_h_m);
+
 // How a place was moved to the highest post nearby.
 struct MovedToSummit {
-    Geodetic from;      // the place that was given, on the ground
-    Geodetic to;        // the post, on the ground; the place itself where no post nearby is higher
-    double H_m{};       // of the ground there, not exaggerated
-    double moved_m{};   // along the ellipsoid
-    double higher_m{};  // than the ground of the place, not exaggerated
+    Geodetic from;     // the place that was given, on the ground
+    Geodetic to;       // the post, on the ground; the place itself where no post nearby is higher
+    double H_m{};      // of the ground there, not exaggerated
+    double moved_m{};  // along the ellipsoid
+    // Than the ground of the place, not exaggerated; nothing where the place itself has none.
+    std::optional<double> higher_m{};
+    bool goes_on_rising{};  // rises_beyond(): the post is no summit
 };
 
 }  // namespace oro

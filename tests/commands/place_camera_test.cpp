@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
 
 #include "apps/eye/overview.h"
+#include "apps/eye/standpoint.h"
+#include "apps/report/summit_words.h"
 #include "apps/window/jump.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/ground.h"
@@ -140,6 +143,94 @@ TEST(CameraShowing, RefusesPlacesWithoutData) {
     }
 }
 
+// The tile of N46E008 shares its outer posts with its eight neighbours, which have no other ground.
+TEST(CameraShowing, ACellBesideTheDataHasNone) {
+    const Region tile =
+        region_of(test::made_field(47.0, 8.0, 120.0, 121, 121, [](double, double) { return 500.0F; }));
+    for (const char* text :
+         {"N47E007", "N47E008", "N47E009", "N46E007", "N46E009", "N45E007", "N45E008", "N45E009"}) {
+        const auto none = camera_showing(wide(), place_of(text), {}, tile, 1.0, text);
+        ASSERT_FALSE(none.ok()) << text;
+        EXPECT_EQ(none.error().kind, ErrorKind::no_data);
+        EXPECT_NE(none.error().line().find("no elevation data in this cell"), std::string::npos) << text;
+    }
+    shown(tile, "N46E008");
+}
+
+// 10 posts (0.9 km) from the southern edge: from the south the eye and all of the foreground would be beyond
+// it.
+TEST(CameraShowing, LooksOverGroundBesideTheEdgeOfTheData) {
+    const Region plain =
+        region_of(test::made_field(46.6, 7.9, 1200.0, 241, 361, [](double, double) { return 500.0F; }));
+    const Camera camera = shown(plain, "46.408333,8.05");
+    EXPECT_GT(camera.eye.lat_deg, 46.408333);
+    EXPECT_NEAR(camera.attitude.pitch_deg, -20.0, 0.2);
+    const Geodetic place{46.408333, 8.05, 500.0};
+    EXPECT_GT(foreground_share(
+                  camera, place,
+                  [&](double lat_deg, double lon_deg) { return ground_h_m(plain.field, lat_deg, lon_deg); }),
+              0.88);
+}
+
+// 21 posts a side, 20 steps of 92.6 m along a meridian, 63.9 m along the parallel of 46.5 degrees: the half
+// of the shorter one is 639 m.
+TEST(CameraShowing, ASmallRegionIsAllThatIsShown) {
+    const Region small =
+        region_of(test::made_field(46.5, 8.0, 1200.0, 21, 21, [](double, double) { return 500.0F; }));
+    const Geodetic place{46.4916, 8.0083, 500.0};
+    const Camera camera = shown(small, "46.4916,8.0083");
+    // 638.6 m / sin(atan(0.9 tan 22.5 degrees)).
+    EXPECT_NEAR(glm::length(camera.eye_ecef().m - ecef_from_geodetic(place).m), 1826.0, 10.0);
+}
+
+TEST(CameraShowing, SaysWhyALineFromBelowSeesNothing) {
+    AskedLine asked;
+    asked.pitch_deg = 20.0;
+    const auto refused =
+        camera_showing(wide(), place_of("46.5,7.5"), asked, two_cells(), 1.0, "--at 46.5,7.5");
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().kind, ErrorKind::usage);
+    EXPECT_EQ(refused.error().line(),
+              "--at 46.5,7.5: with a --pitch above 0 the eye would be below the place, and ground is between "
+              "them: give one below 0, or --above METRES to stand there");
+}
+
+// Level ground at 100 m, over a geoid that leans by 1 m a degree: the ellipsoid's heights differ, those above
+// sea level do not.
+TEST(MovedToSummit, ComparesHeightsAboveSeaLevel) {
+    HeightField level = test::made_field(47.0, 8.0, 100.0, 101, 101, [](double, double) { return 100.0F; });
+    level.undulation.lat = {1.0, 47.0, 0, -1, 2};
+    level.undulation.lon = {1.0, 8.0, 0, +1, 2};
+    level.undulation.N_m = {51.0F, 51.0F, 50.0F, 50.0F};
+    const MovedToSummit moved = moved_to_summit({46.503, 8.503, 0.0}, level, 1.0);
+    EXPECT_EQ(moved.moved_m, 0.0);
+    EXPECT_EQ(moved.to.lat_deg, 46.503);
+    EXPECT_EQ(moved.higher_m, 0.0);
+    // 4 cm are no summit, 6 cm are.
+    level.H_m[49 * 101 + 50] = 100.04F;
+    EXPECT_EQ(moved_to_summit({46.5, 8.5, 0.0}, level, 1.0).moved_m, 0.0);
+    level.H_m[49 * 101 + 50] = 100.06F;
+    const MovedToSummit higher = moved_to_summit({46.5, 8.5, 0.0}, level, 1.0);
+    EXPECT_NEAR(higher.to.lat_deg, 46.51, 1e-9);
+    ASSERT_TRUE(higher.higher_m);
+    EXPECT_NEAR(*higher.higher_m, 0.06, 1e-4);
+    EXPECT_FALSE(higher.goes_on_rising);
+}
+
+TEST(MovedToSummit, APlaceWithoutGroundHasNoDifference) {
+    HeightField holed = test::made_field(47.0, 8.0, 100.0, 101, 101, [](double, double) { return 100.0F; });
+    holed.H_m[50 * 101 + 50] = void_height_m;
+    for (const Geodetic& place : {Geodetic{46.5, 8.5, 0.0}, Geodetic{47.005, 8.5, 0.0}}) {
+        const MovedToSummit moved = moved_to_summit(place, holed, 1.0);
+        EXPECT_GT(moved.moved_m, 0.0);
+        EXPECT_FALSE(moved.higher_m) << place.lat_deg;
+        EXPECT_NEAR(moved.H_m, 100.0, 1e-6);
+        const std::string words = summit_words("the eye stands", moved);
+        EXPECT_NE(words.find("(the place itself has no height)"), std::string::npos) << words;
+        EXPECT_TRUE(summit_json(moved).at("higher_m").is_null());
+    }
+}
+
 bool same(const Camera& a, const Camera& b) {
     return a.eye.lat_deg == b.eye.lat_deg && a.eye.lon_deg == b.eye.lon_deg && a.eye.h_m == b.eye.h_m &&
            a.attitude.heading_deg == b.attitude.heading_deg && a.attitude.pitch_deg == b.attitude.pitch_deg &&
@@ -186,6 +277,76 @@ TEST(Jumps, StayWhereThereIsNoData) {
     jumps.moved();
     EXPECT_FALSE(jumps.stand(there, region, 1.0).value());
     EXPECT_TRUE(same(*jumps.back(there), start)) << "the way back stays";
+}
+
+// From straight above, where framing turned the picture by its roll.
+TEST(Jumps, KeepTheUsersRollAndTheTurnOfThePicture) {
+    const Region region = two_cells();
+    Camera start = wide();
+    start.eye = {46.5, 7.5, 90'000.0};
+    start.attitude = {0.0, -89.95, -160.0};
+    EXPECT_EQ(users_roll_deg(start, std::nullopt), 0.0);
+    EXPECT_EQ(users_roll_deg(start, 7.0), 7.0);
+    EXPECT_EQ(users_roll_deg(Camera{{}, {0.0, -20.0, 5.0}}, std::nullopt), 5.0);
+    Jumps jumps(0.0);
+    const Camera there = jumps.to(start, place_of("N46E008"), region, 1.0).value();
+    EXPECT_NEAR(there.attitude.heading_deg, 200.0, 1.0);
+    EXPECT_EQ(there.attitude.roll_deg, 0.0);
+    const auto standing = jumps.stand(there, region, 1.0).value();
+    ASSERT_TRUE(standing);
+    EXPECT_EQ(standing->attitude.roll_deg, 0.0);
+    Jumps rolled(12.0);
+    start.attitude.roll_deg = -148.0;
+    EXPECT_EQ(rolled.to(start, place_of("46.5,8.5"), region, 1.0).value().attitude.roll_deg, 12.0);
+}
+
+TEST(Jumps, LookFromTheSameSideJumpAfterJump) {
+    const Region plain =
+        region_of(test::made_field(47.0, 7.0, 120.0, 121, 241, [](double, double) { return 500.0F; }));
+    Camera camera = wide();
+    camera.eye = {46.5, 7.5, 90'000.0};
+    camera.attitude = {40.0, -30.0, 0.0};
+    Jumps jumps;
+    const Camera first = jumps.to(camera, place_of("46.5,8.0"), plain, 1.0).value();
+    camera = first;
+    for (int i = 0; i < 20; ++i) camera = jumps.to(camera, place_of("46.5,8.0"), plain, 1.0).value();
+    EXPECT_EQ(camera.attitude.heading_deg, first.attitude.heading_deg);
+}
+
+TEST(Jumps, StandOnNothingAfterAFailure) {
+    const Region region = two_cells();
+    Camera start = wide();
+    start.eye = {46.5, 7.5, 3000.0};
+    Jumps jumps;
+    const Camera there = jumps.to(start, place_of("46.5,8.0"), region, 1.0).value();
+    const auto failed = jumps.to(there, place_of("N10E010"), region, 1.0, "N10E010");
+    ASSERT_FALSE(failed.ok());
+    EXPECT_TRUE(failed.error().line().starts_with("N10E010: no elevation data in this cell"))
+        << failed.error().line();
+    EXPECT_FALSE(jumps.stand(there, region, 1.0).value());
+}
+
+// A cone of 30 m a post; its top is one row to the north of the place.
+TEST(Jumps, StandOnTheHighestPostNearOnceMore) {
+    const Region cone = region_of(test::made_field(47.0, 8.0, 1200.0, 241, 241, [](double lat, double lon) {
+        return static_cast<float>(2000.0 - 30.0 * 1200.0 * std::hypot(lat - 46.9, lon - 8.1));
+    }));
+    Camera start = wide();
+    start.eye = {46.9, 8.1, 9000.0};
+    Jumps jumps;
+    const Camera shown = jumps.to(start, place_of("46.899166666667,8.1"), cone, 1.0).value();
+    EXPECT_FALSE(jumps.higher());
+    const auto standing = jumps.stand(shown, cone, 1.0).value();
+    ASSERT_TRUE(standing);
+    EXPECT_NEAR(standing->eye.h_m, 1972.0, 0.1);
+    ASSERT_TRUE(jumps.higher());
+    EXPECT_EQ(wall_words(*jumps.higher()), "a post 93 m away is 30.0 m higher");
+    const auto summit = jumps.stand(*standing, cone, 1.0).value();
+    ASSERT_TRUE(summit);
+    EXPECT_NEAR(summit->eye.lat_deg, 46.9, 1e-9);
+    EXPECT_NEAR(summit->eye.h_m, 2002.0, 0.1);
+    EXPECT_FALSE(jumps.stand(*summit, cone, 1.0).value()) << "it stands there";
+    EXPECT_TRUE(same(*jumps.back(*summit), *standing));
 }
 
 }  // namespace

@@ -140,14 +140,17 @@ ViewOptions with_air(const PanoramaOptions& options) {
 }
 
 // Data are lower than a summit is, and its place in them is another: an eye may come to stand beside it.
-std::string note_of_skyline(const Elevations& found) {
+std::string note_of_skyline(const Elevations& found, bool is_on_summit) {
     if (!found.leaves_out_near) return "";
-    return "ground within 250 m of the eye stands higher than is shown: --elevation shows it, a larger "
-           "--above looks over it, and --on-summit stands on the highest post nearby";
+    const std::string note =
+        "ground within 250 m of the eye stands higher than is shown: --elevation shows it, ";
+    if (is_on_summit) return note + "and a larger --above looks over it";
+    return note + "a larger --above looks over it, and --on-summit stands on the highest post nearby";
 }
 
 // Completes the view's frame and its camera, which stands for the scene until the sheet is laid out.
-Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, View& view, std::string& note) {
+Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, bool is_on_summit, View& view,
+                       std::string& note) {
     PanoramaFrame frame = view.panorama.value_or(PanoramaFrame{});
     if (asked.sector) {
         frame.from_deg = asked.sector->first;
@@ -161,7 +164,7 @@ Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, View& 
                                                 frame.sweep_deg, thread_count());
         frame.low_deg = found.low_deg;
         frame.high_deg = found.high_deg;
-        note = note_of_skyline(found);
+        note = note_of_skyline(found, is_on_summit);
     }
     frame.ridges = asked.ridges.value_or(frame.ridges);
     Camera& camera = view.camera;
@@ -266,7 +269,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     ORO_TRY(const RegionCuts cuts, cut_regions(report.region));
     ORO_TRY(const auto ground, RegionGround::of(report.region, cuts, view.exaggeration));
     std::string note;
-    ORO_CHECK(set_frame(asked, ground->ground(), view, note));
+    ORO_CHECK(set_frame(asked, ground->ground(), report.on_summit.has_value(), view, note));
     ORO_TRY(const Style style, style_of(view, report.region));
     bar.clear();
     say_notes_of(options, report);

@@ -40,9 +40,11 @@
 namespace oro {
 namespace {
 
-void say_notes(const ShotOptions& options, const ShotResult& shot) {
+Result<void> say_notes(const ShotOptions& options, const ShotResult& shot) {
     say_notes(shot.region, options.quiet);
     say_summit(shot.on_summit, options.quiet);
+    ORO_TRY(const auto wall, wall_near(options.view, shot.region, shot.view.exaggeration));
+    say_wall(wall, options.quiet);
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
     if (shot.view.vectors_read) say_vectors(*shot.view.vectors_read, shot.view.vectors, options.quiet);
     const Geodetic& eye = shot.view.camera.eye;
@@ -53,6 +55,7 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
         std::snprintf(text, sizeof text, "note: the eye is %.1f m below the ground", *ground - eye.h_m);
         say(options.quiet, text);
     }
+    return {};
 }
 
 // Where finer ground changes what coarser ground is beside it.
@@ -300,7 +303,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     ShotResult shot;
     ORO_TRY(const Style style, open_shot(options, files, bar, shot));
     bar.clear();
-    say_notes(options, shot);
+    ORO_CHECK(say_notes(options, shot));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ShotGround ground;
     ORO_TRY(ground.cuts, cut_regions(shot.region));

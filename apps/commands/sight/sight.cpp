@@ -10,6 +10,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
+#include "apps/report/summit_words.h"
 #include "apps/view/view.h"
 
 namespace oro {
@@ -38,6 +39,14 @@ SightReport look(const Geodetic& from, const Geodetic& to, const Air& air, const
     return report;
 }
 
+// What stands before the eye, or is the summit that the target is not: nobody moves that.
+void say_walls(const Standpoint& from, const Standpoint& target, const SightOptions& options) {
+    say_wall(from.wall, options.quiet);
+    if (target.wall)
+        say(options.quiet, "note: the target: " + wall_words(*target.wall) +
+                               (options.on_summit ? "; --on-summit moves the eye alone" : ""));
+}
+
 }  // namespace
 
 Result<void> run_sight(const SightOptions& options) {
@@ -56,9 +65,10 @@ Result<void> run_sight(const SightOptions& options) {
     Standing standing{"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m};
     standing.on_summit = options.on_summit;
     ORO_TRY(const Standpoint from, stand_over_ground(standing, *ground));
-    ORO_TRY(const Geodetic to, point_over_ground({"--to", options.to, "--target", options.target_m, 0.0,
-                                                  std::nullopt, "geo:LAT,LON,HEIGHT"},
-                                                 *ground));
+    ORO_TRY(const Standpoint target, stand_over_ground({"--to", options.to, "--target", options.target_m, 0.0,
+                                                        std::nullopt, "geo:LAT,LON,HEIGHT"},
+                                                       *ground));
+    const Geodetic& to = target.eye;
     bar.show(1.0, "looking");
     SightReport report = look(from.eye, to, air, *ground);
     report.moved = from.moved;
@@ -67,6 +77,7 @@ Result<void> run_sight(const SightOptions& options) {
     if (report.slant_m <= least_above_m)
         return refused("--to", options.to, "is where --from is: there is no line between them");
     say_notes(ground->region, options.quiet);
+    say_walls(from, target, options);
     if (report.line.without_data_m > 0.5) {
         char note[160];
         std::snprintf(

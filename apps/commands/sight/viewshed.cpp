@@ -35,6 +35,7 @@ constexpr double most_posts = 2.0e8;
 struct ViewshedReport {
     std::vector<Geodetic> eyes;
     std::vector<MovedToSummit> moved;  // of each of them, where they were asked to stand on summits
+    std::vector<std::pair<std::string, MovedToSummit>> walls;  // before those that were not, by their --at
     Air air;
     double target_m{};
     double radius_km{};
@@ -239,8 +240,18 @@ Result<void> place_eyes(const ViewshedOptions& options, const SightGround& groun
         ORO_TRY(const Standpoint stood, stand_over_ground(standing, ground));
         report.eyes.push_back(stood.eye);
         if (stood.moved) report.moved.push_back(*stood.moved);
+        if (stood.wall) report.walls.emplace_back(at, *stood.wall);
     }
     return {};
+}
+
+void say_walls(const ViewshedReport& report, bool quiet) {
+    for (const auto& [at, wall] : report.walls) {
+        if (report.eyes.size() == 1)
+            say_wall(wall, quiet);
+        else
+            say(quiet, "note: --at " + at + ": " + wall_words(wall) + "; --on-summit stands there");
+    }
 }
 
 }  // namespace
@@ -280,6 +291,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_CHECK(write_post_raster(options.out, options.overwrite, raster_of(report, *ground)));
     bar.clear();
     say_notes(ground->region, options.quiet);
+    say_walls(report, options.quiet);
     if (ground->ground().grids() > 1)
         say(options.quiet, "note: the file has the posts of " + first_source(*ground, report) +
                                "; where other grids are the ground, it is their ground that is looked at");

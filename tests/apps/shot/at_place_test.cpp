@@ -78,4 +78,16 @@ TEST(AtPlace, WhatCannotBeShownIsSaid) {
             {"--at 36.550000,-84.250000: ground hides the place", "--above METRES"});
 }
 
+// From straight above the turn is a heading, as it was asked for, of a place and of the whole region.
+TEST(AtPlace, StraightDownKeepsTheAskedHeading) {
+    for (const Words& more : {Words{}, Words{"--at", "36.55,-84.25"}}) {
+        Words words{"--pitch", "-90", "--heading", "200"};
+        words.insert(words.end(), more.begin(), more.end());
+        const json said = shot(words);
+        EXPECT_EQ(said["heading_deg"], 200.0) << said;
+        EXPECT_EQ(said["pitch_deg"], -90.0);
+        EXPECT_EQ(said["roll_deg"], 0.0);
+    }
+}
+
 }  // namespace

@@ -106,4 +106,48 @@ TEST_F(OnSummit, NeedsAPlaceOnTheGround) {
         oro::test::usage, {"gives a height of its own: leave --on-summit out"});
 }
 
+// Four posts to the south of the top, 1,880 m: the post two rows nearer is 60 m higher, and none.
+constexpr const char* flank = "10.496666666666667,20.5";
+
+TEST_F(OnSummit, AWallBeforeWhoStandsOnAFlankIsSaid) {
+    const std::string note = "note: a post 184 m away is 60.0 m higher; --on-summit stands there\n";
+    const auto shot = run_orograph(
+        {"shot", tile, "--at", flank, "--above", "2", "--size", "64x48", "--out", folder / "a.png"});
+    EXPECT_TRUE(says(shot.err, note)) << shot.err;
+    const auto sun = run_orograph({"sun", tile, "--at", flank, "--date", "2026-03-21"});
+    EXPECT_TRUE(says(sun.err, note)) << sun.err;
+    const auto shed =
+        run_orograph({"viewshed", tile, "--at", flank, "--radius", "1", "--out", folder / "a.tif"});
+    EXPECT_TRUE(says(shed.err, note)) << shed.err;
+    const auto sight = run_orograph({"sight", tile, "--from", flank, "--to", published});
+    EXPECT_TRUE(says(sight.err, note)) << sight.err;
+    EXPECT_TRUE(says(sight.err, "note: the target: a post 130 m away is 42.0 m higher\n")) << sight.err;
+    const auto moved = run_orograph({"sight", tile, "--from", flank, "--to", published, "--on-summit"});
+    EXPECT_TRUE(says(moved.err,
+                     "note: the target: a post 130 m away is 42.0 m higher; --on-summit moves the "
+                     "eye alone\n"))
+        << moved.err;
+    EXPECT_FALSE(says(moved.err, note)) << moved.err;
+    // Not of an eye that is over all of it, nor of one that looks at the place from elsewhere.
+    for (const Words& more : {Words{"--above", "70"}, Words{}}) {
+        const Words words{"shot",  tile,    "--at",           flank,        "--size",
+                          "64x48", "--out", folder / "b.png", "--overwrite"};
+        const auto high = run_orograph(oro::test::joined(words, more));
+        EXPECT_EQ(high.exit_code, 0) << high.err;
+        EXPECT_FALSE(says(high.err, "a post 184 m away")) << high.err;
+    }
+}
+
+TEST_F(OnSummit, GroundThatGoesOnRisingIsNoSummit) {
+    const auto around = run_orograph({"panorama", tile, "--at", flank, "--on-summit", "--width", "400",
+                                      "--sector", "330,30", "--out", folder / "r.png"});
+    EXPECT_EQ(around.exit_code, 0) << around.err;
+    EXPECT_TRUE(says(around.err,
+                     "184 m from the place that was given and 60.0 m higher; no summit: the ground "
+                     "goes on rising\n"))
+        << around.err;
+    EXPECT_TRUE(says(around.err, "--elevation shows it, and a larger --above looks over it\n")) << around.err;
+    EXPECT_FALSE(says(around.err, "--on-summit")) << around.err;
+}
+
 }  // namespace

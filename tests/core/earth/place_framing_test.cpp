@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -93,6 +94,58 @@ TEST(PlaceFraming, GroundBetweenHidesAPlace) {
     EXPECT_FALSE(is_line_free(eye(180.0, -2.0), place, 10.0, wall));
     const GroundHeightAt nothing = [](double, double) -> std::optional<double> { return std::nullopt; };
     EXPECT_TRUE(is_line_free(eye(0.0, -1.0), place, 10.0, nothing)) << "what has no data hides nothing";
+}
+
+// A turn of a picture from straight above is a heading, and the roll is the user's alone.
+TEST(PlaceFraming, StraightDownTheTurnIsTheHeading) {
+    Camera camera = square_of_ninety_degrees();
+    camera.attitude.roll_deg = 12.0;
+    const Geodetic place{46.5, 8.0, 3000.0};
+    const Camera over = camera_on_place(camera, place, {200.0, -90.0}, 1000.0, 0.0);
+    EXPECT_EQ(over.attitude.heading_deg, 200.0);
+    EXPECT_EQ(over.attitude.pitch_deg, -90.0);
+    EXPECT_EQ(over.attitude.roll_deg, 12.0);
+    EXPECT_LT(off_middle_rad(over, place), 1e-8);
+    const Camera steep = camera_on_place(camera, place, {200.0, -85.0}, 1000.0, 0.0);
+    EXPECT_NEAR(steep.attitude.heading_deg, 200.0, 0.02);
+    EXPECT_EQ(steep.attitude.roll_deg, 12.0);
+
+    // Four corners of a square of a degree, of which the middle is not the highest.
+    std::vector<Ecef> corners;
+    for (const double lat_deg : {46.0, 47.0})
+        for (const double lon_deg : {7.5, 8.5})
+            corners.push_back(ecef_from_geodetic({lat_deg, lon_deg, lat_deg > 46.5 ? 4000.0 : 0.0}));
+    const Camera all = camera_on_points(camera, place, 70'000.0, {200.0, -90.0}, corners, 0.05);
+    EXPECT_EQ(all.attitude.heading_deg, 200.0);
+    EXPECT_EQ(all.attitude.pitch_deg, -90.0);
+    EXPECT_EQ(all.attitude.roll_deg, 12.0);
+    double farthest = 0.0;
+    for (const Ecef& corner : corners) {
+        const glm::dvec3 at = all.view_from_ecef() * (corner.m - all.eye_ecef().m);
+        EXPECT_LT(at.z, 0.0);
+        farthest = std::max({farthest, std::abs(at.x / at.z), std::abs(at.y / at.z)});
+    }
+    EXPECT_NEAR(farthest, 0.9, 1e-6);  // of the tangent of half of 90 degrees
+}
+
+// Looking down, heading and roll turn a picture by their sum; looking up, by their difference.
+TEST(PlaceFraming, TheWholeTurnOfASteepPicture) {
+    EXPECT_EQ(picture_top_deg({0.0, -89.0, -160.0}, 0.0), 200.0);
+    EXPECT_EQ(picture_top_deg({0.0, -89.0, -148.0}, 12.0), 200.0);
+    EXPECT_EQ(picture_top_deg({0.0, 89.0, 160.0}, 0.0), 200.0);
+    EXPECT_EQ(picture_top_deg({30.0, -40.0, 50.0}, 0.0), 30.0);
+}
+
+TEST(PlaceFraming, ForegroundWithoutDataCounts) {
+    const Geodetic place{46.5, 8.0, 0.0};
+    const Camera camera = camera_on_place(square_of_ninety_degrees(), place, {0.0, -60.0}, 1000.0, 0.0);
+    const auto share = [&](double south_of_deg) {
+        return foreground_share(camera, place, [&](double lat_deg, double) -> std::optional<double> {
+            return lat_deg < south_of_deg ? std::nullopt : std::optional(0.0);
+        });
+    };
+    EXPECT_EQ(share(40.0), 1.0);
+    EXPECT_EQ(share(46.5), 0.0) << "all of the lower half is south of the place";
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "tests/support/made_terrain.h"
 
 namespace oro {
@@ -34,6 +36,23 @@ TEST(Summit, IsHigherThanThePlace) {
     EXPECT_FALSE(found({46.97, 8.05, 100.0}));
     EXPECT_FALSE(found({46.0, 8.05, 0.0})) << "beyond the grid";
     EXPECT_FALSE(found({46.97, 95.0, 0.0}));
+}
+
+// A slope that rises to the north by 10 m a post: the highest post near is the last that is looked at.
+TEST(Summit, IsNoneWhereTheGroundGoesOnRising) {
+    const HeightField field = test::made_field(47.0, 8.0, 100.0, 11, 11, [](double, double) { return 0.0F; });
+    const auto rises = [&](int top_row, const Geodetic& place) {
+        const PostHeight post_h_m = [&](int row, int) -> std::optional<double> {
+            return 100.0 - 10.0 * std::abs(row - top_row);
+        };
+        const auto highest = highest_post_near(field.grid, place, post_h_m);
+        return highest && rises_beyond(field.grid, place, *highest, post_h_m);
+    };
+    const Geodetic place{46.95, 8.05, 0.0};  // row 5
+    EXPECT_TRUE(rises(2, place)) << "row 3 is reached, row 2 is higher";
+    EXPECT_FALSE(rises(3, place));
+    EXPECT_FALSE(rises(4, place));
+    EXPECT_FALSE(rises(0, {46.98, 8.05, 0.0})) << "the grid ends there";
 }
 
 }  // namespace
