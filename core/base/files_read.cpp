@@ -1,5 +1,7 @@
 #include "core/base/files_read.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
@@ -19,8 +21,10 @@ using Identity = std::pair<std::uint64_t, std::uint64_t>;  // device and number
 struct StateAtOpening {
     Identity identity;
     std::int64_t bytes{};
-    std::int64_t seconds{};
-    std::int64_t nanoseconds{};
+    std::chrono::nanoseconds written{};  // since 1970, by the file's mtime, which any program may set
+    std::chrono::nanoseconds touched{};  // by its ctime, which only the system sets
+    // What a change of ctime alone may come from: links, rights and owners.
+    std::array<std::uint64_t, 4> record{};
 };
 
 struct FilesRead {
@@ -38,7 +42,14 @@ FilesRead& files_read() {
 }
 
 StateAtOpening state_of(const struct stat& found) {
-    return {{found.st_dev, found.st_ino}, found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
+    const auto time = [](const timespec& at) {
+        return std::chrono::seconds(at.tv_sec) + std::chrono::nanoseconds(at.tv_nsec);
+    };
+    return {{found.st_dev, found.st_ino},
+            found.st_size,
+            time(found.st_mtim),
+            time(found.st_ctim),
+            {found.st_nlink, found.st_mode, found.st_uid, found.st_gid}};
 }
 
 // "" where nothing has changed.
@@ -46,8 +57,10 @@ std::string change_between(const StateAtOpening& before, const StateAtOpening& n
     if (before.identity != now.identity) return "another file has its name now";
     if (before.bytes != now.bytes)
         return "it had " + std::to_string(before.bytes) + " bytes, and has " + std::to_string(now.bytes);
-    if (before.seconds != now.seconds || before.nanoseconds != now.nanoseconds)
-        return "it was written to meanwhile";
+    if (before.written != now.written) return "it was written to meanwhile";
+    // A link or other rights set ctime and change no byte; who reads sets neither time.
+    if (before.touched != now.touched && before.record == now.record)
+        return "it was written to meanwhile, and its time was set back";
     return "";
 }
 
@@ -63,8 +76,7 @@ constexpr std::chrono::milliseconds longest_tick{20};
 
 bool is_recent(const StateAtOpening& state) {
     using namespace std::chrono;
-    const nanoseconds changed = seconds(state.seconds) + nanoseconds(state.nanoseconds);
-    const auto age = system_clock::now().time_since_epoch() - changed;
+    const auto age = system_clock::now().time_since_epoch() - std::max(state.written, state.touched);
     return age >= nanoseconds(0) && age < longest_tick;
 }
 

@@ -25,7 +25,8 @@ void forget_files_read();
 void remember_file_read(const std::string& path, const struct stat& found);
 
 // That the files are what they were when they were first opened: the same file by that name, as long, and
-// changed at the same time, to the nanosecond. Errors: the first that is not, and why; one that cannot be
+// changed at the same time, to the nanosecond: by the time that programs may set, and by the system's own
+// (new links and other rights are no change). Errors: the first that is not, and why; one that cannot be
 // asked about.
 Result<void> check_files_unchanged();
 

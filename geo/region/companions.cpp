@@ -9,6 +9,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/files/name_pattern.h"
 #include "geo/region/region_grid.h"
+#include "geo/sources/known_products.h"
 #include "geo/sources/raster_content.h"
 
 namespace oro {
@@ -19,7 +20,9 @@ constexpr std::string_view words_beside =
     "mask|msk|bitmask|datamask|watermask|wbm|wam|count|counts|num|stk|quality|qa|error|err|hem|uncertainty|"
     "accuracy|sigma|std|stddev|stdev|coherence|coh|amplitude|amp|intensity|browse|preview|thumb|thumbnail|"
     "quicklook|ql|ortho|orthophoto|image|slope*|aspect*|hillshade*|shade*|hs|roughness|ruggedness|tri|tpi|"
-    "curvature|flow*|landcover|lcm";
+    "curvature|flow*|landcover|lcm|day|days|doy|date|dates|mindate|maxdate|matchtag|edm|flm";
+// Last words of names of heights themselves.
+constexpr std::string_view words_of_heights = "dem|dsm|dtm";
 
 std::string_view file_name_of(std::string_view path) {
     return path.substr(path.rfind('/') + 1);
@@ -52,14 +55,19 @@ GridKey grid_key(const Source& source) {
 // Of its ground.
 constexpr double most_of_it = 0.5;
 
+// A name in small letters without its ending, and without what makes it a copy's.
+std::string stem_of(const Source& source) {
+    const std::string name = lower_case(file_name_of(source.report.path));
+    return std::string(without_copy_marks(std::string_view(name).substr(0, name.rfind('.'))));
+}
+
 // A name's last word, and what comes before it; nothing where it has one word.
 struct LastWord {
     std::string before, word;
 };
 std::optional<LastWord> last_word(const Source& source) {
-    const std::string name = lower_case(file_name_of(source.report.path));
-    const std::string stem = name.substr(0, name.rfind('.'));
-    const std::size_t at = stem.find_last_of("_-.");
+    const std::string stem = stem_of(source);
+    const std::size_t at = stem.find_last_of(between_words);
     if (at == std::string::npos || at == 0) return std::nullopt;
     return LastWord{stem.substr(0, at), stem.substr(at + 1)};
 }
@@ -69,11 +77,15 @@ bool has_word_beside(const Source& source) {
     return word && matches_name(words_beside, word->word);
 }
 
+bool is_named_heights(const Source& source) {
+    const auto word = last_word(source);
+    return matches_name(words_of_heights, word ? word->word : stem_of(source));
+}
+
 bool is_named_beside(const Source& source, const Source& other) {
     const auto word = last_word(source);
     if (!word || has_word_beside(other)) return false;
-    return on_same_grid(source, other) ||
-           lower_case(file_name_of(other.report.path)).starts_with(word->before);
+    return on_same_grid(source, other) || stem_of(other).starts_with(word->before);
 }
 
 // Of bytes: why they are no heights; "" where others do not lie over most of their ground.
@@ -109,6 +121,9 @@ std::string why_of(std::size_t number, std::span<const Source> sources, bool few
         if (!same_grid || !few_share) continue;
         if (const std::string made = made_of_heights(source, other); !made.empty())
             return "holds " + made + ", made of the heights of " + beside + ", no elevation";
+        if (is_named_heights(other) && !is_named_heights(source) && contradicts_heights(source, other))
+            return "differs by more than 16 m at most of its posts from " + beside +
+                   ", whose name says that it holds the heights";
     }
     return "";
 }

@@ -20,7 +20,8 @@ struct CompanionSource {
 // Those that by themselves may be heights, and by what lies over the same ground are none: what was made of
 // another's heights on the same grid (slope, aspect, ...); whole numbers of 0 to 255 beside heights of
 // another type (masks, counts, pictures); a file named like another with a word added ("_mask", "_error",
-// ...). Files that the user named count only where they share the other's grid. Reads a few rows of files
+// ...); what contradicts a file on the same grid whose last word is dem, dsm or dtm, and has no such word
+// itself. Files that the user named count only where they share the other's grid. Reads a few rows of files
 // that share a grid; what cannot be read is no companion.
 std::vector<CompanionSource> companions_among(std::span<const Source> sources);
 

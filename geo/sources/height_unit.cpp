@@ -13,6 +13,7 @@
 #include "geo/datum/proj_operations.h"
 #include "geo/files/foreign_text.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/name_pattern.h"
 
 namespace oro {
 namespace {
@@ -86,6 +87,7 @@ struct LengthUnit {
 
 std::string name_of_metres(double metres) {
     for (const auto& [name, value] : {std::pair{"m", 1.0},
+                                      {"km", 1000.0},
                                       {"ft", 0.3048},
                                       {"us-ft", 1200.0 / 3937.0},
                                       {"cm", 0.01},
@@ -122,6 +124,46 @@ std::optional<int> shared_vertical_unit(const std::vector<std::string>& parts) {
         shared = unit;
     }
     return shared;
+}
+
+// A word of a unit's name: what it stands for, where it is one by itself; else what it tells of others.
+struct UnitWord {
+    enum class Kind { unit, foot, of_us, of_all, above_sea };
+    std::string_view words;
+    Kind kind;
+    double metres{};
+};
+constexpr double foot_m = 0.3048;
+constexpr double us_survey_foot_m = 1200.0 / 3937.0;
+constexpr std::array words_of_units{
+    UnitWord{"m|metre|metres|meter|meters|mtr|mtrs", UnitWord::Kind::unit, 1.0},
+    UnitWord{"km|kilometre|kilometres|kilometer|kilometers", UnitWord::Kind::unit, 1000.0},
+    UnitWord{"dm|decimetre|decimetres|decimeter|decimeters", UnitWord::Kind::unit, 0.1},
+    UnitWord{"cm|centimetre|centimetres|centimeter|centimeters", UnitWord::Kind::unit, 0.01},
+    UnitWord{"mm|millimetre|millimetres|millimeter|millimeters", UnitWord::Kind::unit, 0.001},
+    UnitWord{"ift|ftint", UnitWord::Kind::unit, foot_m},
+    UnitWord{"usft|ftus|sft|sftus", UnitWord::Kind::unit, us_survey_foot_m},
+    UnitWord{"ft|foot|feet", UnitWord::Kind::foot, foot_m},
+    UnitWord{"us|usa|survey", UnitWord::Kind::of_us},
+    UnitWord{"international|intl|int", UnitWord::Kind::of_all},
+    UnitWord{"above|mean|sea|level|asl|amsl|msl|masl|mamsl", UnitWord::Kind::above_sea},
+};
+
+// A unit's name in small letters, word by word: "U.S. survey-feet" is "us", "survey", "feet".
+std::vector<std::string> words_of_unit(std::string_view name) {
+    std::string plain = lower_case(name);
+    for (const auto& [spaced, joined] : {std::pair{"a. s. l.", "asl"}, {"a. m. s. l.", "amsl"}})
+        if (plain.ends_with(spaced)) plain.replace(plain.rfind("a. "), std::string::npos, joined);
+    std::vector<std::string> words{""};
+    for (const char c : plain) {
+        if (c == '.') continue;
+        if (std::string_view(" \t_-()[]").find(c) == std::string_view::npos)
+            words.back() += c;
+        else if (!words.back().empty())
+            words.emplace_back();
+    }
+    if (words.back().empty()) words.pop_back();
+    return words;
 }
 
 // One that says what heights count in, and who it is.
@@ -167,8 +209,11 @@ Result<std::vector<Saying>> sayings_of(const Source& source, GDALDatasetH datase
     const bool crs_says = !source.vertical_crs.empty() && source.report.vertical_datum.from == DatumFrom::crs;
     if (crs_says || (!source.vertical_crs.empty() && of_crs != 1.0))
         all.push_back({"its coordinate reference system", name_of_metres(of_crs), of_crs});
-    if (const auto metres = metres_of_zunits(source.file))
-        all.push_back({"Zunits of its .prj file", name_of_metres(*metres), *metres});
+    const auto zunits = metres_of_zunits(source.file);
+    // Who says it before decides.
+    if (!zunits.ok() && all.empty()) return zunits.error();
+    if (zunits.ok() && *zunits)
+        all.push_back({"Zunits of its .prj file", name_of_metres(**zunits), **zunits});
     return all;
 }
 
@@ -197,25 +242,25 @@ std::string height_unit_words() {
 }
 
 std::optional<double> metres_in(const std::string& unit) {
-    constexpr double foot = 0.3048;
-    constexpr double us_survey_foot = 1200.0 / 3937.0;
-    std::string name = lower_case(unit);
-    name.erase(0, name.find_first_not_of(" \t[("));
-    name.erase(name.find_last_not_of(" \t])") + 1);
-    const auto is = [&](std::initializer_list<std::string_view> names) {
-        return std::ranges::find(names, name) != names.end();
-    };
-    if (is({"m", "metre", "metres", "meter", "meters"})) return 1.0;
-    if (is({"ft", "foot", "feet", "international foot", "international feet", "foot (international)", "ift"}))
-        return foot;
-    if (is({"us-ft", "us_ft", "usft", "ftus", "us ft", "us survey foot", "us survey feet", "u.s. survey foot",
-            "u.s. survey feet", "us foot", "us feet", "foot_us", "feet_us", "foot us", "survey foot",
-            "survey feet", "sft", "us_survey_foot", "us_survey_feet"}))
-        return us_survey_foot;
-    if (is({"cm", "centimetre", "centimetres", "centimeter", "centimeters"})) return 0.01;
-    if (is({"dm", "decimetre", "decimetres", "decimeter", "decimeters"})) return 0.1;
-    if (is({"mm", "millimetre", "millimetres", "millimeter", "millimeters"})) return 0.001;
-    return std::nullopt;
+    std::optional<double> metres;
+    bool foot = false, of_us = false, of_all = false;
+    for (const std::string& word : words_of_unit(unit)) {
+        const auto known = std::ranges::find_if(
+            words_of_units, [&](const UnitWord& one) { return matches_name(one.words, word); });
+        if (known == words_of_units.end()) return std::nullopt;
+        if (known->kind == UnitWord::Kind::unit) {
+            if (metres && *metres != known->metres) return std::nullopt;
+            metres = known->metres;
+        }
+        foot = foot || known->kind == UnitWord::Kind::foot;
+        of_us = of_us || known->kind == UnitWord::Kind::of_us;
+        of_all = of_all || known->kind == UnitWord::Kind::of_all;
+    }
+    if (of_us && of_all) return std::nullopt;
+    if (!foot) return of_us || of_all ? std::nullopt : metres;
+    const double length_m = of_us ? us_survey_foot_m : foot_m;
+    if (metres && *metres != length_m) return std::nullopt;
+    return length_m;
 }
 
 GeoTiffHeights geotiff_heights(const std::string& file) {
@@ -235,9 +280,10 @@ GeoTiffHeights geotiff_heights(const std::string& file) {
     return heights;
 }
 
-std::optional<double> metres_of_zunits(const std::string& raster_file) {
+Result<std::optional<double>> metres_of_zunits(const std::string& raster_file) {
+    const std::optional<double> nothing;
     const std::size_t dot = raster_file.rfind('.');
-    if (dot == std::string::npos || raster_file.find('/', dot) != std::string::npos) return std::nullopt;
+    if (dot == std::string::npos || raster_file.find('/', dot) != std::string::npos) return nothing;
     std::string text;
     for (const char* ending : {".prj", ".PRJ"}) {
         const std::string name = raster_file.substr(0, dot) + ending;
@@ -262,10 +308,14 @@ std::optional<double> metres_of_zunits(const std::string& raster_file) {
         char* rest = nullptr;
         const double to_a_metre = std::strtod(line.c_str(), &rest);
         if (rest != line.c_str() && *rest == '\0' && std::isfinite(to_a_metre) && to_a_metre > 0.0)
-            return 1.0 / to_a_metre;
-        return std::nullopt;
+            return std::optional(1.0 / to_a_metre);
+        if (line.empty() || matches_name("no|none|unknown|undefined", line)) return nothing;
+        return Error{ErrorKind::failed, "",
+                     "gives its heights in '" + foreign_text(line) +
+                         "' (Zunits of its .prj file), which is no known unit of height; --height-unit " +
+                         height_unit_words() + " tells it"};
     }
-    return std::nullopt;
+    return nothing;
 }
 
 Result<void> read_height_unit(Source& source, GDALDatasetH dataset, const HeightUnitSays& says,

@@ -22,8 +22,9 @@ struct GeoTiffHeights {
 GeoTiffHeights geotiff_heights(const std::string& file);
 
 // Zunits of an Arc/Info .prj file beside a raster: the metres in its unit of heights; nothing where there is
-// no such file or line, or it says NO.
-std::optional<double> metres_of_zunits(const std::string& raster_file);
+// no such file or line, or it says NO. Errors (a reason, without the file's name): a word that is no unit of
+// height.
+Result<std::optional<double>> metres_of_zunits(const std::string& raster_file);
 
 // Puts unit, scale and offset of a band into a source. By precedence: what was told (`told_unit`); the band's
 // own unit; GeoKey 4099, of the file or of all GeoTIFFs that a VRT is made of (`parts`); the vertical CRS;

@@ -24,8 +24,8 @@ struct Companion {
 };
 
 // Patterns are those of matches_name(), in small letters, of names without their ending; a companion's are of
-// one part of a name, as `_`, `-` and `.` part it. The first row that has a file among its files decides, and
-// of its companions the first. What is none of them holds heights.
+// one part of a name, as `_`, `-`, `.` and blanks part it. The first row that has a file among its files
+// decides, and of its companions the first. What is none of them holds heights.
 struct Product {
     std::string_view name, files;
     Reference heights;
@@ -88,7 +88,9 @@ constexpr std::array products{
     // Polar Geospatial Center, guides to ArcticDEM, REMA and EarthDEM (mosaics v4.1 and v2.0, strips s2s041):
     // heights are above the WGS84 ellipsoid.
     Product{"ArcticDEM, REMA or EarthDEM",
-            "arcticdem_*|rema_*|earthdem_*|setsm_*|##_##_*m_v#*|utm##?_##_##_*m_v#*",
+            "arcticdem_*|rema_*|earthdem_*|setsm_*|##_##_*m_v#*|utm##?_##_##_*m_v#*|"
+            // Of releases before 2: 8 m and, of quarters, 5 m; dates and errors are only theirs.
+            "##_##_8m_*|##_##_#_#_8m_*|##_##_#_#_5m_*|##_##_*m_day*|##_##_*m_err*",
             ellipsoid,
             {{{"shade*|hillshade*", "a hillshade"},
               {"browse*", "a preview"},
@@ -98,7 +100,8 @@ constexpr std::array products{
               {"countmt", "number of matches"},
               {"count", "number of strips"},
               {"mad", "median deviation"},
-              {"mindate|maxdate", "dates"},
+              {"mindate|maxdate|day|date", "dates"},
+              {"err", "height error"},
               {"ortho*", "an image"},
               {"slope*", "slope"}}}},
     // NASA and METI, ASTER GDEM V3 User Guide (2019): EGM96; _num counts scenes and names other sources.
@@ -182,7 +185,7 @@ constexpr std::string_view turned = "*egm96*|*egm08*|*egm2008*|*_geoid*|*orthom*
 bool has_part(std::string_view patterns, std::string_view stem) {
     if (patterns.empty()) return false;
     while (true) {
-        const std::size_t end = stem.find_first_of("_-.");
+        const std::size_t end = stem.find_first_of(between_words);
         if (matches_name(patterns, stem.substr(0, end))) return true;
         if (end == std::string_view::npos) return false;
         stem.remove_prefix(end + 1);
@@ -194,11 +197,62 @@ std::string_view without_ending(std::string_view name) {
     return dot == std::string_view::npos || dot == 0 ? name : name.substr(0, dot);
 }
 
+// What file managers and browsers put before the name of a copy, ...
+constexpr std::array before_copies{std::string_view("copy of "), std::string_view("copy_of_"),
+                                   std::string_view("kopie von "), std::string_view("copie de "),
+                                   std::string_view("copia de ")};
+// ... and behind it, where a number may follow.
+constexpr std::string_view copy_words =
+    "copy|another copy|#st copy|#nd copy|#rd copy|#th copy|##th copy|kopie|copie|copia|c\xc3\xb3pia";
+
+std::string_view without_marks_behind(std::string_view text) {
+    return text.substr(0, text.find_last_not_of(" _-") + 1);
+}
+
+// Without " (2)", or " 2" where that stands behind a word for a copy.
+std::string_view without_copy_number(std::string_view stem) {
+    const bool in_brackets = stem.ends_with(')');
+    std::string_view rest = stem.substr(0, stem.size() - (in_brackets ? 1 : 0));
+    const std::size_t digits = rest.size() - (rest.find_last_not_of("0123456789") + 1);
+    if (digits == 0 || digits > 3 || digits == rest.size()) return stem;
+    rest.remove_suffix(digits);
+    if (!rest.ends_with(in_brackets ? '(' : ' ')) return stem;
+    rest.remove_suffix(1);
+    return without_marks_behind(rest);
+}
+
+// Without " - copy", " copy", "_copy", " (copy)".
+std::string_view without_copy_word(std::string_view stem) {
+    const bool in_brackets = stem.ends_with(')');
+    const std::string_view inner = stem.substr(0, stem.size() - (in_brackets ? 1 : 0));
+    for (std::size_t at = inner.find_first_of(" _-("); at != std::string_view::npos;
+         at = inner.find_first_of(" _-(", at + 1)) {
+        if (in_brackets != (inner[at] == '(') || !matches_name(copy_words, inner.substr(at + 1))) continue;
+        return inner.substr(0, inner.find_last_not_of(" _-(", at) + 1);
+    }
+    return stem;
+}
+
 }  // namespace
+
+std::string_view without_copy_marks(std::string_view stem) {
+    for (std::size_t before = stem.size() + 1; !stem.empty() && stem.size() < before;) {
+        before = stem.size();
+        for (const std::string_view mark : before_copies)
+            if (stem.size() > mark.size() && stem.starts_with(mark)) stem.remove_prefix(mark.size());
+        const std::string_view word = without_copy_word(stem);
+        if (!word.empty()) stem = word;
+        const std::string_view number = without_copy_number(stem);
+        // "a copy 2" is a copy; "site 2" is not.
+        const bool is_copy = stem.ends_with(')') || without_copy_word(number).size() < number.size();
+        if (!number.empty() && is_copy) stem = number;
+    }
+    return stem;
+}
 
 std::optional<KnownFile> known_file(std::string_view name) {
     const std::string small = lower_case(name);
-    const std::string_view stem = without_ending(small);
+    const std::string_view stem = without_copy_marks(without_ending(small));
     for (const Product& product : products) {
         if (!matches_name(product.files, stem)) continue;
         for (const Companion& companion : product.companions)

@@ -19,8 +19,16 @@ struct KnownFile {
     std::string_view heights_crs, heights_name;
 };
 
-// A file of a known product by its name (no folders; letters in any case), or nothing. A name that says that
-// its heights were turned into others ("_egm96", "_navd88", "_orthometric", ...) brings no datum.
+// What stands between the words of a file's name.
+inline constexpr std::string_view between_words = "_-. ()";
+
+// A name in small letters, without its ending, without what browsers and file managers add to the names of
+// copies: "x_dem (1)", "x_dem - copy", "x_dem copy 2" and "copy of x_dem" are "x_dem".
+std::string_view without_copy_marks(std::string_view stem);
+
+// A file of a known product by its name (no folders; letters in any case; copies count as the file itself),
+// or nothing. A name that says that its heights were turned into others ("_egm96", "_navd88", "_orthometric",
+// ...) brings no datum.
 std::optional<KnownFile> known_file(std::string_view name);
 
 }  // namespace oro

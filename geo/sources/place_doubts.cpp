@@ -1,8 +1,12 @@
 #include "geo/sources/place_doubts.h"
 
+#include <cpl_conv.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <mutex>
 #include <optional>
 
 #include "geo/files/foreign_text.h"
@@ -15,13 +19,47 @@ struct AreaOfUse {
     double west_deg, south_deg, east_deg, north_deg;
 };
 
-std::optional<AreaOfUse> area_of(OGRSpatialReferenceH crs) {
+std::optional<AreaOfUse> stated_area(OGRSpatialReferenceH crs) {
     AreaOfUse area{};
     if (!OSRGetAreaOfUse(crs, &area.west_deg, &area.south_deg, &area.east_deg, &area.north_deg, nullptr))
         return std::nullopt;
     if (area.south_deg < -90.0 || area.north_deg > 90.0 || area.west_deg < -180.0 || area.east_deg > 180.0)
         return std::nullopt;  // unknown
     return area;
+}
+
+std::string code_of(OGRSpatialReferenceH crs) {
+    const char* const authority = OSRGetAuthorityName(crs, nullptr);
+    const char* const code = OSRGetAuthorityCode(crs, nullptr);
+    return authority != nullptr && code != nullptr ? std::string(authority) + ":" + code : "";
+}
+
+// The code of the CRS of PROJ's database that is the same; "" for none. Esri's .prj files have no codes.
+std::string code_in_database(OGRSpatialReferenceH crs) {
+    if (std::string code = code_of(crs); !code.empty()) return code;
+    int count = 0;
+    int* confidences = nullptr;
+    OGRSpatialReferenceH* const matches = OSRFindMatches(crs, nullptr, &count, &confidences);
+    constexpr int equivalent = 70;  // per cent, as GDAL counts
+    const std::string code = count > 0 && confidences[0] >= equivalent ? code_of(matches[0]) : "";
+    OSRFreeSRSArray(matches);
+    CPLFree(confidences);
+    return code;
+}
+
+// Asked of the database where the CRS states none, as the horizontal part of a compound one does not. The
+// search takes tenths of a second: answers are kept by the CRS's text.
+std::optional<AreaOfUse> area_of(OGRSpatialReferenceH crs, const std::string& wkt) {
+    if (const auto area = stated_area(crs)) return area;
+    static std::mutex mutex;
+    static std::map<std::string, std::optional<AreaOfUse>> answers;
+    const std::scoped_lock lock(mutex);
+    if (const auto known = answers.find(wkt); known != answers.end()) return known->second;
+    const GdalMessages messages;
+    const std::string code = code_in_database(crs);
+    const SpatialReference same(code.empty() ? nullptr : OSRNewSpatialReference(nullptr));
+    const bool is_known = same && OSRSetFromUserInput(same.get(), code.c_str()) == OGRERR_NONE;
+    return answers[wkt] = is_known ? stated_area(same.get()) : std::nullopt;
 }
 
 // Degrees between a source's box and an area, along a meridian or a parallel, whichever is more; 0 where they
@@ -71,7 +109,7 @@ std::string area_words(const AreaOfUse& area) {
 Result<void> check_place(const Source& source, OGRSpatialReferenceH horizontal,
                          std::vector<std::string>& doubts) {
     if (!OSRIsProjected(horizontal)) return {};
-    const auto area = area_of(horizontal);
+    const auto area = area_of(horizontal, source.crs_wkt);
     const double outside_deg = area ? outside_by_deg(source, *area) : 0.0;
     const auto& m = source.crs_from_post;
     const Span x = span_of(m[0], m[1], m[2], source), y = span_of(m[3], m[4], m[5], source);
@@ -82,7 +120,10 @@ Result<void> check_place(const Source& source, OGRSpatialReferenceH horizontal,
                                     (within(y, -180.0, 360.0) && within(x, -90.0, 90.0));
     // A survey of one room may lie around the origin of a CRS made for it, which has no area of use.
     constexpr double closest_m = 0.2, far_deg = 0.5;
-    if (area && looks_like_degrees && (source.report.spacing_m <= closest_m || outside_deg > far_deg)) {
+    // Under any CRS: posts of no survey are so close, those of degrees are an arc second to 15.
+    constexpr double closest_of_all_m = 0.005;
+    const bool too_close = source.report.spacing_m <= (area ? closest_m : closest_of_all_m);
+    if (looks_like_degrees && (too_close || outside_deg > far_deg)) {
         char spacing[40];
         std::snprintf(spacing, sizeof spacing, "%.3g", source.report.spacing_m);
         return Error{

@@ -11,7 +11,8 @@
 namespace oro {
 
 // Holds the coordinates of a source that lies on the Earth already against its horizontal CRS. `doubts` get a
-// line where all of it lies far outside the area that the CRS is made for. Errors (a reason, without the
+// line where all of it lies far outside the area that the CRS is made for, by itself or by the same CRS in
+// PROJ's database. Errors (a reason, without the
 // file's name): degrees under a CRS of metres or feet, by which posts lie millimetres to centimetres apart,
 // or outside that area.
 Result<void> check_place(const Source& source, OGRSpatialReferenceH horizontal,

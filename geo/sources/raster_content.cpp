@@ -10,6 +10,7 @@
 
 #include "geo/files/letter_case.h"
 #include "geo/files/name_pattern.h"
+#include "geo/sources/known_products.h"
 #include "geo/sources/raster_library.h"
 
 namespace oro {
@@ -20,14 +21,19 @@ namespace {
 struct Derived {
     std::string_view words, holds;
     double lowest, highest;
-    bool begins{};  // names begin with the words, too
+    bool anywhere{};  // in a name, not as its last word alone
+    // Up to here if they come close to 0, as what level ground has: slopes in per cent, steps of coarse
+    // posts.
+    double steepest{};
+    bool whole_bytes{};  // of whole numbers of one byte alone: heights may have such a name
 };
 constexpr std::array derived{
     Derived{"hillshade*|shadedrelief|shaded", "a hillshade", 0.0, 255.0, true},
-    Derived{"aspect*", "aspect", -1.0, 360.0, true},
-    Derived{"slope*|steepness", "slope", 0.0, 90.0, true},
-    Derived{"roughness|ruggedness|tri", "roughness", 0.0, 100.0, false},
-    Derived{"tpi", "position beside its neighbours", -50.0, 50.0, false},
+    Derived{"hs|hshd|shade*|shading|shadow*|hillshd", "a hillshade", 0.0, 255.0, true, 0.0, true},
+    Derived{"aspect*", "aspect", -180.0, 360.0, true},
+    Derived{"slope*|steepness", "slope", 0.0, 90.0, true, 2000.0},
+    Derived{"roughness|ruggedness|tri|vrm", "roughness", 0.0, 100.0, true, 2000.0},
+    Derived{"tpi", "position beside its neighbours", -50.0, 50.0, true, 1000.0},
 };
 
 // What gdaldem writes for flat ground, whether it is declared as no-data or not.
@@ -66,11 +72,25 @@ std::optional<ValueRange> sampled_range(GDALDatasetH dataset) {
 
 bool is_named(const Derived& kind, std::string_view name) {
     const std::string small = lower_case(name.substr(0, name.rfind('.')));
-    const std::string_view stem = small;
-    const std::size_t first = stem.find_first_of("_-. "), last = stem.find_last_of("_-. ");
-    const bool whole = last == std::string_view::npos;
-    return matches_name(kind.words, whole ? stem : stem.substr(last + 1)) ||
-           (kind.begins && matches_name(kind.words, stem.substr(0, first)));
+    std::string_view stem = without_copy_marks(small);
+    for (;;) {
+        const std::size_t end = stem.find_first_of(between_words);
+        const bool is_last = end == std::string_view::npos;
+        if ((is_last || kind.anywhere) && matches_name(kind.words, stem.substr(0, end))) return true;
+        if (is_last) return false;
+        stem.remove_prefix(end + 1);
+    }
+}
+
+bool fits(const Derived& kind, const ValueRange& range, bool is_landscape) {
+    if (range.lowest >= kind.lowest && range.highest <= kind.highest) return true;
+    if (is_landscape) return false;
+    // Around 0, as much down as up; or from near 0 upwards.
+    constexpr double level_part = 0.1, lopsided = 5.0;
+    if (range.highest > kind.steepest || range.lowest < -kind.steepest) return false;
+    if (kind.lowest >= 0.0) return range.lowest >= 0.0 && range.lowest <= level_part * range.highest;
+    return range.lowest < 0.0 && range.highest > 0.0 && range.highest <= -lopsided * range.lowest &&
+           -range.lowest <= lopsided * range.highest;
 }
 
 // A value, and the nine heights at and around its place, row by row from the north-west.
@@ -233,11 +253,16 @@ std::string holds_by_tags(GDALDatasetH dataset) {
 }
 
 std::string holds_by_name_and_values(std::string_view name, GDALDatasetH dataset) {
-    const auto word =
-        std::ranges::find_if(derived, [&](const Derived& kind) { return is_named(kind, name); });
+    const bool whole_bytes = GDALGetRasterDataType(GDALGetRasterBand(dataset, 1)) == GDT_Byte;
+    const auto word = std::ranges::find_if(derived, [&](const Derived& kind) {
+        return (whole_bytes || !kind.whole_bytes) && is_named(kind, name);
+    });
     if (word == derived.end()) return "";
     const auto range = sampled_range(dataset);
-    if (!range || range->lowest < word->lowest || range->highest > word->highest) return "";
+    // Alaska's North Slope rises from the sea.
+    const bool is_landscape =
+        matches_name("*north?slope*|*south?slope*|*east?slope*|*west?slope*", lower_case(name));
+    if (!range || !fits(*word, *range, is_landscape)) return "";
     char text[160];
     std::snprintf(text, sizeof text, "%s, by its name and its values from %.4g to %.4g",
                   std::string(word->holds).c_str(), range->lowest, range->highest);
@@ -263,6 +288,21 @@ std::string made_of_heights(const Source& source, const Source& heights) {
     if (agree(samples, [](const Sample& at) { return at.around[4] - mean_of_neighbours(at); }))
         return "position beside its neighbours";
     return "";
+}
+
+bool contradicts_heights(const Source& source, const Source& heights) {
+    constexpr double contradiction_m = 16.0;
+    constexpr std::size_t least_samples = 24;
+    const std::vector<Sample> samples = samples_of(source, heights);
+    if (samples.size() < least_samples) return false;
+    std::vector<double> differences;
+    for (const Sample& at : samples) differences.push_back(at.value - at.around[4]);
+    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+    std::ranges::nth_element(differences, middle);
+    const double offset = source.vertical_crs == heights.vertical_crs ? 0.0 : *middle;
+    const auto apart = std::ranges::count_if(
+        differences, [&](double difference) { return std::abs(difference - offset) > contradiction_m; });
+    return 2 * apart > std::ssize(differences);
 }
 
 bool on_same_grid(const Source& one, const Source& other) {

@@ -14,6 +14,7 @@
 
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/name_pattern.h"
 #include "geo/sources/raster_library.h"
 
 namespace oro {
@@ -113,6 +114,71 @@ std::string beside(const std::string& vrt, const std::string& name) {
     return slash == std::string::npos ? name : vrt.substr(0, slash + 1) + name;
 }
 
+// Why a VRT of such tiles is no source; "" for none.
+std::string words_of_tiles(const std::set<std::string>& tiles) {
+    if (tiles.empty()) return "";
+    constexpr std::size_t most_named = 8;
+    std::string names;
+    std::size_t count = 0;
+    for (const std::string& tile : tiles) {
+        if (++count > most_named) break;
+        names += (names.empty() ? "" : ", ") + tile.substr(tile.rfind('/') + 1);
+    }
+    if (tiles.size() > most_named) names += " and " + std::to_string(tiles.size() - most_named) + " more";
+    return "is a VRT of .hgt files, which are read without it: name the tiles themselves (" + names + ")";
+}
+
+// "ncols" of an Esri ASCII grid's header, and its value.
+struct GridHeader {
+    std::uint64_t columns{}, rows{};
+    bool is_open{true};  // its end has not come yet
+    std::string key;     // whose value is next
+
+    // True when the word belongs to the header.
+    bool takes(const std::string& word) {
+        if (!is_open) return false;
+        if (key.empty()) {
+            is_open = matches_name("ncols|nrows|xll*|yll*|cellsize|dx|dy|nodata*", lower_case(word));
+            key = is_open ? lower_case(word) : "";
+            return is_open;
+        }
+        if (key == "ncols") columns = digits_at(word, 0, word.size()).value_or(0);
+        if (key == "nrows") rows = digits_at(word, 0, word.size()).value_or(0);
+        key.clear();
+        return true;
+    }
+};
+
+// GDAL reads as many numbers of an Esri ASCII grid as its header says, and looks at nothing behind them.
+std::string more_numbers_doubt(VSILFILE* file, const std::string& name, FileWatch* watch) {
+    constexpr std::size_t block = 1U << 20U;
+    GridHeader header;
+    std::uint64_t numbers = 0;
+    bool in_word = false;
+    std::string word;
+    for (std::uint64_t at = 0;; at += block) {
+        const std::string bytes = bytes_at(file, at, block);
+        const bool is_end = bytes.size() < block;
+        for (const char c : bytes + (is_end ? " " : "")) {
+            const bool is_space = c == ' ' || c == '\n' || c == '\r' || c == '\t';
+            if (header.is_open && !is_space) word += c;
+            if (in_word && is_space) {
+                if (!header.takes(word)) ++numbers;
+                word.clear();
+            }
+            in_word = !is_space;
+        }
+        if (is_end) break;
+        if (watch != nullptr && watch->spent()) return "";
+    }
+    const std::uint64_t expected = header.columns * header.rows;
+    if (expected == 0 || header.columns > 1U << 30U || header.rows > 1U << 30U || numbers <= expected)
+        return "";
+    return name + " holds " + std::to_string(numbers) + " numbers, and its header speaks of " +
+           std::to_string(header.rows) + " rows of " + std::to_string(header.columns) + ": the last " +
+           std::to_string(numbers - expected) + " are not read";
+}
+
 // What a file stands for: sources, those of its sources included, and VRTs one in another.
 struct Extent {
     std::uint64_t sources{1};
@@ -135,7 +201,9 @@ class Walk {
             // GDAL looks for a VRT's mark in the first 1,024 bytes.
             const std::string head = bytes_at(stream.get(), 0, 4096);
             const bool vrt = head.find("<VRTDataset") != std::string::npos;
-            if (vrt) {
+            if (depth > 0 && lower_case(file).ends_with(".hgt")) {
+                tiles_.insert(file);
+            } else if (vrt) {
                 ORO_TRY(extent, visit_vrt(stream.get(), file, depth));
             } else {
                 ORO_CHECK(look_at(stream.get(), file, head));
@@ -147,7 +215,9 @@ class Walk {
     }
 
     [[nodiscard]] std::uint64_t distinct() const { return extents_.size(); }
-    RasterParts take() { return {{files_.begin(), files_.end()}, std::move(doubts_)}; }
+    RasterParts take() {
+        return {{files_.begin(), files_.end()}, std::move(doubts_), words_of_tiles(tiles_)};
+    }
 
   private:
     Result<Extent> visit_vrt(VSILFILE* stream, const std::string& file, int depth) {
@@ -205,7 +275,8 @@ class Walk {
         const std::string start = lower_case(head.substr(0, 9));
         if (start.starts_with("ncols") || start.starts_with("nrows") || start.starts_with("xllc") ||
             start.starts_with("yllc") || start.starts_with("cellsize"))
-            doubt(cut_text_doubt(stream, file));
+            doubt(cut_text_doubt(stream, file)),
+                doubt(more_numbers_doubt(stream, file, FileWatch::innermost()));
         return {};
     }
 
@@ -244,6 +315,7 @@ class Walk {
 
     std::map<std::string, Extent> extents_;
     std::set<std::string> files_;
+    std::set<std::string> tiles_;  // .hgt files that VRTs name
     std::vector<std::string> doubts_;
 };
 

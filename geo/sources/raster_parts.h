@@ -25,6 +25,8 @@ struct RasterParts {
     std::vector<std::string> files;
     // What may be wrong and cannot be told, one line each without the raster's name.
     std::vector<std::string> doubts;
+    // Why a VRT is no source: it is made of .hgt files, which are read here without GDAL; else "".
+    std::string unfit;
 };
 
 // Looks at a raster by its name in GDAL's file system, and at all that a VRT names. Errors: a VRT beyond the

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <string_view>
 
+#include "geo/datum/proj_operations.h"
 #include "geo/datum/vertical_datum.h"
 #include "geo/files/foreign_text.h"
 #include "geo/files/guarded_files.h"
@@ -63,6 +65,31 @@ std::string attribution_of(GDALDatasetH dataset) {
     return text;
 }
 
+// Of text that starts with a mark of its encoding, which hides what it is from GDAL; "" for all else.
+std::string mark_words(const std::string& file) {
+    VSILFILE* const stream = VSIFOpenL(file.c_str(), "rb");
+    if (stream == nullptr) return "";
+    std::string head(3, '\0');
+    head.resize(VSIFReadL(head.data(), 1, head.size(), stream));
+    VSIFCloseL(stream);
+    const bool utf8 = head == "\xef\xbb\xbf";
+    if (!utf8 && !head.starts_with("\xff\xfe") && !head.starts_with("\xfe\xff")) return "";
+    return std::string("starts with a byte order mark (its text is ") + (utf8 ? "UTF-8" : "UTF-16") +
+           "), which hides its format: save it as plain text (ASCII), without a mark";
+}
+
+// That PROJ has no database where it is told to look, on which all else depends; "" if it has.
+std::string lacks_database() {
+    const ProjContext context = new_proj_context();
+    if (!context || proj_context_get_database_path(context.get()) != nullptr) return "";
+    const char* variable = "PROJ_DATA";
+    const char* folder = std::getenv(variable);
+    if (folder == nullptr) folder = std::getenv(variable = "PROJ_LIB");
+    if (folder == nullptr) return "PROJ finds no proj.db, its database, on this machine (package proj-data)";
+    return std::string("PROJ finds no proj.db, its database, in ") + foreign_text(folder) + ", which " +
+           variable + " names";
+}
+
 struct Opened {
     Dataset dataset;  // null when it is no raster that is read here
     Error unfit;      // then
@@ -81,6 +108,10 @@ bool should_open(const SourcePath& path) {
 Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages) {
     Opened opened;
     ORO_TRY(opened.parts, parts_of_raster(path.file));
+    if (!opened.parts.unfit.empty()) {
+        opened.unfit = {ErrorKind::failed, "", opened.parts.unfit};
+        return opened;
+    }
     opened.dataset.reset(GDALOpenEx(path.file.c_str(),
                                     GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                     trusted_drivers(), nullptr, nullptr));
@@ -88,9 +119,11 @@ Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages)
         if (should_open(path))
             return Error{ErrorKind::failed, "",
                          "is no raster that GDAL can open: " + messages.last("unknown format")};
-        opened.unfit = {ErrorKind::failed, "",
-                        "is no raster of a format that is trusted to tell when it is cut (" +
-                            trusted_formats() + "); gdal_translate makes a GeoTIFF of others"};
+        std::string why = mark_words(path.file);
+        if (why.empty())
+            why = "is no raster of a format that is trusted to tell when it is cut (" + trusted_formats() +
+                  "); gdal_translate makes a GeoTIFF of others";
+        opened.unfit = {ErrorKind::failed, "", std::move(why)};
         return opened;
     }
     const CPLStringList listed(GDALGetFileList(opened.dataset.get()));
@@ -159,8 +192,16 @@ bool is_of_bytes(const Source& source, GDALDatasetH dataset) {
     const GDALRasterBandH band = GDALGetRasterBand(dataset, source.band);
     if (GDALGetRasterDataType(band) != GDT_Byte || source.signed_bytes) return false;
     if (source.scale_m != 1.0 || source.offset_m != 0.0) return false;
-    return source.report.height_unit.from == UnitFrom::assumed &&
-           source.report.vertical_datum.from != DatumFrom::crs;
+    const DatumFrom datum = source.report.vertical_datum.from;
+    if (datum == DatumFrom::crs) return false;
+    // A datum that a product's name brings, or that was told, says nothing of what this file holds, and
+    // neither does the unit that comes with it.
+    const bool beside_the_file = datum == DatumFrom::product || datum == DatumFrom::told;
+    const bool unit_is_assumed =
+        source.report.height_unit.from == UnitFrom::assumed ||
+        (beside_the_file && source.report.height_unit.from == UnitFrom::file &&
+         text_of(GDALGetRasterUnitType(band)).empty() && !geotiff_heights(source.file).vertical_unit);
+    return unit_is_assumed;
 }
 
 }  // namespace
@@ -185,6 +226,8 @@ Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told) 
     auto source = described(path, *opened, told, doubts);
     if (!watch.fault().empty()) return named({ErrorKind::failed, "", watch.fault()});
     if (!source) {
+        if (const std::string lack = lacks_database(); !lack.empty())
+            return named({ErrorKind::failed, "", lack});
         finding.unfit = named(source.error());
         if (finding.unfit.kind == ErrorKind::usage) return finding.unfit;
         return finding;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -82,7 +84,27 @@ void each_of(const JsonValue& list, What&& what) {
         what(list);
 }
 
-void add_place(const JsonValue& value, TextPath& path) {
+// Positions of more than three numbers that are taken without the others.
+struct LongPositions {
+    std::size_t count{};
+    std::size_t first_at{};  // byte of the text
+};
+
+// Whether whole numbers are decimals that were written with commas: [10,1,45,8] for 10.1 and 45.8, of
+// degrees; [10,1,45,8,400] and [10,1,45,8,400,5] with a height.
+bool looks_like_decimal_commas(std::span<const std::string_view> words) {
+    if (words.size() < 4 || words.size() > 6) return false;
+    const auto is_whole = [](std::string_view word) {
+        return word.find_first_not_of("0123456789-") == std::string_view::npos;
+    };
+    const bool parts_have_signs = words[1].starts_with('-') || words[3].starts_with('-') ||
+                                  (words.size() == 6 && words[5].starts_with('-'));
+    if (parts_have_signs || !std::ranges::all_of(words, is_whole)) return false;
+    const double lon_deg = written_number(words[0]).value, lat_deg = written_number(words[2]).value;
+    return std::abs(lon_deg) <= 180.0 && std::abs(lat_deg) <= 90.0;
+}
+
+void add_place(const JsonValue& value, TextPath& path, LongPositions& longer) {
     if (!value.is(Kind::array)) {
         path.add_fault(no_place::no_numbers, value.source().substr(0, 60), value.at());
         return;
@@ -92,23 +114,29 @@ void add_place(const JsonValue& value, TextPath& path) {
             path.add_fault(no_place::no_numbers, value.source().substr(0, 60), value.at());
         return;
     }
-    std::array<std::string_view, 3> words;
+    constexpr std::size_t looked_at = 7;
+    std::array<std::string_view, looked_at> words;
     std::size_t count = 0;
     value.each([&](const JsonValue& number) {
         words[count++] = number.source();
         return count < words.size();
     });
+    if (looks_like_decimal_commas(std::span(words).first(count))) {
+        path.add_fault(no_place::too_many, value.source().substr(0, 60), value.at());
+        return;
+    }
+    if (count > 3 && longer.count++ == 0) longer.first_at = value.at();
     path.add(words[0], words[1], words[2], value.at());
 }
 
 // The places of a list; nothing where it is no list of lists.
-bool path_in(const JsonValue& list, TextPath& path) {
+bool path_in(const JsonValue& list, TextPath& path, LongPositions& longer) {
     if (!list.is(Kind::array)) return false;
     bool any = false;
     list.each([&](const JsonValue&) { return !(any = true); });
     if (any && !has_nested(list)) return false;
     list.each([&](const JsonValue& place) {
-        add_place(place, path);
+        add_place(place, path, longer);
         return path.size() <= most_vector_places;
     });
     return true;
@@ -136,6 +164,8 @@ class GeoJsonReader {
             left_out_.add("features that are none", {1, places_within(value), value.at(), ""});
         return true;
     }
+
+    [[nodiscard]] const LongPositions& longer() const { return longer_; }
 
   private:
     bool collection(const Members& members) {
@@ -242,18 +272,19 @@ class GeoJsonReader {
         if (type == "Point") {
             fits = !has_nested(list) || !list.is(Kind::array);
             TextPath path;
-            if (fits) add_place(list, path), layer_.splitter().add_point(path, to);
+            if (fits) add_place(list, path, longer_), layer_.splitter().add_point(path, to);
         } else if (type == "LineString") {
             TextPath path;
-            fits = path_in(list, path);
+            fits = path_in(list, path, longer_);
             if (fits && path.size() == 0)
                 left_out_.add("geometries without coordinates", {1, 0, list.at(), ""});
             if (fits) layer_.splitter().add_line(path, to);
         } else {
             std::vector<TextPath> rings;
             fits = list.is(Kind::array);
-            list.each(
-                [&](const JsonValue& ring) { return fits = fits && path_in(ring, rings.emplace_back()); });
+            list.each([&](const JsonValue& ring) {
+                return fits = fits && path_in(ring, rings.emplace_back(), longer_);
+            });
             if (fits && rings.empty()) left_out_.add("geometries without coordinates", {1, 0, list.at(), ""});
             if (fits) layer_.splitter().add_polygon(rings, to);
         }
@@ -266,7 +297,16 @@ class GeoJsonReader {
     FileWatch& watch_;
     LeftOut& left_out_;
     std::size_t count_{};
+    LongPositions longer_;
 };
+
+std::string words_of(const LongPositions& longer, std::string_view text) {
+    const bool is_one = longer.count == 1;
+    return std::to_string(longer.count) + (is_one ? " position has" : " positions have") +
+           " more than three numbers, " + (is_one ? "in line " : "the first in line ") +
+           std::to_string(1 + std::ranges::count(text.substr(0, longer.first_at), '\n')) +
+           ": the first two are the place, the third is the height, and the others are not used";
+}
 
 // Where the value begins: behind what makes a program of it.
 std::size_t value_begin(std::string_view text) {
@@ -306,6 +346,8 @@ Result<void> read_geojson(std::string_view text, const std::string& name, FileWa
     if (watch.spent()) return fault(watch.fault());
     if (!is_whole || layer.splitter().places() > most_vector_places)
         return fault("has more than " + std::to_string(most_vector_places) + " places, which is the limit");
+    if (const LongPositions& longer = reader.longer(); longer.count > 0)
+        file.notes.push_back(file.file + ": " + words_of(longer, text));
     layer.finish(file);
     return {};
 }

@@ -1,5 +1,7 @@
 #include "geo/vectors/gpx_reader.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -62,6 +64,17 @@ class GpxReader {
         return watch_.spent() ? Error{ErrorKind::failed, "", watch_.fault()} : Result<void>();
     }
 
+    // What looks wrong and is read all the same; "" for nothing.
+    [[nodiscard]] std::string doubt(std::string_view text) const {
+        if (null_islands_ == 0) return "";
+        const bool is_one = null_islands_ == 1;
+        return std::to_string(null_islands_) + (is_one ? " place of a line lies" : " places of lines lie") +
+               " at 0 N 0 E, far from " +
+               (is_one ? "its neighbours, in line " : "their neighbours, the first in line ") +
+               std::to_string(1 + std::ranges::count(text.substr(0, first_null_island_at_), '\n')) +
+               ": a receiver without a fix may have written that; the line goes there and back";
+    }
+
     void finish(VectorFile& file) { waypoints_.finish(file), routes_.finish(file), tracks_.finish(file); }
 
   private:
@@ -80,6 +93,18 @@ class GpxReader {
         path.add(node.attribute("lon").value(), node.attribute("lat").value(), height, XmlText::at(node));
     }
 
+    // A receiver without a fix writes 0 N 0 E between places that are thousands of kilometres away.
+    void look_for_null_island(const TextPath& path) {
+        constexpr double near_deg = 1e-4, far_deg = 5.0;
+        for (std::size_t i = 0; i < path.size(); ++i) {
+            const auto is_far = [&](std::size_t k) { return std::hypot(path.x[k], path.y[k]) > far_deg; };
+            if (!(std::hypot(path.x[i], path.y[i]) < near_deg)) continue;
+            const bool before = i > 0, behind = i + 1 < path.size();
+            if (!(before || behind) || (before && !is_far(i - 1)) || (behind && !is_far(i + 1))) continue;
+            if (null_islands_++ == 0) first_null_island_at_ = path.at[i];
+        }
+    }
+
     void waypoint(const pugi::xml_node& node) {
         TextPath path;
         add_place(node, path);
@@ -96,6 +121,7 @@ class GpxReader {
             if (local_name(child) == of) add_place(child, path);
         }
         taken_ += path.size();
+        look_for_null_island(path);
         if (path.size() > 0) layer.splitter().add_line(path, layer.target(HeightAbove::sea_level, left_out_));
     }
 
@@ -133,13 +159,17 @@ class GpxReader {
         routes_{"routes", ShapeSplitter::of_wgs84()}, tracks_{"tracks", ShapeSplitter::of_wgs84()};
     std::size_t taken_{};
     std::size_t count_{};
+    std::size_t null_islands_{}, first_null_island_at_{};
 };
 
 }  // namespace
 
-Result<void> read_gpx(const XmlText& xml, FileWatch& watch, VectorFile& file, LeftOut& left_out) {
+Result<void> read_gpx(const XmlText& xml, std::string_view text, FileWatch& watch, VectorFile& file,
+                      LeftOut& left_out) {
     GpxReader reader(watch, left_out);
     ORO_CHECK(reader.all(xml.root()));
+    if (const std::string doubt = reader.doubt(text); !doubt.empty())
+        file.notes.push_back(file.file + ": " + doubt);
     reader.finish(file);
     return {};
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "geo/files/foreign_text.h"
@@ -57,11 +58,34 @@ class LeftOut {
 
     static std::string words_of(const Reason& reason, std::string_view text) {
         const LeftOutPart& part = reason.part;
-        std::string words = std::to_string(part.count) + " " + reason.words;
+        std::string words =
+            std::to_string(part.count) + " " + (part.count == 1 ? of_one(reason.words) : reason.words);
         if (part.at > text.size()) return words;
         const auto line = 1 + std::ranges::count(text.substr(0, part.at), '\n');
         words += (part.count > 1 ? ", the first in line " : ", in line ") + std::to_string(line);
         return part.word.empty() ? words : words + ": '" + shown(part.word) + "'";
+    }
+    // "3 places of lines that are no numbers" is "1 place of a line that is no number" where there is one.
+    static std::string of_one(std::string words) {
+        const std::size_t first = words.find(' ');
+        const std::size_t length = std::min(first, words.size());
+        if (words.substr(0, length).ends_with("ies"))
+            words.replace(length - 3, 3, "y");
+        else if (length > 1 && words[length - 1] == 's')
+            words.erase(length - 1, 1);
+        for (const auto& [several, one] :
+             {std::pair{" that are no finite numbers", " that is no finite number"},
+              {" that are no numbers", " that is no number"},
+              {" that are none", " that is none"},
+              {" whose coordinates do not fit their type", " whose coordinates do not fit its type"},
+              {" that their coordinate", " that its coordinate"},
+              {", which are not followed", ", which is not followed"},
+              {" that stand where", " that stands where"},
+              {" to other files", " to another file"},
+              {"lace of lines", "lace of a line"}})
+            if (const std::size_t at = words.find(several); at != std::string::npos)
+                words.replace(at, std::string_view(several).size(), one);
+        return words;
     }
     static std::string shown(const std::string& word) {
         constexpr std::size_t longest = 40;

@@ -59,6 +59,15 @@ Result<Look> look_at(const std::string& file, std::vector<std::string>& notes) {
     ORO_CHECK(opened.read(0, first));
     const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
     if (text.starts_with(std::string_view("PK\3\4", 4))) look.form = Look::Form::packed;
+    for (const auto& [mark, packer] : {std::pair{std::string_view("\x1f\x8b", 2), "gzip"},
+                                       {std::string_view("BZh", 3), "bzip2"},
+                                       {std::string_view("\xfd"
+                                                         "7zXZ\0",
+                                                         6),
+                                        "xz"},
+                                       {std::string_view("\x28\xb5\x2f\xfd", 4), "zstd"},
+                                       {std::string_view("7z\xbc\xaf", 4), "7-Zip"}})
+        if (text.starts_with(mark)) return fault(std::string("is packed with ") + packer + ": unpack it");
     if (text == std::string_view("SQLite format 3\0", 16)) look.form = Look::Form::database;
     if (look.form == Look::Form::text && look.bytes > longest_vector_text)
         return fault("is longer than 1 GiB, which is the limit; a GeoPackage may be longer");
@@ -214,7 +223,7 @@ Result<void> read_text(VectorFile& file, std::string bytes, FileWatch& watch) {
         const std::string_view root = local_name(xml->root());
         static constexpr std::array kml_roots{"kml", "Document", "Folder", "Placemark"};
         if (root == "gpx") {
-            ORO_CHECK(read_gpx(*xml, watch, file, left_out));
+            ORO_CHECK(read_gpx(*xml, text, watch, file, left_out));
         } else if (std::ranges::find(kml_roots, root) != kml_roots.end()) {
             ORO_CHECK(read_kml(*xml, stem, watch, file, left_out));
         } else {

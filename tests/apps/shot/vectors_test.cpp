@@ -133,7 +133,7 @@ TEST_F(Vectors, NotesAndPathsAreKeptTo) {
     const Outcome drawn =
         shoot({land, "--names", path("odd.geojson"), "--no-paths", "--out", path("secret.png")});
     EXPECT_EQ(drawn.exit_code, 0);
-    EXPECT_NE(drawn.err.find("left out 1 points with a latitude beyond 90 degrees"), std::string::npos)
+    EXPECT_NE(drawn.err.find("left out 1 point with a latitude beyond 90 degrees"), std::string::npos)
         << drawn.err;
     const json view = json::parse(view_in(path("secret.png")));
     EXPECT_EQ(view["names"]["files"], json::array({"odd.geojson"}));

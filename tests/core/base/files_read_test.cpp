@@ -59,6 +59,26 @@ TEST_F(FilesRead, ThatAreRewrittenWithAsManyBytesAreTold) {
     }
 }
 
+// Found: a file that was rewritten and had its time set back was one that had not changed.
+TEST_F(FilesRead, ThatAreRewrittenAndHaveTheirTimeSetBackAreTold) {
+    const fs::file_time_type time = fs::last_write_time(file);
+    read();
+    write("five");
+    fs::last_write_time(file, time);
+    EXPECT_NE(change().find("it was written to meanwhile, and its time was set back"), std::string::npos)
+        << change();
+}
+
+// A backup may link a file or its rights be changed while it is read: its bytes are what they were.
+TEST_F(FilesRead, MayBeLinkedAndGetOtherRights) {
+    read();
+    fs::create_hard_link(file, folder / "hard");
+    fs::permissions(file, fs::perms::owner_read);
+    EXPECT_EQ(change(), "");
+    read();
+    EXPECT_EQ(change(), "");
+}
+
 TEST_F(FilesRead, ThatAreReplacedOrGoneAreTold) {
     read();
     std::ofstream(folder / "new") << "four";

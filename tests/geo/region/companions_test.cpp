@@ -102,6 +102,72 @@ TEST(Companions, DoNotFillVoids) {
     EXPECT_EQ(datum_words(region->sources[0].vertical_datum), "EGM96 height, of AW3D30 (by its name)");
 }
 
+// Found: errors and masks that a browser or file manager had copied were the ground.
+TEST(Companions, AreKnownByTheNamesOfTheirCopies) {
+    const fs::path folder = scratch_folder();
+    const std::string stem = "Copernicus_DSM_COG_10_N47_00_E011_00_";
+    write_raster(folder / (stem + "DEM.tif"), on_degrees_near(11.0, 48.0), hills_m);
+    const auto low = [](int r, int c) { return 0.5 + 0.05 * (r + c); };
+    write_raster(folder / (stem + "HEM (1).tif"), on_degrees_near(11.0, 48.0), low);
+    write_raster(folder / "survey.tif", on_degrees_near(12.0, 48.0), hills_m);
+    write_raster(folder / "survey_error - Copy (2).tif", on_degrees_near(12.0, 48.0), low);
+    const auto region = opened(request_for({folder.string()}));
+    ASSERT_TRUE(region);
+    EXPECT_EQ(region->sources.size(), 2U);
+    EXPECT_EQ(notes_with(region->notes, "HEM (1).tif (holds height error of Copernicus DEM)"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "survey_error - Copy (2).tif (lies beside survey.tif"), 1U);
+    // A name of heights says nothing of bytes.
+    const auto bytes = opened(
+        request_for({write_raster(scratch_folder() / (stem + "x.tif"), on_degrees_near(11.0, 48.0, GDT_Byte),
+                                  [](int r, int) { return r; })}));
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(notes_with(bytes->notes, "whole numbers of 0 to 255"), 1U);
+}
+
+// Found: days since 2000 of REMA 1 were heights beside its own.
+TEST(Companions, ThatContradictAFileCalledDemAreLeftOut) {
+    for (const auto& [heights, other] : {std::pair{"45_18_8m_dem.tif", "45_18_8m_day.tif"},
+                                         {"tile_dsm.tif", "tile_what.tif"},
+                                         {"dtm.tif", "a.tif"}}) {
+        const fs::path folder = scratch_folder();
+        write_raster(folder / heights, on_degrees_near(11.0, 48.0), hills_m);
+        write_raster(folder / other, on_degrees_near(11.0, 48.0, GDT_Int16),
+                     [](int r, int c) { return hills_m(r, c) > 1995.0 ? 6361.0 : 6321.0; });
+        std::vector<std::string> notes;
+        EXPECT_LT(range_of_folder(folder, notes).highest_m, 2250.0F) << heights;
+        EXPECT_EQ(notes_with(notes, std::string(other) + " ("), 1U) << other;
+    }
+}
+
+// Found by their names alone: slopes in per cent, ruggedness of coarse posts, shaded relief.
+TEST(Companions, OfWiderValuesAreRefusedByName) {
+    const fs::path folder = scratch_folder();
+    const auto wide = [](int r, int c) { return 0.1 * r * c; };
+    for (const char* name : {"slope.tif", "x_slope_pct.tif", "tri.tif", "roughness.tif", "slope (1).tif"})
+        EXPECT_NE(refusal_of({write_raster(folder / name, on_degrees_near(8.0, 47.0), wide)})
+                      .find("by its name and its values from 0 to 3"),
+                  std::string::npos)
+            << name;
+    const auto around_0 = [](int r, int c) { return 3.0 * (r - 30) + 0.1 * c; };
+    EXPECT_NE(refusal_of({write_raster(folder / "tpi.tif", on_degrees_near(8.0, 47.0), around_0)})
+                  .find("holds position beside its neighbours"),
+              std::string::npos);
+    const auto grey = [](int r, int c) { return 120 + r + c; };
+    for (const char* name : {"hs.tif", "N46E008_shade_z2.tif"}) {
+        EXPECT_NE(refusal_of({write_raster(folder / name, on_degrees_near(8.0, 47.0, GDT_Byte), grey)})
+                      .find("holds a hillshade"),
+                  std::string::npos)
+            << name;
+        EXPECT_EQ(refusal_of({write_raster(folder / name, on_degrees_near(8.0, 47.0), grey)}), "") << name;
+    }
+    // Heights of a mountain, of a valley floor, and of land at the sea that is called so.
+    EXPECT_EQ(refusal_of({write_raster(folder / "north_slope.tif", on_degrees_near(8.0, 47.0), wide)}), "");
+    EXPECT_EQ(refusal_of({write_raster(folder / "tri.tif", on_degrees_near(8.0, 47.0), hills_m)}), "");
+    EXPECT_EQ(refusal_of({write_raster(folder / "east_slope.tif", on_degrees_near(8.0, 47.0),
+                                       [](int r, int) { return 100.0 + r; })}),
+              "");
+}
+
 // The same, made by GDAL's own program, under names that say nothing and names that do.
 TEST(Companions, WhatGdaldemMakesIsLeftOut) {
     for (const bool metres : {true, false}) {

@@ -148,6 +148,40 @@ TEST(HeightUnit, AnUnknownOneNamesTheOption) {
     EXPECT_TRUE(opened(told));
 }
 
+// International foot 0.3048 m, US survey foot 1200/3937 m: NIST Special Publication 811, B.6.
+TEST(HeightUnit, PlainWordsAreUnderstood) {
+    for (const char* unit : {"meters", "m a.s.l.", "m a. s. l.", "metres above sea level",
+                             "Meters above mean sea level", "m (MSL)", "metre [m]", "[m]"})
+        EXPECT_EQ(metres_in(unit), 1.0) << unit;
+    for (const char* unit : {"feet (US)", "US-foot", "US survey feet", "U.S. Survey Foot", "ft (US)",
+                             "US survey foot (ftUS)", "Foot_US", "us-ft", "sFt"})
+        EXPECT_EQ(metres_in(unit), 1200.0 / 3937.0) << unit;
+    for (const char* unit : {"feet", "ft", "foot (international)", "ft above sea level"})
+        EXPECT_EQ(metres_in(unit), 0.3048) << unit;
+    EXPECT_EQ(metres_in("km"), 1000.0);
+    for (const char* unit : {"", "us", "sea level", "m/s", "m2", "metres below sea level", "1e-1 m", "us m",
+                             "m ft", "degree", "cubit"})
+        EXPECT_EQ(metres_in(unit), std::nullopt) << unit;
+}
+
+// Found: heights in furlongs were metres, without a word.
+TEST(HeightUnit, ZunitsThatAreNoUnitAreRefused) {
+    const fs::path folder = scratch_folder();
+    Raster raster = utm_grid("EPSG:32613");
+    const std::string file = write_raster(folder / "grid.tif", raster, slope_m);
+    std::ofstream(folder / "grid.prj") << "Projection UTM\nZunits  furlongs\nUnits METERS\n";
+    const auto refused = open_region(request_for({file}));
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(
+        refused.error().line().find("gives its heights in 'furlongs' (Zunits of its .prj file), which is "
+                                    "no known unit of height; --height-unit m, ft, us-ft"),
+        std::string::npos)
+        << refused.error().line();
+    RegionRequest told = request_for({file});
+    told.height_unit = "m";
+    EXPECT_TRUE(opened(told));
+}
+
 TEST(HeightUnit, ZunitsOfOldPrjFiles) {
     const fs::path folder = scratch_folder();
     struct Case {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <string_view>
+
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -34,14 +38,19 @@ TEST(PlaceDoubts, DegreesUnderACrsOfMetresAreRefused) {
                           {"EPSG:2056", 8.0, 46.9, 1.0 / 1200.0},
                           {"EPSG:32632", 8.0, 47.0, 1.0},
                           {"EPSG:32718", -71.0, -33.0, 1.0 / 3600.0},
+                          {"EPSG:2056+5728", 8.0, 46.9, 1.0 / 1200.0},
+                          {"EPSG:2056+5728", 46.0, 8.1, 1.0 / 1200.0},
+                          {"EPSG:32632+5773", 8.0, 47.0, 1.0},
                           {"EPSG:2226", -120.5, 38.0, 1.0 / 1200.0},
                           {"EPSG:3857", 46.0, 10.0, 0.01}}) {
         const auto region = open_region(
             request_for({write_raster(folder / "deg.tif", forty(c.crs, c.x, c.y, c.step), relief_m)}));
         ASSERT_FALSE(region.ok()) << c.crs;
         const std::string line = region.error().line();
-        for (const char* words :
-             {"deg.tif: its coordinates (x ", "look like degrees", c.crs, "gdal_edit.py -a_srs EPSG:4326"})
+        const std::string_view crs(c.crs);
+        for (const std::string_view words :
+             {std::string_view("deg.tif: its coordinates (x "), std::string_view("look like degrees"),
+              crs.substr(0, crs.find('+')), std::string_view("gdal_edit.py -a_srs EPSG:4326")})
             EXPECT_NE(line.find(words), std::string::npos) << line;
     }
 }
@@ -62,6 +71,33 @@ TEST(PlaceDoubts, NeighbouringZonesAndSiteGridsAreFine) {
         for (const std::string& note : region->notes)
             EXPECT_EQ(note.find("outside the area"), std::string::npos) << note;
     }
+}
+
+// Found: a compound CRS has no area of use without its vertical part, and Esri's .prj files none at all.
+TEST(PlaceDoubts, SystemsThatStateNoAreaAreLookedUp) {
+    const fs::path folder = scratch_folder();
+    const auto file =
+        write_raster(folder / "lv03.tif", forty("EPSG:2056+5728", 600000.0, 200000.0, 30.0), relief_m);
+    const auto region = opened(request_for({file}));
+    ASSERT_TRUE(region);
+    EXPECT_TRUE(std::ranges::any_of(region->notes, [](const std::string& note) {
+        return note.find("lv03.tif: its posts lie ") != std::string::npos &&
+               note.find("degrees outside the area") != std::string::npos;
+    }));
+    std::ofstream grid(folder / "deg.asc");
+    grid << "ncols 40\nnrows 40\nxllcorner 8\nyllcorner 46\ncellsize 0.5\n";
+    for (int i = 0; i < 1600; ++i) grid << 500 + i % 7 << (i % 40 == 39 ? "\n" : " ");
+    grid.close();
+    std::ofstream(folder / "deg.prj")
+        << R"(PROJCS["WGS_1984_UTM_Zone_32N",GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",)"
+        << R"(SPHEROID["WGS_1984",6378137.0,298.257223563]],PRIMEM["Greenwich",0.0],)"
+        << R"(UNIT["Degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],)"
+        << R"(PARAMETER["False_Easting",500000.0],PARAMETER["False_Northing",0.0],)"
+        << R"(PARAMETER["Central_Meridian",9.0],PARAMETER["Scale_Factor",0.9996],)"
+        << R"(PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])";
+    const auto refused = open_region(request_for({(folder / "deg.asc").string()}));
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().line().find("look like degrees"), std::string::npos) << refused.error().line();
 }
 
 // East and north the wrong way round: somewhere else on the Earth.

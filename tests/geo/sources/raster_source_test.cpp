@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "geo/region/source_words.h"
+#include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -265,6 +267,19 @@ TEST(Raster, UnknownCrsIsAnErrorThatNamesTheFile) {
         << region.error().line();
 }
 
+TEST(Raster, AFolderWithoutProjsDatabaseIsNamed) {
+    const fs::path folder = scratch_folder(), empty = scratch_folder();
+    Raster nowhere = hundredths(5, 5);
+    nowhere.crs = R"(LOCAL_CS["site",UNIT["metre",1]])";
+    const std::string file = write_raster(folder / "dem.tif", nowhere, slope);
+    const ProjFolder only(empty.string());
+    const auto region = open_region(request_for({file}));
+    ASSERT_FALSE(region.ok());
+    EXPECT_TRUE(region.error().line().ends_with("dem.tif: PROJ finds no proj.db, its database, in " +
+                                                empty.string() + ", which PROJ_DATA names"))
+        << region.error().line();
+}
+
 // As many posts as GDAL can count: told by their number, with no overflow on the way (asan watches).
 TEST(Raster, TheLargestRasterIsTooLarge) {
     const fs::path file = scratch_folder() / "huge.vrt";
@@ -362,6 +377,68 @@ TEST(Raster, PackedGeoTiffs) {
         const auto region = opened(request_for({(folder / name).string()}), &reason);
         ASSERT_TRUE(region) << name << ": " << reason;
         EXPECT_EQ(region->field.H_m, expected->field.H_m) << name;
+    }
+}
+
+// Found: a folder of tiles with the VRT that gdalbuildvrt had made of them could not be read.
+TEST(Raster, AVrtOfHgtTilesGivesWayToThem) {
+    const fs::path folder = scratch_folder();
+    write_hgt(folder / "N46E008.hgt", 1201, [](int r, int c) { return 500 + (r + c) / 8; });
+    const std::string vrt = (folder / "all.vrt").string();
+    std::ofstream(vrt) << R"(<VRTDataset rasterXSize="1201" rasterYSize="1201"><SRS>EPSG:4326</SRS>
+<GeoTransform>7.99958333, 8.33333e-4, 0, 47.00041667, 0, -8.33333e-4</GeoTransform>
+<VRTRasterBand dataType="Int16" band="1"><SimpleSource><SourceFilename relativeToVRT="1">N46E008.hgt</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)";
+    constexpr const char* why =
+        "all.vrt: is a VRT of .hgt files, which are read without it: name the tiles themselves (N46E008.hgt)";
+    std::string reason;
+    const auto region = opened(request_for({folder.string()}), &reason);
+    ASSERT_TRUE(region) << reason;
+    EXPECT_EQ(region->sources.size(), 1U);
+    EXPECT_EQ(
+        std::ranges::count_if(region->notes,
+                              [&](const std::string& note) { return note.find(why) != std::string::npos; }),
+        1);
+    const auto alone = open_region(request_for({vrt}));
+    ASSERT_FALSE(alone.ok());
+    EXPECT_TRUE(alone.error().line().ends_with(why)) << alone.error().line();
+}
+
+std::string grid_text(int rows) {
+    std::string text = "ncols 10\nnrows 10\nxllcorner 8\nyllcorner 46\ncellsize 0.01\nNODATA_value -9999\n";
+    for (int i = 0; i < 10 * rows; ++i) text += std::to_string(500 + i) + (i % 10 == 9 ? "\n" : " ");
+    return text;
+}
+
+TEST(Raster, AGridOfMoreNumbersThanItsHeaderSaysIsTold) {
+    RegionRequest request = request_for({});
+    request.source_crs = "EPSG:4326";
+    for (const int rows : {10, 15}) {
+        request.paths = {(scratch_folder() / "grid.asc").string()};
+        std::ofstream(request.paths[0]) << grid_text(rows);
+        std::string reason;
+        const auto region = opened(request, &reason);
+        ASSERT_TRUE(region) << reason;
+        EXPECT_EQ(std::ranges::count_if(region->notes,
+                                        [](const std::string& note) {
+                                            return note.find(
+                                                       "grid.asc holds 150 numbers, and its header speaks of "
+                                                       "10 rows of 10: the last 50 are not read") !=
+                                                   std::string::npos;
+                                        }),
+                  rows == 15 ? 1 : 0);
+    }
+}
+
+TEST(Raster, AGridWithAByteOrderMarkIsRefusedForIt) {
+    for (const auto& [mark, encoding] : {std::pair{"\xef\xbb\xbf", "UTF-8"}, {"\xff\xfe", "UTF-16"}}) {
+        const fs::path file = scratch_folder() / "grid.asc";
+        std::ofstream(file) << mark << grid_text(10);
+        const auto region = open_region(request_for({file.string()}));
+        ASSERT_FALSE(region.ok());
+        EXPECT_NE(region.error().line().find("grid.asc: starts with a byte order mark (its text is " +
+                                             std::string(encoding) + ")"),
+                  std::string::npos)
+            << region.error().line();
     }
 }
 

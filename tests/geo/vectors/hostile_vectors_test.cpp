@@ -65,12 +65,56 @@ TEST(HostileVectors, FilesThatAreNoneHaveOneLine) {
     EXPECT_TRUE(starts(error_of(written("a.vrt", "<OGRVRTDataSource></OGRVRTDataSource>")), none));
 }
 
+// Found: "unknown format" was said of a packed track.
+TEST(HostileVectors, PackedFilesSayWhatUnpacksThem) {
+    EXPECT_EQ(error_of(written("a.gpx", "\x1f\x8b\x08 packed")), "is packed with gzip: unpack it");
+    EXPECT_EQ(error_of(written("a.gpx.bz2", "BZh91AY packed")), "is packed with bzip2: unpack it");
+}
+
+// Found: [[10,1,45,8], ...] was a line from 1 N 10 E, without a word. RFC 7946, 3.1.1: three numbers at most.
+TEST(HostileVectors, PositionsOfMoreThanThreeNumbersAreTold) {
+    EXPECT_EQ(
+        note_of(
+            written("a.geojson", collection(feature("LineString", "[[10.1,45.8,5,1],\n[11.9,46.2,5,2]]"))),
+            1),
+        "2 positions have more than three numbers, the first in line 1: the first two are the place, the "
+        "third is the height, and the others are not used");
+    EXPECT_EQ(note_of(written("a.geojson", collection(feature("Point", "[8,46]") + ",\n" +
+                                                      feature("LineString", "[[10,1,45,8],[11,9,46,2]]"))),
+                      1),
+              "left out 2 places of lines of more than three numbers, the first in line 2: '[10,1,45,8]'");
+    // Whole metres of a projection with a measure are no degrees with commas.
+    EXPECT_EQ(note_of(written("a.geojson", collection(feature("Point", "[2600000,1200000,500,7]"),
+                                                      "urn:ogc:def:crs:EPSG::2056")),
+                      1),
+              "1 position has more than three numbers, in line 1: the first two are the place, the third is "
+              "the height, and the others are not used");
+}
+
+// Found: a fix at 0 N 0 E made a track longer by 10,000 km, without a word.
+TEST(HostileVectors, AFixThatIsNoneIsTold) {
+    const auto track = [](const std::string& between) {
+        return written("a.gpx", test::gpx("<trk><trkseg><trkpt lat=\"45.8\" lon=\"10.1\"/>\n<trkpt " +
+                                          between + "/><trkpt lat=\"46.2\" lon=\"11.9\"/></trkseg></trk>"));
+    };
+    EXPECT_EQ(
+        note_of(track("lat=\"0\" lon=\"0\""), 1),
+        "1 place of a line lies at 0 N 0 E, far from its neighbours, in line 2: a receiver without a fix "
+        "may have written that; the line goes there and back");
+    EXPECT_EQ(note_of(track("lat=\"46\" lon=\"11\""), 1), "");
+    // A ship that passes there.
+    EXPECT_EQ(note_of(written("b.gpx", test::gpx("<trk><trkseg><trkpt lat=\"0\" lon=\"-1\"/><trkpt lat=\"0\" "
+                                                 "lon=\"0\"/><trkpt lat=\"0\" lon=\"1\"/></trkseg></trk>")),
+                      1),
+              "");
+}
+
 TEST(HostileVectors, NothingWithAPlaceIsAnError) {
     EXPECT_EQ(error_of(written("a.geojson", collection(""))), "holds no points, lines or polygons");
     EXPECT_EQ(error_of(written("a.gpx", test::gpx(""))), "holds no points, lines or polygons");
     EXPECT_EQ(error_of(geopackage("a.gpkg", 4326, {})), "holds no points, lines or polygons");
     EXPECT_EQ(error_of(written("a.geojson", collection(feature("Point", "[8, 95]")))),
-              "holds no points, lines or polygons; left out: 1 points with a latitude beyond 90 degrees, in "
+              "holds no points, lines or polygons; left out: 1 point with a latitude beyond 90 degrees, in "
               "line 1");
 }
 
@@ -103,39 +147,39 @@ TEST(HostileVectors, ACutGeoPackageIsAnError) {
 TEST(HostileVectors, PlacesThatAreNoneAreLeftOutAndCounted) {
     const std::string good = feature("Point", "[8,46]") + ",";
     EXPECT_EQ(note_of(written("a.geojson", collection(good + feature("Point", "[8,95]"))), 1),
-              "left out 1 points with a latitude beyond 90 degrees, in line 1");
+              "left out 1 point with a latitude beyond 90 degrees, in line 1");
     EXPECT_EQ(note_of(written("a.geojson", collection(good + feature("Point", "[800,45]"))), 1),
-              "left out 1 points with a longitude beyond 360 degrees, in line 1");
+              "left out 1 point with a longitude beyond 360 degrees, in line 1");
     EXPECT_EQ(note_of(written("a.geojson",
                               collection(good + R"({"type":"Feature","properties":{},"geometry":null})")),
                       1),
-              "left out 1 features without a geometry, in line 1");
+              "left out 1 feature without a geometry, in line 1");
     // A line is broken there: nobody knows how it goes on.
     EXPECT_EQ(note_of(written("a.geojson",
                               collection(feature("LineString", "[[1,1],[2,2],[3,91],[4,4],[5,5],[6,6]]"))),
                       2),
-              "left out 1 places of lines with a latitude beyond 90 degrees, in line 1");
+              "left out 1 place of a line with a latitude beyond 90 degrees, in line 1");
     EXPECT_EQ(
         note_of(written("a.geojson", collection(good + feature("Polygon", "[[[1,1],[2,2],[3,91],[1,1]]]"))),
                 1),
-        "left out 1 polygons with places with a latitude beyond 90 degrees, in line 1");
+        "left out 1 polygon with places with a latitude beyond 90 degrees, in line 1");
     EXPECT_EQ(
         note_of(written("a.geojson", collection(good + feature("Polygon", "[[[1,1],[2,2],[1,1]]]"))), 1),
-        "left out 1 polygons of fewer than three places, in line 1");
+        "left out 1 polygon of fewer than three places, in line 1");
     EXPECT_EQ(
         note_of(written("a.gpx", test::gpx("<wpt lat=\"nan\" lon=\"8\"/><wpt lat=\"46\" lon=\"8\"/>")), 1),
-        "left out 1 points that are no finite numbers, in line 1: 'nan'");
+        "left out 1 point that is no finite number, in line 1: 'nan'");
     EXPECT_EQ(
         note_of(written("a.gpx", test::gpx("<wpt lat=\"46\" lon=\"inf\"/><wpt lat=\"46\" lon=\"8\"/>")), 1),
-        "left out 1 points that are no finite numbers, in line 1: 'inf'");
+        "left out 1 point that is no finite number, in line 1: 'inf'");
     // Of a projected CRS: beyond what it has places for, and no number at all.
     EXPECT_EQ(
         note_of(geopackage("a.gpkg", 32632, {{"POINT (500000 5000000)", "a"}, {"POINT (1e300 5)", "b"}}), 1),
-        "left out 1 points that their coordinate reference system has no place for");
+        "left out 1 point that its coordinate reference system has no place for");
     EXPECT_EQ(
         note_of(geopackage("a.gpkg", 32632, {{"LINESTRING (5e5 5e6, 51e4 5e6, 1e300 5, 6e5 5e6)", "a"}}), 1),
-        "left out 1 places of lines that their coordinate reference system has no place for\n"
-        "left out 1 lines of a single place");
+        "left out 1 place of a line that its coordinate reference system has no place for\n"
+        "left out 1 line of a single place");
 }
 
 TEST(HostileVectors, AnUnknownCrsIsNeverTakenForAnother) {

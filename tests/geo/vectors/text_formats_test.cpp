@@ -69,7 +69,7 @@ TEST(KmlFile, TracksModelsAndTheirCollectionsAreRead) {
     EXPECT_EQ(
         told(written("a.kml", kml_of("<gx:Track><gx:coord>8.01</gx:coord><gx:coord>8.03 46.98</gx:coord>" +
                                      two + "</gx:Track>"))),
-        "line 8.03 46.98, 8.01 46.96, 8.03 46.98 | left out 1 places of lines without a latitude or without "
+        "line 8.03 46.98, 8.01 46.96, 8.03 46.98 | left out 1 place of a line without a latitude or without "
         "a "
         "longitude, in line 1");
 }
@@ -104,10 +104,10 @@ TEST(KmlFile, WhatStandsWhereNothingBelongsIsCounted) {
               "point 8 46 | left out 3 places that stand where KML has none, the first in line 2");
     EXPECT_EQ(told(written("a.kml",
                            test::kml(point + "<NetworkLink><Link><href>b.kml</href></Link></NetworkLink>"))),
-              "point 8 46 | left out 1 links to other files, which are not followed, in line 1");
+              "point 8 46 | left out 1 link to another file, which is not followed, in line 1");
     EXPECT_EQ(
         told(written("a.kml", kml_of("<Point><coordinates>8,01 46,96</coordinates></Point>"))),
-        "error: holds no points, lines or polygons; left out: 1 points of more than one place, in line 1");
+        "error: holds no points, lines or polygons; left out: 1 point of more than one place, in line 1");
 }
 
 TEST(KmlFile, IsReadFromAKmz) {
@@ -142,18 +142,18 @@ TEST(GpxFile, CoordinatesThatAreNoNumbersAreLeftOutAndCounted) {
                                  "lat=\"46.99\" lon=\"8.04\"/></trkseg></trk>"));
     };
     const std::string rest =
-        "line 8 46.95, 8.01 46.96; line 8.03 46.98, 8.04 46.99 | left out 1 places of lines ";
+        "line 8 46.95, 8.01 46.96; line 8.03 46.98, 8.04 46.99 | left out 1 place of a line ";
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"46,97", "that are no numbers, in line 3: '46,97'"},
-        {"north", "that are no numbers, in line 3: 'north'"},
-        {"46.9.7", "that are no numbers, in line 3: '46.9.7'"},
-        {"46.97N", "that are no numbers, in line 3: '46.97N'"},
-        {"0x2e", "that are no numbers, in line 3: '0x2e'"},
+        {"46,97", "that is no number, in line 3: '46,97'"},
+        {"north", "that is no number, in line 3: 'north'"},
+        {"46.9.7", "that is no number, in line 3: '46.9.7'"},
+        {"46.97N", "that is no number, in line 3: '46.97N'"},
+        {"0x2e", "that is no number, in line 3: '0x2e'"},
         {"", "without a latitude or without a longitude, in line 3"},
         {" ", "without a latitude or without a longitude, in line 3: ' '"},
-        {"nan", "that are no finite numbers, in line 3: 'nan'"},
-        {"-INF", "that are no finite numbers, in line 3: '-INF'"},
-        {"1e400", "that are no finite numbers, in line 3: '1e400'"},
+        {"nan", "that is no finite number, in line 3: 'nan'"},
+        {"-INF", "that is no finite number, in line 3: '-INF'"},
+        {"1e400", "that is no finite number, in line 3: '1e400'"},
         {"95", "with a latitude beyond 90 degrees, in line 3"},
     };
     for (const auto& [lat, says] : cases) EXPECT_EQ(told(track(lat)), rest + says) << lat;
@@ -161,11 +161,11 @@ TEST(GpxFile, CoordinatesThatAreNoNumbersAreLeftOutAndCounted) {
     EXPECT_EQ(
         told(written("a.gpx",
                      test::gpx("<wpt lon=\"8\"/><wpt lat=\"46\" lon=\"8\"/><trkpt lat=\"1\" lon=\"2\"/>"))),
-        "point 8 46 | left out 1 points without a latitude or without a longitude, in line 1 | left out 1 "
-        "places "
-        "that stand where GPX has none");
+        "point 8 46 | left out 1 point without a latitude or without a longitude, in line 1 | left out 1 "
+        "place "
+        "that stands where GPX has none");
     EXPECT_EQ(told(written("a.gpx", test::gpx("<wpt lat=\"46\" lon=\"8\"><ele>1 200,5</ele></wpt>"))),
-              "point 8 46 | left out 1 heights that are no numbers, in line 1");
+              "point 8 46 | left out 1 height that is no number, in line 1");
 }
 
 TEST(GpxFile, FieldsAreThoseOfItsElementsAndExtensions) {
@@ -187,16 +187,16 @@ TEST(GpxFile, FieldsAreThoseOfItsElementsAndExtensions) {
 }
 
 TEST(GeoJsonFile, CoordinatesThatAreNoNumbersAreLeftOutAndCounted) {
-    const std::string rest = "line 1 1, 2 2; line 4 4, 5 5 | left out 1 places of lines ";
+    const std::string rest = "line 1 1, 2 2; line 4 4, 5 5 | left out 1 place of a line ";
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"[\"3,1\",3]", "that are no numbers, in line 2: '\"3,1\"'"},
-        {"[null,3]", "that are no numbers, in line 2: 'null'"},
-        {"null", "that are no numbers, in line 2: 'null'"},
+        {"[\"3,1\",3]", "that is no number, in line 2: '\"3,1\"'"},
+        {"[null,3]", "that is no number, in line 2: 'null'"},
+        {"null", "that is no number, in line 2: 'null'"},
         {"[3]", "without a latitude or without a longitude, in line 2"},
         {"[]", "without a latitude or without a longitude, in line 2"},
-        {"[NaN,3]", "that are no finite numbers, in line 2: 'NaN'"},
-        {"[3,1e400]", "that are no finite numbers, in line 2: '1e400'"},
-        {"[3,1.2.3]", "that are no numbers, in line 2: '1.2.3'"},
+        {"[NaN,3]", "that is no finite number, in line 2: 'NaN'"},
+        {"[3,1e400]", "that is no finite number, in line 2: '1e400'"},
+        {"[3,1.2.3]", "that is no number, in line 2: '1.2.3'"},
     };
     for (const auto& [place, says] : cases)
         EXPECT_EQ(told(written("a.geojson", collection(feature(
@@ -209,7 +209,7 @@ TEST(GeoJsonFile, CoordinatesThatAreNoNumbersAreLeftOutAndCounted) {
                      collection(good + "," + feature("LineString", "[8,46]") + ",\n" +
                                 feature("Circle", "[8,46]") + "," + feature("Polygon", "[[1,2],[3,4]]")))),
         "point 8 46 | left out 2 geometries whose coordinates do not fit their type, the first in line 1: "
-        "'LineString' | left out 1 geometries of a kind that is not known here, in line 2: 'Circle'");
+        "'LineString' | left out 1 geometry of a kind that is not known here, in line 2: 'Circle'");
     // What Python writes for a number that is none.
     EXPECT_EQ(
         told(written("a.geojson", collection(feature("Point", "[8,46]", "\"ele\":NaN,\"x\":-Infinity")))),

@@ -56,7 +56,9 @@ void check(const GrammarFile& made, const std::string& name, std::uint64_t numbe
     EXPECT_TRUE(read->places_left_out == 0 || !read->notes.empty());
     if (!made.is_legal) return;
     EXPECT_EQ(read->places_left_out, 0U);
-    EXPECT_TRUE(read->notes.empty()) << read->notes.front();
+    // Numbers after the third are legal, and not used: that alone is told.
+    for (const std::string& note : read->notes)
+        EXPECT_NE(note.find("more than three numbers"), std::string::npos) << note;
 }
 
 TEST(VectorGrammar, PlacesInAFileAreDrawnOrTold) {
