@@ -162,6 +162,8 @@ bool is_no_height(float suspect_m, const Steps& rim, const Cliffs& cliffs) {
 constexpr std::uint64_t least_posts = 9;      // that hold a value for it to be a code of any digits
 constexpr double code_spread_m = 8.0;         // by lossy packing values of one code lie so near each other
 constexpr double least_zero_cliff_m = 100.0;  // what is filled with 0 lies so far below all heights
+constexpr std::uint64_t most_zeros_a_height = 20;  // more of them are the sea around a rock
+constexpr std::uint64_t least_terrain_steps = 30;  // between heights that a code leaves
 
 // A pair of neighbours with a larger step lies in a rim, not in terrain: a slope of 63 degrees.
 double calm_step_m(const Source& source) {
@@ -292,7 +294,8 @@ class Survey {
         const Cut cut{next.first_m, next.first_m - code, code, is_blurred, stored == 0.0};
         if (sign_ > 0.0 && next.first_m < sea_floor_m && gap_m < least_sea_cliff_m) return std::nullopt;
         if (cut.is_zero)
-            return sign_ > 0.0 && is_plateau && code == 0.0 && cut.gap_m >= least_zero_cliff_m
+            return sign_ > 0.0 && is_plateau && code == 0.0 && cut.gap_m >= least_zero_cliff_m &&
+                           level.posts <= most_zeros_a_height * (posts_between(next.first_m, -base_m_) + 1)
                        ? std::optional(cut)
                        : std::nullopt;
         if (sign_ * stored > 0.0) return std::nullopt;
@@ -393,7 +396,7 @@ struct CutSteps {
     // True where the step down to the code is far larger than those of terrain.
     [[nodiscard]] bool holds() const {
         const double usual_m = steps.at_share(cut.is_blurred ? 0.99 : cut.is_zero ? 0.9999 : 0.999);
-        return cut.gap_m >= 2.0 * usual_m;
+        return steps.count() >= least_terrain_steps && cut.gap_m >= 2.0 * usual_m;
     }
 };
 

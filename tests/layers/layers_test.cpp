@@ -37,7 +37,7 @@ const std::map<std::string, Layer>& layers() {
            "(cpl|gdal|ogr|vrt)[a-z_]*\\.h", "proj\\.h", "GeographicLib/.*", "libexif/.*",
            "(png|jpeglib|tiffio|tiff|utf8|sqlite3|geos_c)\\.h", "pugixml\\.hpp", "nlohmann/.*"},
           {"orograph_core", "GDAL::GDAL", "PROJ::proj", "PkgConfig::(GEOGRAPHICLIB|EXIF)", "PNG::PNG",
-           "JPEG::JPEG", "TIFF::TIFF", "ZLIB::ZLIB", "pugixml::pugixml", "utf8cpp", "SQLite::SQLite3",
+           "JPEG::JPEG", "TIFF::TIFF", "ZLIB::ZLIB", "pugixml::pugixml", "utf8::cpp", "SQLite::SQLite3",
            "PkgConfig::GEOS", "nlohmann_json::nlohmann_json"}}},
         {"render",
          {{standard_library, "glm/.*", "core/.*", "render/.*", "shaders/.*\\.(glsl|h)", "spirv/.*\\.h",

@@ -130,15 +130,16 @@ TEST(RegionWords, FilesThatMakeNoRegionAreToldOneByOne) {
     fs::create_directory(folder);
     for (const char* const name : {"N00E000.hgt", "S80W170.hgt"})
         oro::test::write_bytes(folder / name, tile());
-    oro::test::write_bytes(
-        folder / "huge.vrt",
-        "<VRTDataset rasterXSize='400000' rasterYSize='400000'><SRS>EPSG:4326</SRS>"
-        "<GeoTransform>-10, 0.00001, 0, 50, 0, -0.00001</GeoTransform>"
-        "<VRTRasterBand dataType='Int16' band='1'><SimpleSource>"
-        "<SourceFilename relativeToVRT='1'>N00E000.hgt</SourceFilename><SourceBand>1</SourceBand>"
-        "<SrcRect xOff='0' yOff='0' xSize='1201' ySize='1201'/>"
-        "<DstRect xOff='0' yOff='0' xSize='400000' ySize='400000'/>"
-        "</SimpleSource></VRTRasterBand></VRTDataset>");
+    oro::test::write_bytes(folder / "huge.vrt",
+                           "<VRTDataset rasterXSize='400000' rasterYSize='400000'><SRS>EPSG:4326</SRS>"
+                           "<GeoTransform>-10, 0.00001, 0, 50, 0, -0.00001</GeoTransform>"
+                           "<VRTRasterBand dataType='Int16' band='1'><SimpleSource>"
+                           "<SourceFilename relativeToVRT='0'>" +
+                               oro::test::bundled() +
+                               "</SourceFilename><SourceBand>1</SourceBand>"
+                               "<SrcRect xOff='0' yOff='0' xSize='300' ySize='300'/>"
+                               "<DstRect xOff='0' yOff='0' xSize='400000' ySize='400000'/>"
+                               "</SimpleSource></VRTRasterBand></VRTDataset>");
     const Outcome told = run_orograph({"info", folder});
     EXPECT_EQ(told.exit_code, 1);
     for (const char* name : {"N00E000.hgt", "huge.vrt", "S80W170.hgt"})
