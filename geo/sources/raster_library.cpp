@@ -4,6 +4,7 @@
 #include <cpl_error.h>
 #include <gdal_frmts.h>
 #include <gdal_priv.h>
+#include <tiffio.h>
 
 #include <array>
 #include <cstdlib>
@@ -98,6 +99,10 @@ void set_options() {
     // A VRT may carry programs.
     CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
     OSRSetPROJEnableNetwork(0);
+    // GDAL from 3.10 on lets libtiff write some failures to standard error: what cannot be read is told by
+    // us.
+    TIFFSetErrorHandler(nullptr);
+    TIFFSetWarningHandler(nullptr);
 }
 
 }  // namespace
