@@ -87,33 +87,33 @@ int band_of_heights(GDALDatasetH dataset, int bands) {
 // band's metadata; a VRT says nothing, gives 0 to 255 in whatever type it has, and its sources tell.
 enum class SignedBytes { none, all, mixed };
 
-// GDAL from 3.7 on gives signed bytes a type, GDT_Int8, and warns of whoever asks for the mark.
+// GDAL from 3.7 on gives signed bytes a type, GDT_Int8, and warns of whoever asks for the mark: nothing is
+// looked for.
 #if GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 7, 0)
-bool is_marked_signed(GDALRasterBandH) {
-    return false;
+SignedBytes signed_bytes(GDALDatasetH, int, int&) {
+    return SignedBytes::none;
 }
 #else
 bool is_marked_signed(GDALRasterBandH raster) {
     const char* const type = GDALGetMetadataItem(raster, "PIXELTYPE", "IMAGE_STRUCTURE");
     return type != nullptr && std::string_view(type) == "SIGNEDBYTE";
 }
-#endif
 
-SignedBytes signed_bytes(GDALDatasetH dataset, int band, int depth) {
+// `files_left`: how many sources may still be opened, those of sources included.
+SignedBytes signed_bytes(GDALDatasetH dataset, int band, int& files_left) {
     const GDALRasterBandH raster = GDALGetRasterBand(dataset, band);
     if (raster == nullptr) return SignedBytes::none;
     if (is_marked_signed(raster)) return SignedBytes::all;
-    constexpr int deepest = 4;
-    constexpr std::size_t most_files = 16;  // of a mosaic: one program wrote them all
     std::vector<VrtPart> parts = parts_of_vrt_band(dataset, band);
     if (const auto warped = source_of_warped_vrt(dataset, band)) parts = {*warped};
-    if (depth >= deepest) return SignedBytes::none;
-    if (parts.size() > most_files) parts.resize(most_files);
     std::size_t all = 0, none = 0;
     for (const VrtPart& part : parts) {
+        if (files_left <= 0) break;
+        --files_left;
         const Dataset source(GDALOpenEx(part.file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
                                         trusted_drivers(), nullptr, nullptr));
-        const SignedBytes own = source ? signed_bytes(source.get(), part.band, depth + 1) : SignedBytes::none;
+        const SignedBytes own =
+            source ? signed_bytes(source.get(), part.band, files_left) : SignedBytes::none;
         if (own == SignedBytes::mixed || (own == SignedBytes::all && part.changes_values))
             return SignedBytes::mixed;
         ++(own == SignedBytes::all ? all : none);
@@ -121,6 +121,7 @@ SignedBytes signed_bytes(GDALDatasetH dataset, int band, int depth) {
     if (all > 0 && none > 0) return SignedBytes::mixed;
     return all > 0 ? SignedBytes::all : SignedBytes::none;
 }
+#endif
 
 }  // namespace
 
@@ -149,7 +150,8 @@ Result<ElevationBand> elevation_band(GDALDatasetH dataset) {
     }
     if (const std::string why = never_elevation(GDALGetRasterBand(dataset, chosen.band)); !why.empty())
         return no_elevation(why);
-    const SignedBytes bytes = signed_bytes(dataset, chosen.band, 0);
+    int files_left = 16;  // of a mosaic: one program wrote them all
+    const SignedBytes bytes = signed_bytes(dataset, chosen.band, files_left);
     if (bytes == SignedBytes::mixed)
         return no_elevation(
             "mixes or scales signed bytes (PIXELTYPE=SIGNEDBYTE) as if they were 0 to 255: "

@@ -1,6 +1,7 @@
 // GDAL as this program uses it: started once, without network, its messages kept for our errors.
 #pragma once
 
+#include <cpl_minixml.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
@@ -45,6 +46,12 @@ struct CloseDataset {
     void operator()(void* dataset) const { GDALClose(dataset); }
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
+
+struct FreeXml {
+    void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
+};
+// A tree of XML elements of GDAL's, which it owns.
+using Xml = std::unique_ptr<CPLXMLNode, FreeXml>;
 
 struct FreeSpatialReference {
     void operator()(OGRSpatialReferenceH reference) const { OSRDestroySpatialReference(reference); }

@@ -1,6 +1,5 @@
 #include "geo/sources/raster_parts.h"
 
-#include <cpl_minixml.h>
 #include <cpl_vsi.h>
 
 #include <algorithm>
@@ -24,11 +23,6 @@ struct CloseFile {
     void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 using File = std::unique_ptr<VSILFILE, CloseFile>;
-
-struct FreeXml {
-    void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
-};
-using Xml = std::unique_ptr<CPLXMLNode, FreeXml>;
 
 Error fault(const std::string& what) {
     return {ErrorKind::failed, "", what};
@@ -107,11 +101,6 @@ bool is_no_file_name(const std::string& name) {
     return name.find('<') != std::string::npos || lower.starts_with("vrt://") ||
            lower.starts_with("gtiff_dir:") || lower.starts_with("gtiff_raw:") ||
            lower.starts_with("jpeg2000:") || lower.starts_with("mem:") || lower.find("://") < 8;
-}
-
-std::string beside(const std::string& vrt, const std::string& name) {
-    const std::size_t slash = vrt.rfind('/');
-    return slash == std::string::npos ? name : vrt.substr(0, slash + 1) + name;
 }
 
 // Why a VRT of such tiles is no source; "" for none.
@@ -257,7 +246,7 @@ class Walk {
             if (is_no_file_name(name))
                 return fault(vrt + " names " + name + ", which is no file on this machine: it is not opened");
             const bool relative = std::string(CPLGetXMLValue(node, "relativeToVRT", "0")) != "0";
-            named.push_back(relative ? beside(vrt, name) : name);
+            named.push_back(relative ? file_beside(vrt, name) : name);
         }
         return {};
     }
@@ -329,6 +318,11 @@ Result<RasterParts> parts_of_raster(const std::string& file) {
                      std::to_string(walk.distinct()) + " files: each may be named " +
                      std::to_string(most_times_named) + " times, which is the limit");
     return walk.take();
+}
+
+std::string file_beside(const std::string& vrt, const std::string& name) {
+    const std::size_t slash = vrt.rfind('/');
+    return slash == std::string::npos ? name : vrt.substr(0, slash + 1) + name;
 }
 
 std::string local_file_of(const std::string& file) {

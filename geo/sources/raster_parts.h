@@ -38,4 +38,7 @@ Result<RasterParts> parts_of_raster(const std::string& file);
 // The file of this machine that holds a file of GDAL's file system: /vsizip/{a.zip}/b.tif is in a.zip.
 std::string local_file_of(const std::string& file);
 
+// What a VRT names as `name` relative to itself, in GDAL's file system.
+std::string file_beside(const std::string& vrt, const std::string& name);
+
 }  // namespace oro

@@ -52,12 +52,18 @@ struct StoredCount {
     std::uint64_t posts{};
 };
 
-// Stored values that stand for "no height here" although the file does not declare them: heights in metres,
-// as posts have them. Found once for a whole file, so that every window of it gives the same posts; unset
-// until then. Copies of a source share it.
+// Heights in metres, as posts have them, from the first to the last, that stand for "no height here" although
+// the file does not declare them.
+struct NoHeights {
+    float first_m{}, last_m{};
+    float code_m{};  // the height that the no-data value has which they are or come from
+};
+
+// Those of a whole file, found once, so that every window of it gives the same posts; unset until then. Copies
+// of a source share it.
 struct UndeclaredVoids {
     std::mutex mutex;
-    std::optional<std::vector<float>> height_m;
+    std::optional<std::vector<NoHeights>> ranges;
 };
 
 // What a user must know of the values that were read of a source; counts are posts.

@@ -430,35 +430,23 @@ Result<void> for_all_posts(const Source& source, const PostBlock& block, ReadPos
     return {};
 }
 
-// Heights from the first to the last are none. A file's are kept as one list of numbers, three for each.
-struct NoHeights {
-    float first_m{}, last_m{};
-    float code_m{};  // the height that the code has which they are or come from
-};
-
-void keep(const NoHeights& range, std::vector<float>& kept) {
-    kept.insert(kept.end(), {range.first_m, range.last_m, range.code_m});
+std::optional<NoHeights> range_of(const std::vector<NoHeights>& ranges, float height_m) {
+    const auto found = std::ranges::find_if(ranges, [&](const NoHeights& range) {
+        return height_m >= range.first_m && height_m <= range.last_m;
+    });
+    return found != ranges.end() ? std::optional(*found) : std::nullopt;
 }
 
-std::optional<NoHeights> range_of(const std::vector<float>& kept, float height_m) {
-    for (std::size_t i = 0; i + 2 < kept.size(); i += 3)
-        if (height_m >= kept[i] && height_m <= kept[i + 1])
-            return NoHeights{kept[i], kept[i + 1], kept[i + 2]};
-    return std::nullopt;
-}
-
-void keep_cut(const CutSteps& found, std::vector<float>& kept) {
+// All heights beyond a cut, on the side where its code lies.
+NoHeights beyond(const CutSteps& found) {
     constexpr float farthest_m = 1e30F;
-    const auto sign = static_cast<float>(found.sign);
     const float last_m = std::nextafter(static_cast<float>(found.cut.below_m), -farthest_m);
     const auto code_m = static_cast<float>(found.sign * found.cut.code_m);
-    if (sign > 0.0F)
-        keep({-farthest_m, last_m, code_m}, kept);
-    else
-        keep({-last_m, farthest_m, code_m}, kept);
+    return found.sign > 0.0 ? NoHeights{-farthest_m, last_m, code_m} : NoHeights{-last_m, farthest_m, code_m};
 }
 
-Result<std::vector<float>> no_heights_of_file(const Source& source, const PostBlock& block, ReadPosts read) {
+Result<std::vector<NoHeights>> no_heights_of_file(const Source& source, const PostBlock& block,
+                                                  ReadPosts read) {
     Surveys surveys;
     const double rim_m = calm_step_m(source);
     ORO_CHECK(for_all_posts(source, block, read,
@@ -467,19 +455,19 @@ Result<std::vector<float>> no_heights_of_file(const Source& source, const PostBl
     std::vector<CutSteps> cuts;
     for (const Cut& cut : surveys.low.cuts(source)) cuts.push_back({1.0, cut, {}});
     for (const Cut& cut : surveys.high.cuts(source)) cuts.push_back({-1.0, cut, {}});
-    if (suspects.empty() && cuts.empty()) return std::vector<float>();
+    if (suspects.empty() && cuts.empty()) return std::vector<NoHeights>();
     Cliffs cliffs;
     cliffs.of_suspect.resize(suspects.size());
     ORO_CHECK(for_all_posts(source, block, read, [&](const PostBlock& part) {
         add_cliffs(suspects, part, cliffs);
         add_cut_steps(part, cuts);
     }));
-    std::vector<float> no_heights;
+    std::vector<NoHeights> no_heights;
     for (std::size_t i = 0; i < suspects.size(); ++i)
         if (is_no_height(suspects[i], cliffs.of_suspect[i], cliffs))
-            keep({suspects[i], suspects[i], suspects[i]}, no_heights);
+            no_heights.push_back({suspects[i], suspects[i], suspects[i]});
     for (const CutSteps& cut : cuts)
-        if (cut.holds()) keep_cut(cut, no_heights);
+        if (cut.holds()) no_heights.push_back(beyond(cut));
     return no_heights;
 }
 
@@ -565,14 +553,14 @@ void count_implausible(PostBlock& block, double stored) {
 
 Result<void> take_out_undeclared(const Source& source, PostBlock& block, ReadPosts read) {
     if (!is_suspicious(source, block)) return {};
-    std::vector<float> no_heights;
+    std::vector<NoHeights> no_heights;
     {
         UndeclaredVoids& found = *source.undeclared;
         const std::scoped_lock lock(found.mutex);
-        if (!found.height_m) {
-            ORO_TRY(found.height_m, no_heights_of_file(source, block, read));
+        if (!found.ranges) {
+            ORO_TRY(found.ranges, no_heights_of_file(source, block, read));
         }
-        no_heights = *found.height_m;
+        no_heights = *found.ranges;
     }
     if (no_heights.empty()) return {};
     HeightEnds left;

@@ -1,12 +1,10 @@
 #include "geo/sources/unwritten_parts.h"
 
 #include <cpl_conv.h>
-#include <cpl_minixml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <string_view>
 
 #include "geo/files/letter_case.h"
@@ -15,20 +13,10 @@
 namespace oro {
 namespace {
 
-struct FreeTree {
-    void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
-};
-using Tree = std::unique_ptr<CPLXMLNode, FreeTree>;
-
 // The description of a VRT, as GDAL has it; empty for rasters of other formats.
-Tree tree_of(GDALDatasetH dataset) {
+Xml tree_of(GDALDatasetH dataset) {
     const char* const* const text = GDALGetMetadata(dataset, "xml:VRT");
-    return Tree(text != nullptr && *text != nullptr ? CPLParseXMLString(*text) : nullptr);
-}
-
-std::string folder_and_name(const std::string& vrt, const std::string& name) {
-    const std::size_t slash = vrt.rfind('/');
-    return slash == std::string::npos ? name : vrt.substr(0, slash + 1) + name;
+    return Xml(text != nullptr && *text != nullptr ? CPLParseXMLString(*text) : nullptr);
 }
 
 double number_of(const CPLXMLNode* node, const char* path, double otherwise) {
@@ -40,7 +28,7 @@ double number_of(const CPLXMLNode* node, const char* path, double otherwise) {
 std::string file_of(const CPLXMLNode* node, const std::string& path, GDALDatasetH dataset) {
     const std::string name = CPLGetXMLValue(node, path.c_str(), "");
     const bool relative = std::string(CPLGetXMLValue(node, (path + ".relativeToVRT").c_str(), "0")) != "0";
-    return relative ? folder_and_name(GDALGetDescription(dataset), name) : name;
+    return relative ? file_beside(GDALGetDescription(dataset), name) : name;
 }
 
 std::string_view driver_of(GDALDatasetH dataset) {
@@ -204,7 +192,7 @@ struct Flags {
 // The same warp with an alpha band, which is 0 where no pixel of the source comes to lie; nothing where the
 // warp has one already.
 Dataset warp_with_alpha(GDALDatasetH dataset) {
-    const Tree tree = tree_of(dataset);
+    const Xml tree = tree_of(dataset);
     CPLXMLNode* const root = tree ? CPLGetXMLNode(tree.get(), "=VRTDataset") : nullptr;
     CPLXMLNode* const options = root != nullptr ? CPLGetXMLNode(root, "GDALWarpOptions") : nullptr;
     if (options == nullptr || CPLGetXMLNode(options, "DstAlphaBand") != nullptr) return nullptr;
@@ -362,7 +350,7 @@ VrtPart part_of(const CPLXMLNode* node, GDALDatasetH dataset) {
 std::vector<VrtPart> parts_of_vrt_band(GDALDatasetH dataset, int band) {
     std::vector<VrtPart> parts;
     if (driver_of(dataset) != "VRT") return parts;
-    const Tree tree = tree_of(dataset);
+    const Xml tree = tree_of(dataset);
     const CPLXMLNode* const root = tree ? CPLGetXMLNode(tree.get(), "=VRTDataset") : nullptr;
     if (root == nullptr || *CPLGetXMLValue(root, "subClass", "") != '\0') return parts;
     int number = 0;
@@ -380,7 +368,7 @@ std::vector<VrtPart> parts_of_vrt_band(GDALDatasetH dataset, int band) {
 
 std::optional<VrtPart> source_of_warped_vrt(GDALDatasetH dataset, int band) {
     if (driver_of(dataset) != "VRT") return std::nullopt;
-    const Tree tree = tree_of(dataset);
+    const Xml tree = tree_of(dataset);
     const CPLXMLNode* const root = tree ? CPLGetXMLNode(tree.get(), "=VRTDataset") : nullptr;
     if (root == nullptr || lower_case(CPLGetXMLValue(root, "subClass", "")) != "vrtwarpeddataset")
         return std::nullopt;
