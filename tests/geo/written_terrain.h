@@ -4,6 +4,7 @@
 #include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
+#include <algorithm>
 
 #include <array>
 #include <cstdint>
@@ -106,6 +107,12 @@ inline std::string write_raster(const std::filesystem::path& file, const Raster&
 inline std::array<double, 6> posts_from(double west_deg, double north_deg, double per_deg) {
     const double step = 1.0 / per_deg;
     return {west_deg - 0.5 * step, step, 0.0, north_deg + 0.5 * step, 0.0, -step};
+}
+
+// How many of some notes hold some words.
+inline std::size_t notes_with(const std::vector<std::string>& notes, const std::string& words) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        notes, [&](const std::string& note) { return note.find(words) != std::string::npos; }));
 }
 
 inline RegionRequest request_for(std::vector<std::string> paths) {

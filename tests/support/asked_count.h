@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 
 namespace oro::test {
@@ -10,6 +11,13 @@ namespace oro::test {
 inline int asked_count(const char* variable, int otherwise) {
     const char* const told = std::getenv(variable);
     return told != nullptr ? std::max(1, std::atoi(told)) : otherwise;
+}
+
+// The whole number in a variable of the environment, or `otherwise` where there is none: seeds, and large
+// counts.
+inline std::uint64_t asked_number(const char* variable, std::uint64_t otherwise) {
+    const char* const told = std::getenv(variable);
+    return told != nullptr && *told != '\0' ? std::strtoull(told, nullptr, 10) : otherwise;
 }
 
 }  // namespace oro::test

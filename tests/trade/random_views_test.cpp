@@ -13,6 +13,7 @@
 #include "core/base/parallel.h"
 #include "core/measure/picture_errors.h"
 #include "render/frame/depth_picture.h"
+#include "tests/support/asked_count.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/test_data.h"
 #include "tests/trade/random_view.h"
@@ -23,10 +24,6 @@ namespace {
 using test::Random;
 using test::RandomView;
 
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* const wanted = std::getenv(name);
-    return wanted && *wanted ? std::strtoull(wanted, nullptr, 10) : otherwise;
-}
 constexpr std::uint64_t usual_views = 50, usual_seed = 20261122, views_of_a_region = 7;
 
 // The four measures of a picture, px, as PictureErrors::largest_px() has them.
@@ -302,9 +299,10 @@ class RandomViews : public test::GpuTest {
 TEST_F(RandomViews, BoundsAndTolerancesHold) {
     const auto data = test::real_data("");
     if (!data) GTEST_SKIP() << "needs the real data";
-    const std::uint64_t seed = from_environment("OROGRAPH_RANDOM_SEED", usual_seed);
-    const std::uint64_t views = from_environment("OROGRAPH_RANDOM_VIEWS", usual_views);
-    const std::uint64_t only = from_environment("OROGRAPH_RANDOM_ONLY", views);  // one view, to look into it
+    const std::uint64_t seed = test::asked_number("OROGRAPH_RANDOM_SEED", usual_seed);
+    const std::uint64_t views = test::asked_number("OROGRAPH_RANDOM_VIEWS", usual_views);
+    const std::uint64_t only =
+        test::asked_number("OROGRAPH_RANDOM_ONLY", views);  // one view, to look into it
     test::RandomRegions regions(*data, seed, views > 2 * usual_views);
     std::printf("%llu views, seed %llu; px\n", static_cast<unsigned long long>(views),
                 static_cast<unsigned long long>(seed));

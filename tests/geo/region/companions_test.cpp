@@ -49,11 +49,6 @@ HeightRange range_of_folder(const fs::path& folder, std::vector<std::string>& no
     return height_range(region->field);
 }
 
-std::size_t notes_with(const std::vector<std::string>& notes, const std::string& words) {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        notes, [&](const std::string& note) { return note.find(words) != std::string::npos; }));
-}
-
 std::string refusal_of(const std::vector<std::string>& paths) {
     const auto region = open_region(request_for(paths));
     return region.ok() ? "" : region.error().line();

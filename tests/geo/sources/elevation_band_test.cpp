@@ -15,18 +15,23 @@ namespace fs = std::filesystem;
 
 using ValueOfBand = std::function<double(int band, int row, int column)>;
 
-// 40 x 40 cells of several bands.
-std::string write_bands(const fs::path& file, int bands, GDALDataType type, const ValueOfBand& value,
-                        const std::vector<std::string>& names = {}) {
-    start_gdal();
-    const GDALDatasetH dataset =
-        GDALCreate(GDALGetDriverByName("GTiff"), file.c_str(), 40, 40, bands, type, nullptr);
+// Cells of 100 m in UTM zone 32.
+void place_on_utm(GDALDatasetH dataset) {
     std::array<double, 6> corners{500000.0, 100.0, 0.0, 5000000.0, 0.0, -100.0};
     GDALSetGeoTransform(dataset, corners.data());
     const OGRSpatialReferenceH crs = OSRNewSpatialReference(nullptr);
     OSRSetFromUserInput(crs, "EPSG:32632");
     GDALSetSpatialRef(dataset, crs);
     OSRDestroySpatialReference(crs);
+}
+
+// 40 x 40 cells of several bands.
+std::string write_bands(const fs::path& file, int bands, GDALDataType type, const ValueOfBand& value,
+                        const std::vector<std::string>& names = {}) {
+    start_gdal();
+    const GDALDatasetH dataset =
+        GDALCreate(GDALGetDriverByName("GTiff"), file.c_str(), 40, 40, bands, type, nullptr);
+    place_on_utm(dataset);
     for (int b = 1; b <= bands; ++b) {
         const GDALRasterBandH band = GDALGetRasterBand(dataset, b);
         if (!names.empty()) GDALSetDescription(band, names[static_cast<std::size_t>(b - 1)].c_str());
@@ -105,12 +110,7 @@ TEST(ElevationBand, SignedBytesAreNegative) {
     options.AddString("PIXELTYPE=SIGNEDBYTE");
     const GDALDatasetH dataset =
         GDALCreate(GDALGetDriverByName("GTiff"), file.c_str(), 40, 40, 1, GDT_Byte, options.List());
-    std::array<double, 6> corners{500000.0, 100.0, 0.0, 5000000.0, 0.0, -100.0};
-    GDALSetGeoTransform(dataset, corners.data());
-    const OGRSpatialReferenceH crs = OSRNewSpatialReference(nullptr);
-    OSRSetFromUserInput(crs, "EPSG:32632");
-    GDALSetSpatialRef(dataset, crs);
-    OSRDestroySpatialReference(crs);
+    place_on_utm(dataset);
     std::vector<unsigned char> values(40 * 40, 251);
     std::fill(values.begin() + 20 * 40, values.end(), static_cast<unsigned char>(100));
     EXPECT_EQ(GDALRasterIO(GDALGetRasterBand(dataset, 1), GF_Write, 0, 0, 40, 40, values.data(), 40, 40,

@@ -34,13 +34,6 @@ bool is_in_hole(int row, int column) {
     return row >= 10 && row < 16 && column >= 12 && column < 18;
 }
 
-// Notes that hold some words.
-std::size_t notes_with(const Region& region, const std::string& words) {
-    std::size_t found = 0;
-    for (const std::string& note : region.notes) found += note.find(words) != std::string::npos;
-    return found;
-}
-
 TEST(UndeclaredVoids, EverySpellingIsVoidAndTold) {
     const fs::path folder = scratch_folder();
     struct Spelling {
@@ -77,8 +70,8 @@ TEST(UndeclaredVoids, EverySpellingIsVoidAndTold) {
         EXPECT_EQ(region->voids, 36U) << one.told;
         EXPECT_GE(height_range(region->field).lowest_m, 200.0F) << one.told;
         EXPECT_LE(height_range(region->field).highest_m, 700.0F) << one.told;
-        EXPECT_EQ(notes_with(*region, std::string(": 36 posts hold ") + one.told +
-                                          ", which no tag declares as no data; they are taken as void"),
+        EXPECT_EQ(notes_with(region->notes, std::string(": 36 posts hold ") + one.told +
+                                                ", which no tag declares as no data; they are taken as void"),
                   1U)
             << one.told << ": " << (region->notes.empty() ? "no note" : region->notes[0]);
     }
@@ -98,7 +91,7 @@ TEST(UndeclaredVoids, InFeetAndByScale) {
             })}));
         ASSERT_TRUE(region);
         EXPECT_EQ(region->voids, 36U) << by_scale;
-        EXPECT_EQ(notes_with(*region, "36 posts hold -9999,"), 1U) << by_scale;
+        EXPECT_EQ(notes_with(region->notes, "36 posts hold -9999,"), 1U) << by_scale;
     }
 }
 
@@ -109,7 +102,7 @@ TEST(UndeclaredVoids, OfHgtTilesAndTextGridsWithoutTheirLine) {
     })}));
     ASSERT_TRUE(tile);
     EXPECT_EQ(tile->voids, 36U);
-    EXPECT_EQ(notes_with(*tile, "N46E008.hgt: 36 posts hold -9999, which no tag declares"), 1U);
+    EXPECT_EQ(notes_with(tile->notes, "N46E008.hgt: 36 posts hold -9999, which no tag declares"), 1U);
 
     std::ofstream text(folder / "grid.asc");
     text << "ncols 30\nnrows 30\nxllcorner 500000\nyllcorner 5000000\ncellsize 100\n";
@@ -124,7 +117,7 @@ TEST(UndeclaredVoids, OfHgtTilesAndTextGridsWithoutTheirLine) {
     const auto grid = opened(request, &reason);
     ASSERT_TRUE(grid) << reason;
     EXPECT_EQ(grid->voids, 36U);
-    EXPECT_EQ(notes_with(*grid, "grid.asc: 36 posts hold -9999, which no tag declares"), 1U);
+    EXPECT_EQ(notes_with(grid->notes, "grid.asc: 36 posts hold -9999, which no tag declares"), 1U);
 }
 
 // What a window of a file is does not depend on how much of it holds heights: here none does.
@@ -153,8 +146,8 @@ TEST(UndeclaredVoids, TheSameOfSeveralFilesIsOneNote) {
     }
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(notes_with(*region, "tile0.tif and 2 more files: 108 posts hold -9999,"), 1U);
-    EXPECT_EQ(notes_with(*region, "-9999"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "tile0.tif and 2 more files: 108 posts hold -9999,"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "-9999"), 1U);
 }
 
 // A source of a whole file that is this block.
@@ -273,8 +266,8 @@ TEST(UndeclaredVoids, SlopesThatNoTerrainHasAreTold) {
                                    [](int r, int c) { return 1000.0 * (r % 2 + 2 * (c % 3)); });
     const auto region = opened(request_for({file}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(notes_with(*region, "steeper than 80 degrees"), 1U);
-    EXPECT_EQ(notes_with(*region, "--height-unit"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "steeper than 80 degrees"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "--height-unit"), 1U);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 // another seed (scripts/vector-grammar).
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -11,16 +10,13 @@
 #include "geo/vectors/vector_file.h"
 #include "tests/geo/vectors/vector_grammar.h"
 #include "tests/geo/vectors/written_vectors.h"
+#include "tests/support/asked_count.h"
 
 namespace oro {
 namespace {
+using test::asked_number;
 using test::GrammarFile;
 using test::written;
-
-std::uint64_t asked(const char* name, std::uint64_t otherwise) {
-    const char* const text = std::getenv(name);
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 std::size_t drawn_places(const VectorFile& file) {
     std::size_t all = 0;
@@ -62,8 +58,8 @@ void check(const GrammarFile& made, const std::string& name, std::uint64_t numbe
 }
 
 TEST(VectorGrammar, PlacesInAFileAreDrawnOrTold) {
-    const std::uint64_t files = asked("OROGRAPH_GRAMMAR_FILES", 600),
-                        seed = asked("OROGRAPH_GRAMMAR_SEED", 47);
+    const std::uint64_t files = asked_number("OROGRAPH_GRAMMAR_FILES", 600),
+                        seed = asked_number("OROGRAPH_GRAMMAR_SEED", 47);
     std::cout << files << " files, seed " << seed << "\n";
     std::size_t places = 0, legal = 0;
     for (std::uint64_t i = 0; i < files; ++i) {
