@@ -13,7 +13,7 @@
 #include "apps/view/fingerprints.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
-#include "core/terrain/height_quantization.h"
+#include "core/frame/height_quantization.h"
 #include "core/terrain/page.h"
 #include "geo/drape/image_source.h"
 #include "geo/rasters/map_frame.h"

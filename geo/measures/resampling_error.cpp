@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/cells/cell_diagonal.h"
+#include "core/terrain/cell_diagonal.h"
 #include "core/terrain/triangle_heights.h"
 
 namespace oro {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/cells/cell_diagonal.h"
+#include "core/terrain/cell_diagonal.h"
 #include "core/terrain/post_grid.h"
 #include "geo/measures/post_places.h"
 #include "geo/posts/source_sampling.h"

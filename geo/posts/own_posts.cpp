@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/net/page_on_net.h"
+#include "core/terrain/page_on_net.h"
 #include "geo/datum/horizontal_datum.h"
 #include "geo/measures/stored_values.h"
 #include "geo/posts/laying.h"

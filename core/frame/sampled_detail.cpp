@@ -1,4 +1,4 @@
-#include "core/lod/sampled_detail.h"
+#include "core/frame/sampled_detail.h"
 
 #include <algorithm>
 #include <cmath>

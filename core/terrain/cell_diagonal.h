@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/cells/floor_within.h"
+#include "core/terrain/floor_within.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {

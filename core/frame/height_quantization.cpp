@@ -1,4 +1,4 @@
-#include "core/terrain/height_quantization.h"
+#include "core/frame/height_quantization.h"
 
 #include <limits>
 

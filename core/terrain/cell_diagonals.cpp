@@ -1,4 +1,4 @@
-#include "core/cells/cell_diagonals.h"
+#include "core/terrain/cell_diagonals.h"
 
 #include <algorithm>
 #include <cassert>

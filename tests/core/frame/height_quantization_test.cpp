@@ -1,5 +1,5 @@
 // Heights in 16 bits: the finest steps that hold a range, and nothing lost but half a step.
-#include "core/terrain/height_quantization.h"
+#include "core/frame/height_quantization.h"
 
 #include <gtest/gtest.h>
 

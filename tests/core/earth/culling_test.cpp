@@ -1,6 +1,6 @@
 // Horizon and frustum culling against brute force, by the path of a frame: plan_frame's floats, the meshlets'
 // bounds of build_page, the tests of shaders/choose/select.glsl.
-#include "core/frame/culling.h"
+#include "core/earth/culling.h"
 
 #include <gtest/gtest.h>
 

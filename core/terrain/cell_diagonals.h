@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/cells/cell_diagonal.h"
+#include "core/terrain/cell_diagonal.h"
 #include "core/terrain/level_grid.h"
 
 namespace oro {

@@ -1,4 +1,4 @@
-#include "core/frame/culling.h"
+#include "core/earth/culling.h"
 
 #include <algorithm>
 #include <cmath>

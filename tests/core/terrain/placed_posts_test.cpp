@@ -1,5 +1,5 @@
 // Several posts at once, against one after another: the same bits.
-#include "core/placed/placed_posts.h"
+#include "core/terrain/placed_posts.h"
 
 #include <gtest/gtest.h>
 

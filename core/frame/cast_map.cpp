@@ -1,4 +1,4 @@
-#include "core/cast/cast_map.h"
+#include "core/frame/cast_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/placed/placed_posts.h"
+#include "core/terrain/placed_posts.h"
 
 #include <algorithm>
 #include <cmath>

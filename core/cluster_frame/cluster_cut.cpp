@@ -1,4 +1,4 @@
-#include "core/clusters/cluster_cut.h"
+#include "core/cluster_frame/cluster_cut.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Culling under models of the world: nothing that light from a visible place brings to the eye is lost.
-#include "core/earth/model_view.h"
+#include "core/frame/model_view.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Nodes chosen from pages that are read one by one: those that a whole pyramid gives.
-#include "core/lod/asked_pages.h"
+#include "core/frame/asked_pages.h"
 
 #include <gtest/gtest.h>
 

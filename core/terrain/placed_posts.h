@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/frame/culling.h"
+#include "core/earth/culling.h"
 #include "shaders/shared.h"
 
 namespace oro {

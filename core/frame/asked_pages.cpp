@@ -1,4 +1,4 @@
-#include "core/lod/asked_pages.h"
+#include "core/frame/asked_pages.h"
 
 #include <algorithm>
 #include <iterator>

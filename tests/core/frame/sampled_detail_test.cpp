@@ -1,5 +1,5 @@
 // The level at a place against the nodes that a frame is drawn with.
-#include "core/lod/sampled_detail.h"
+#include "core/frame/sampled_detail.h"
 
 #include <gtest/gtest.h>
 

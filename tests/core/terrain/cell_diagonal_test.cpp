@@ -1,5 +1,5 @@
 // The rule that splits cells: on paper, in whole regions and in their pages against its definition.
-#include "core/cells/cell_diagonal.h"
+#include "core/terrain/cell_diagonal.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <memory>
 #include <random>
 
-#include "core/cells/cell_diagonals.h"
 #include "core/surface/grid_surface.h"
+#include "core/terrain/cell_diagonals.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/ground.h"
 #include "core/terrain/page.h"

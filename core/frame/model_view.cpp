@@ -1,4 +1,4 @@
-#include "core/earth/model_view.h"
+#include "core/frame/model_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/cast/cast_receiver.h"
 #include "core/earth/ellipsoid.h"
+#include "core/frame/cast_receiver.h"
 #include "core/frame/region_pages.h"
 
 namespace oro {

@@ -7,10 +7,10 @@
 #include <glm/vec3.hpp>
 
 #include "core/earth/camera.h"
+#include "core/earth/culling.h"
 #include "core/earth/world_model.h"
-#include "core/frame/culling.h"
+#include "core/frame/height_quantization.h"
 #include "core/lod/pyramid.h"
-#include "core/terrain/height_quantization.h"
 
 namespace oro {
 

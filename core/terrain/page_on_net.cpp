@@ -1,4 +1,4 @@
-#include "core/net/page_on_net.h"
+#include "core/terrain/page_on_net.h"
 
 #include <algorithm>
 #include <cmath>
