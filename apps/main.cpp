@@ -19,8 +19,8 @@
 #include "apps/commands/commands.h"
 #include "apps/output/interruption.h"
 #include "core/base/files_read.h"
+#include "geo/files/library_faults.h"
 #include "geo/files/whole_file.h"
-#include "geo/sources/library_faults.h"
 
 namespace {
 

@@ -11,6 +11,7 @@
 #include "apps/light/sun.h"
 #include "apps/vectors/view_vectors.h"
 #include "apps/view/fingerprints.h"
+#include "core/base/progress.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
 #include "core/frame/height_quantization.h"

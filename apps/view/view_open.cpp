@@ -8,6 +8,7 @@
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "core/base/file_there.h"
+#include "geo/opening/open_region.h"
 
 namespace oro {
 

@@ -5,7 +5,7 @@
 
 #include "core/truth/oracle.h"
 #include "geo/places/geodesic.h"
-#include "geo/region/source_at.h"
+#include "geo/posts/source_at.h"
 
 namespace oro {
 

@@ -12,6 +12,7 @@
 #include "apps/drawing/region_scene.h"
 #include "core/base/parallel.h"
 #include "core/measure/picture_errors.h"
+#include "geo/opening/open_region.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/test_data.h"

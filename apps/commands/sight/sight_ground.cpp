@@ -9,6 +9,7 @@
 #include "apps/view/view.h"
 #include "apps/view/view_limits.h"
 #include "core/sight/lookout.h"
+#include "geo/opening/open_region.h"
 
 namespace oro {
 

@@ -9,6 +9,7 @@
 
 #include "apps/commands/options.h"
 #include "apps/eye/standpoint.h"
+#include "core/base/progress.h"
 #include "core/truth/true_ground.h"
 #include "geo/together/region_ground.h"
 

@@ -1,6 +1,7 @@
 // The names of a panorama over real summits: where GeographicLib has them, and those alone that a walk along
 // the sight line sees.
 #include "apps/panorama/panorama_names.h"
+#include "geo/opening/open_region.h"
 
 #include <gtest/gtest.h>
 

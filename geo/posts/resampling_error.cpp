@@ -1,4 +1,4 @@
-#include "geo/measures/resampling_error.h"
+#include "geo/posts/resampling_error.h"
 
 #include <algorithm>
 #include <array>

@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
-#include "geo/region/region.h"
 #include "geo/sources/hgt_source.h"
 #include "geo/sources/raster_source.h"
+#include "geo/sources/region_request.h"
 #include "geo/sources/source.h"
 
 namespace oro {

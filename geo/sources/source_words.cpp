@@ -1,4 +1,4 @@
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 
 #include <array>
 #include <cstdio>

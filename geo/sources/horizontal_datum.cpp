@@ -1,4 +1,4 @@
-#include "geo/datum/horizontal_datum.h"
+#include "geo/sources/horizontal_datum.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "geo/datum/proj_operations.h"
-#include "geo/posts/laying.h"
-#include "geo/region/source_words.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
+#include "geo/sources/notes.h"
+#include "geo/sources/source_words.h"
 
 namespace oro {
 namespace {

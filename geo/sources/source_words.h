@@ -5,7 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "geo/region/region.h"
+#include "geo/sources/region_request.h"
+#include "geo/sources/source_report.h"
 
 namespace oro {
 

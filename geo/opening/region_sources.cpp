@@ -1,4 +1,4 @@
-#include "geo/region/region_sources.h"
+#include "geo/opening/region_sources.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <set>
 
 #include "geo/files/source_paths.h"
+#include "geo/opening/companions.h"
 #include "geo/posts/value_notes.h"
-#include "geo/region/companions.h"
 #include "geo/region/region_grid.h"
 #include "geo/sources/hgt_source.h"
 #include "geo/sources/known_products.h"

@@ -1,4 +1,4 @@
-#include "geo/region/companions.h"
+#include "geo/opening/companions.h"
 
 #include <algorithm>
 #include <map>

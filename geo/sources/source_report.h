@@ -6,16 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace oro {
+#include "geo/places/bounding_box.h"
 
-// Degrees; west > east crosses the antimeridian. All finite, latitudes in [-90, 90], longitudes in [-180,
-// 180].
-struct BoundingBox {
-    double west_deg{};
-    double south_deg{};
-    double east_deg{};
-    double north_deg{};
-};
+namespace oro {
 
 // .hgt tiles with posts every 1 or 3 seconds of arc; all else is read by GDAL.
 enum class SourceFormat { srtm1_hgt, srtm3_hgt, raster };

@@ -1,4 +1,4 @@
-#include "geo/region/baked_region.h"
+#include "geo/opening/baked_region.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
 // What opening says of resampling, against brute force: GDAL reads the file's posts, PROJ places each, and
 // the region's own posts are joined to triangles here.
-#include "geo/measures/resampling_error.h"
+#include "geo/posts/resampling_error.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
+#include "geo/files/raster_library.h"
 #include "geo/files/source_paths.h"
 #include "geo/measures/region_resampling.h"
-#include "geo/sources/raster_library.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/cell_rule.h"
 #include "tests/support/test_data.h"

@@ -1,5 +1,5 @@
-#include "geo/region/region.h"
-#include "geo/region/source_words.h"
+#include "geo/opening/open_region.h"
+#include "geo/sources/source_words.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Facts of a source become words, and words become the same facts: what baked regions rely on.
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 
 #include <gtest/gtest.h>
 

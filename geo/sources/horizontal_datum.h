@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "geo/region/source_report.h"
 #include "geo/sources/source.h"
+#include "geo/sources/source_report.h"
 
 namespace oro {
 

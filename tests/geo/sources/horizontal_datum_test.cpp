@@ -1,11 +1,11 @@
 // What horizontal datums are said to be good to. Accuracies are those of the EPSG dataset (v10.076), which
 // PROJ's database holds; names of grids are PROJ's.
-#include "geo/datum/horizontal_datum.h"
+#include "geo/sources/horizontal_datum.h"
 
 #include <gtest/gtest.h>
 
 #include "geo/region/region_description.h"
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"

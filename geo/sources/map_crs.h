@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 

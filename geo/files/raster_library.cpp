@@ -1,4 +1,4 @@
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "geo/files/guarded_files.h"
-#include "geo/sources/library_faults.h"
+#include "geo/files/library_faults.h"
 
 namespace oro {
 namespace {

@@ -12,6 +12,7 @@
 #include "geo/measures/post_places.h"
 #include "geo/posts/source_sampling.h"
 #include "geo/sources/source.h"
+#include "geo/sources/source_report.h"
 
 namespace oro {
 

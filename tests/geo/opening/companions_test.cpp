@@ -1,6 +1,6 @@
 // What lies beside elevation data and is none does not become the ground: in folders as they are downloaded,
 // beside what gdaldem makes, by names that say nothing, and named by itself.
-#include "geo/region/companions.h"
+#include "geo/opening/companions.h"
 
 #include <gdal_utils.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"

@@ -1,4 +1,4 @@
-#include "geo/region/source_at.h"
+#include "geo/posts/source_at.h"
 
 #include <algorithm>
 #include <cmath>

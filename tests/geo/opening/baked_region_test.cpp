@@ -1,5 +1,5 @@
 // A baked region opens as the sources did that it was baked from: the same surface to the bit, whole or cut.
-#include "geo/region/baked_region.h"
+#include "geo/opening/baked_region.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "geo/sources/library_faults.h"
+#include "geo/files/library_faults.h"
 
 #include <cpl_error.h>
 #include <sqlite3.h>

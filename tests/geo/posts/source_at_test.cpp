@@ -1,5 +1,5 @@
 // Which source a place's ground comes from, on boxes written down here and on files.
-#include "geo/region/source_at.h"
+#include "geo/posts/source_at.h"
 
 #include <gtest/gtest.h>
 
