@@ -8,6 +8,7 @@
 #include "core/frame/height_quantization.h"
 #include "render/device/gpu.h"
 #include "render/device/raster_request.h"
+#include "render/pipelines/pipelines.h"
 
 namespace oro {
 

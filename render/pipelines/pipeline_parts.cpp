@@ -1,4 +1,4 @@
-#include "render/raster/pipeline_parts.h"
+#include "render/pipelines/pipeline_parts.h"
 
 #include <algorithm>
 #include <array>

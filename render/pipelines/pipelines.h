@@ -19,6 +19,23 @@ inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat sum_format = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat picture_format_vk = VK_FORMAT_R8G8B8A8_UNORM;
 
+// What a mesh workgroup draws at a time: as many whole meshlets as it has room for, or half of one. The
+// triangle ids are the same.
+enum class MeshletSplit { by_device, whole, halves };
+// What a device draws where so much is asked: halves only where it has mesh_ballots, of itself where its
+// subgroups have 32 besides. Never by_device.
+MeshletSplit meshlet_split_for(MeshletSplit request, const DeviceReport& device);
+
+// How many entries the compute path's lists take in a frame, of those that their buffers hold
+// (shaders/shared.h: boxes_max and so on). Fewer in tests of full lists only.
+struct ListRoom {
+    std::uint32_t boxes{gpu::boxes_max};
+    std::uint32_t large{gpu::large_max};
+    std::uint32_t tasks{gpu::tasks_max};
+    std::uint32_t clips{gpu::clips_max};
+    auto operator<=>(const ListRoom&) const = default;
+};
+
 // What the shading pass has to do: each of these is code of its own, so that a picture pays for what it shows
 // alone.
 struct ShadingKind {

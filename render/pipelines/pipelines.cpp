@@ -1,13 +1,16 @@
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 
 #include <array>
+#include <compare>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
 
-#include "render/raster/mesh_pipelines.h"
-#include "render/raster/pipeline_parts.h"
-#include "render/raster/raster_pipelines.h"
+#include "render/pipelines/mesh_pipelines.h"
+#include "render/pipelines/pipeline_parts.h"
+#include "render/pipelines/raster_pipelines.h"
 #include "shaders/shared.h"
 #include "spirv/accept_comp.h"
 #include "spirv/choose_clusters_comp.h"
@@ -22,6 +25,28 @@
 
 namespace oro {
 namespace {
+
+// Which of a device's pipelines: those of one way of drawing, as PipelineWants says.
+struct PipelinesKey {
+    RasterPath path{};
+    bool record_positions{};
+    bool leave_out_small{};
+    bool overdraw{};
+    bool packed_heights{};
+    bool shares_triangles{};
+    MeshletSplit split{MeshletSplit::whole};
+    ListRoom list_room{};
+    auto operator<=>(const PipelinesKey&) const = default;
+};
+
+// What a device keeps.
+using KeptPipelines = std::map<PipelinesKey, std::shared_ptr<Pipelines>>;
+
+KeptPipelines& kept_pipelines(const Gpu& gpu) {
+    if (!gpu.kept()) gpu.kept() = std::make_shared<KeptPipelines>();
+    return *static_cast<KeptPipelines*>(gpu.kept().get());
+}
+
 Result<void> create_layouts(const Gpu& gpu, RasterPath path, Pipelines& pipelines) {
     std::array<VkDescriptorSetLayoutBinding, 5> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
@@ -158,6 +183,14 @@ Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& p
     return OwnedPipeline(gpu.device(), handle);
 }
 
+MeshletSplit meshlet_split_for(MeshletSplit request, const DeviceReport& device) {
+    if (request == MeshletSplit::whole || !device.mesh_ballots) return MeshletSplit::whole;
+    if (request == MeshletSplit::halves) return MeshletSplit::halves;
+    // Measured on a card whose subgroups have so many (docs/BENCHMARKS.md, L).
+    constexpr std::uint32_t of_halves = 32;
+    return device.subgroup_size == of_halves ? MeshletSplit::halves : MeshletSplit::whole;
+}
+
 Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath path,
                                                     const PipelineWants& wants) {
     const bool small = wants.leave_out_small && path == RasterPath::mesh;
@@ -165,8 +198,8 @@ Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath p
     const MeshletSplit split =
         path == RasterPath::mesh ? meshlet_split_for(wants.split, gpu.report()) : MeshletSplit::whole;
     std::shared_ptr<Pipelines>& kept =
-        gpu.kept_pipelines({path, wants.record_positions, small, wants.overdraw, wants.packed_heights, shares,
-                            split, wants.list_room});
+        kept_pipelines(gpu)[{path, wants.record_positions, small, wants.overdraw, wants.packed_heights,
+                             shares, split, wants.list_room}];
     if (!kept) {
         ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants));
         kept = std::make_shared<Pipelines>(std::move(pipelines));

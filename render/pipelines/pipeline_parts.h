@@ -8,7 +8,7 @@
 
 #include "render/device/gpu.h"
 #include "render/device/resources.h"
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 
 namespace oro {
 

@@ -1,7 +1,7 @@
 // The programs of the mesh path.
 #pragma once
 
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 
 namespace oro {
 

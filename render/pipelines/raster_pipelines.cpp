@@ -1,4 +1,4 @@
-#include "render/raster/raster_pipelines.h"
+#include "render/pipelines/raster_pipelines.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "render/device/calibration.h"
+#include "render/frame/calibration.h"
 
 #include <algorithm>
 #include <cassert>

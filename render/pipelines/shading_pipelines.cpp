@@ -1,4 +1,4 @@
-#include "render/shading/shading.h"
+#include "render/pipelines/shading_pipelines.h"
 
 #include <array>
 #include <cstddef>

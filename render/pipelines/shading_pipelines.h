@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 
 namespace oro {
 
