@@ -11,8 +11,8 @@
 #include <memory>
 #include <vector>
 
-#include "apps/names/named_points.h"
 #include "apps/panorama/elevations.h"
+#include "apps/vectors/named_points.h"
 #include "core/base/parallel.h"
 #include "core/light/sun_position.h"
 #include "geo/places/geodesic.h"

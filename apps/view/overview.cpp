@@ -1,4 +1,4 @@
-#include "apps/eye/overview.h"
+#include "apps/view/overview.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/eye/ground_points.h"
-#include "apps/view/view_limits.h"
+#include "apps/options/view_limits.h"
 #include "core/earth/place_framing.h"
 #include "core/terrain/drawn_heights.h"
 #include "geo/together/cut_regions.h"

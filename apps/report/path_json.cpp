@@ -1,4 +1,4 @@
-#include "apps/view/path_json.h"
+#include "apps/report/path_json.h"
 
 #include <charconv>
 

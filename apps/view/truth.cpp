@@ -1,4 +1,4 @@
-#include "apps/accuracy/truth.h"
+#include "apps/view/truth.h"
 
 #include "apps/view/model_names.h"
 

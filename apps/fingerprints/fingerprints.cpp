@@ -1,4 +1,4 @@
-#include "apps/view/fingerprints.h"
+#include "apps/fingerprints/fingerprints.h"
 
 #include <array>
 #include <bit>

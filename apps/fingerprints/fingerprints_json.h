@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/view/fingerprints.h"
+#include "apps/fingerprints/fingerprints.h"
 
 namespace oro {
 

@@ -1,4 +1,4 @@
-#include "apps/output/data_folder.h"
+#include "apps/styles/data_folder.h"
 
 #include <sys/auxv.h>
 

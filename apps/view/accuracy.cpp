@@ -1,4 +1,4 @@
-#include "apps/accuracy/accuracy.h"
+#include "apps/view/accuracy.h"
 
 #include <algorithm>
 #include <charconv>

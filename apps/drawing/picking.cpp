@@ -1,4 +1,4 @@
-#include "apps/window/picking.h"
+#include "apps/drawing/picking.h"
 
 #include <cstdio>
 #include <filesystem>

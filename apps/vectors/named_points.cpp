@@ -1,4 +1,4 @@
-#include "apps/names/named_points.h"
+#include "apps/vectors/named_points.h"
 
 #include <algorithm>
 #include <charconv>

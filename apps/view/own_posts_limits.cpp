@@ -1,4 +1,4 @@
-#include "apps/drawing/own_posts_limits.h"
+#include "apps/view/own_posts_limits.h"
 
 #include <string>
 

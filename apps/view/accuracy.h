@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/accuracy/truth.h"
+#include "apps/view/truth.h"
 #include "apps/view/view.h"
 #include "core/effects/effects.h"
 #include "core/frame/region_pages.h"

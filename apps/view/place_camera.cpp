@@ -1,11 +1,11 @@
-#include "apps/eye/place_camera.h"
+#include "apps/view/place_camera.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "apps/eye/ground_points.h"
-#include "apps/eye/overview.h"
 #include "apps/eye/standpoint.h"
+#include "apps/view/overview.h"
 #include "core/terrain/ground.h"
 
 namespace oro {

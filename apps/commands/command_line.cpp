@@ -1,9 +1,10 @@
-#include "apps/command_line/command_line.h"
+#include "apps/commands/command_line.h"
 
 #include <CLI/CLI.hpp>
 
 #include "apps/command_line/help.h"
 #include "apps/command_line/option_group.h"
+#include "apps/commands/options.h"
 
 namespace oro {
 namespace {

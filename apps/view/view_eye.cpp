@@ -4,11 +4,11 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/eye/asked_summit.h"
-#include "apps/eye/overview.h"
-#include "apps/eye/place_camera.h"
 #include "apps/eye/standpoint.h"
+#include "apps/options/view_limits.h"
+#include "apps/view/overview.h"
+#include "apps/view/place_camera.h"
 #include "apps/view/view.h"
-#include "apps/view/view_limits.h"
 #include "core/terrain/ground.h"
 
 namespace oro {
