@@ -1,7 +1,7 @@
 // The commands and options that the program takes.
 #pragma once
 
-#include "apps/options/options.h"
+#include "apps/commands/options.h"
 
 namespace oro {
 
