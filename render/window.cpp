@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <cstdlib>
 
 #include <algorithm>
 #include <cassert>
@@ -91,9 +92,22 @@ Result<OwnedSemaphore> create_semaphore(const Gpu& gpu, const char* name) {
     return OwnedSemaphore(gpu.device(), handle);
 }
 
+// GLFW from 3.4 on looks for Wayland first, whose library prints a line of its own where there is none.
+void choose_display() {
+#ifdef GLFW_PLATFORM
+    const auto is_set = [](const char* name) {
+        const char* const value = std::getenv(name);
+        return value != nullptr && *value != '\0';
+    };
+    const bool may_be_wayland = is_set("WAYLAND_DISPLAY") || is_set("WAYLAND_SOCKET");
+    glfwInitHint(GLFW_PLATFORM, may_be_wayland ? GLFW_ANY_PLATFORM : GLFW_PLATFORM_X11);
+#endif
+}
+
 }  // namespace
 
 Result<std::vector<const char*>> Window::required_extensions() {
+    choose_display();
     if (!glfwInit())
         return Error{ErrorKind::failed, "window",
                      "no display to open it on (" + glfw_reason() + "); orograph shot needs none"};

@@ -47,7 +47,8 @@ std::string text_of(const PipelineChoice& choice);
 
 // The way that a request ("auto", "mesh", "compute") means on a device. A processor that stands in for a GPU
 // draws by `compute` unless choose_pipeline() has found otherwise before: to measure takes it longer than to
-// draw (docs/BENCHMARKS.md, F). Errors: those of choose_pipeline(), and as raster_path_for().
+// draw (docs/notes, first-picture-without-a-gpu). Errors: those of choose_pipeline(), and as
+// raster_path_for().
 Result<RasterPath> choose_path(const std::string& request, const Gpu& gpu);
 
 }  // namespace oro

@@ -161,7 +161,8 @@ std::string costs_text(const TradeReport& report) {
            "are "
            "there\n"
            "time: of the GPU, the median of the views; triangles: of all views; hidden ground is left out in "
-           "both states\n"
+           "both states,\n"
+           "but where the Earth is a sphere or a plane\n"
            "terrain: what the GPU read of it\n";
 }
 

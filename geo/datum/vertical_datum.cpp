@@ -66,9 +66,22 @@ struct GeographicHeights {
     double metres_per_unit{1.0};
 };
 
+// WKT that gives a compound's code may leave those of its parts out: the authority knows them.
+ProjObject with_codes_of_parts(PJ_CONTEXT* context, ProjObject crs) {
+    const char* const authority = crs ? proj_get_id_auth_name(crs.get(), 0) : nullptr;
+    const char* const code = crs ? proj_get_id_code(crs.get(), 0) : nullptr;
+    if (!authority || !code || proj_get_type(crs.get()) != PJ_TYPE_COMPOUND_CRS) return crs;
+    ProjObject known(proj_create_from_database(context, authority, code, PJ_CATEGORY_CRS, false, nullptr));
+    const bool is_same =
+        known && proj_is_equivalent_to_with_ctx(context, known.get(), crs.get(),
+                                                PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
+    return is_same ? std::move(known) : std::move(crs);
+}
+
 GeographicHeights geographic_with_heights(PJ_CONTEXT* context, const std::string& text) {
     GeographicHeights heights;
-    const ProjObject crs = unbound(context, ProjObject(proj_create(context, text.c_str())));
+    const ProjObject crs =
+        with_codes_of_parts(context, unbound(context, ProjObject(proj_create(context, text.c_str()))));
     if (!crs) return heights;
     if (proj_get_type(crs.get()) == PJ_TYPE_COMPOUND_CRS) {
         const ProjObject horizontal =

@@ -87,11 +87,22 @@ int band_of_heights(GDALDatasetH dataset, int bands) {
 // band's metadata; a VRT says nothing, gives 0 to 255 in whatever type it has, and its sources tell.
 enum class SignedBytes { none, all, mixed };
 
+// GDAL from 3.7 on gives signed bytes a type, GDT_Int8, and warns of whoever asks for the mark.
+#if GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 7, 0)
+bool is_marked_signed(GDALRasterBandH) {
+    return false;
+}
+#else
+bool is_marked_signed(GDALRasterBandH raster) {
+    const char* const type = GDALGetMetadataItem(raster, "PIXELTYPE", "IMAGE_STRUCTURE");
+    return type != nullptr && std::string_view(type) == "SIGNEDBYTE";
+}
+#endif
+
 SignedBytes signed_bytes(GDALDatasetH dataset, int band, int depth) {
     const GDALRasterBandH raster = GDALGetRasterBand(dataset, band);
     if (raster == nullptr) return SignedBytes::none;
-    const char* const type = GDALGetMetadataItem(raster, "PIXELTYPE", "IMAGE_STRUCTURE");
-    if (type != nullptr && std::string_view(type) == "SIGNEDBYTE") return SignedBytes::all;
+    if (is_marked_signed(raster)) return SignedBytes::all;
     constexpr int deepest = 4;
     constexpr std::size_t most_files = 16;  // of a mosaic: one program wrote them all
     std::vector<VrtPart> parts = parts_of_vrt_band(dataset, band);

@@ -158,7 +158,7 @@ TerrainStages stages_of_meshlets(const Gpu& gpu) {
 }
 
 // Workgroups of half a meshlet and one subgroup each. Measured on an H100 and an H200, whose subgroups have
-// 32: of 64 invocations they take more than whole meshlets (docs/BENCHMARKS.md, L).
+// 32: of 64 invocations they take more than whole meshlets (docs/notes, half-a-meshlet).
 TerrainStages stages_of_halves(const Gpu& gpu) {
     TerrainStages of{.task_words = terrain_task_halves_spirv,
                      .mesh_words = terrain_mesh_halves_spirv,

@@ -186,7 +186,7 @@ Result<OwnedPipeline> create_compute_pipeline(const Gpu& gpu, const Pipelines& p
 MeshletSplit meshlet_split_for(MeshletSplit request, const DeviceReport& device) {
     if (request == MeshletSplit::whole || !device.mesh_ballots) return MeshletSplit::whole;
     if (request == MeshletSplit::halves) return MeshletSplit::halves;
-    // Measured on a card whose subgroups have so many (docs/BENCHMARKS.md, L).
+    // Measured on a card whose subgroups have so many (docs/notes, half-a-meshlet).
     constexpr std::uint32_t of_halves = 32;
     return device.subgroup_size == of_halves ? MeshletSplit::halves : MeshletSplit::whole;
 }

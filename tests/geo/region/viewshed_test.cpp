@@ -133,8 +133,13 @@ Verdicts ProjectedCopy::viewshed(const std::array<double, 2>& at_m, double reach
     GDALGetGeoTransform(output.get(), corners.data());
     for (int row = 0; row < cells.rows; ++row) {
         for (int column = 0; column < cells.columns; ++column) {
-            cells.lon_deg.push_back(corners[0] + (column + 0.5) * corners[1]);
-            cells.lat_deg.push_back(corners[3] + (row + 0.5) * corners[5]);
+            const double x_m = corners[0] + (column + 0.5) * corners[1],
+                         y_m = corners[3] + (row + 0.5) * corners[5];
+            cells.lon_deg.push_back(x_m);
+            cells.lat_deg.push_back(y_m);
+            // GDAL 3.10 has a verdict on all of the outermost rows and columns, out to the corners.
+            if (std::hypot(x_m - at_m[0], y_m - at_m[1]) > reach_m)
+                verdicts[cells.number(row, column)] = beyond_reach;
         }
     }
     to_degrees(cells.lon_deg, cells.lat_deg);
