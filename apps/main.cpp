@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/command_line/command_line.h"
 #include "apps/command_line/refusals.h"
+#include "apps/commands/command_line.h"
 #include "apps/commands/commands.h"
 #include "apps/output/interruption.h"
 #include "core/base/files_read.h"
+#include "geo/files/library_faults.h"
 #include "geo/files/whole_file.h"
-#include "geo/sources/library_faults.h"
 
 namespace {
 

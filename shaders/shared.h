@@ -115,12 +115,12 @@ struct PageBlock {
     // and so on): a half that is told to have none has none, whatever its edges are.
     uint boxes[256];
     // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its
-    // north-west to its south-east (core/cells/cell_diagonal.h). Two words a meshlet, row by row, the first
+    // north-west to its south-east (core/terrain/cell_diagonal.h). Two words a meshlet, row by row, the first
     // the lowest bit.
     uint rises[512];
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
-    // (core/terrain/height_quantization.h). Packed ones lie as shared_heights.h says.
+    // (core/frame/height_quantization.h). Packed ones lie as shared_heights.h says.
     int heights[17161];
 };
 
@@ -146,7 +146,7 @@ struct FramePage {
     uvec2 block;             // device address of its PageBlock
     uvec2 means;             // of its PageMeans; 0 where there are none
     // On a net: of its PagePlaces, and from the eye's lattice point to its origin's, 64 bits along each axis
-    // (core/net/page_on_net.h).
+    // (core/terrain/page_on_net.h).
     uvec2 places;
     uvec3 from_eye_low;
     uvec3 from_eye_high;

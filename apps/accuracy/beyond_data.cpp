@@ -4,11 +4,11 @@
 #include <cstdio>
 
 #include "apps/command_line/refusals.h"
-#include "apps/eye/overview.h"
 #include "apps/eye/standpoint.h"
+#include "apps/options/view_limits.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
-#include "apps/view/view_limits.h"
+#include "apps/view/overview.h"
 #include "core/base/parallel.h"
 #include "geo/sources/hgt_source.h"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/accuracy/truth.h"
+#include "apps/view/truth.h"
 #include "apps/view/view.h"
 #include "core/unseen/unseen_ground.h"
 

@@ -6,7 +6,7 @@
 #include "apps/drawing/mesh_choice.h"
 #include "core/cluster_frame/cluster_choice.h"
 #include "core/cluster_frame/group_rule.h"
-#include "core/lod/asked_pages.h"
+#include "core/frame/asked_pages.h"
 #include "core/lod/levels.h"
 
 namespace oro {

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <utility>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
+#include "apps/view/accuracy.h"
 #include "core/base/parallel.h"
 
 namespace oro {

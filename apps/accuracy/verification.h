@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/accuracy/beyond_data.h"
-#include "apps/accuracy/truth.h"
+#include "apps/view/truth.h"
 #include "apps/view/view.h"
 #include "core/measure/picture_errors.h"
 #include "render/frame/depth_picture.h"

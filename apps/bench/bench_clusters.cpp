@@ -22,7 +22,7 @@
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
 #include "core/cluster_file/cluster_file.h"
-#include "core/clusters/cluster_cut.h"
+#include "core/cluster_frame/cluster_cut.h"
 #include "core/clusters/graph_builder.h"
 #include "core/clusters/simplify_group.h"
 #include "core/lod/levels.h"

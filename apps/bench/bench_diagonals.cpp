@@ -11,6 +11,7 @@
 
 #include "apps/bench/diagonal_rules.h"
 #include "core/base/parallel.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 
 namespace oro {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/cells/cell_diagonal.h"
+#include "core/terrain/cell_diagonal.h"
 
 namespace oro {
 

@@ -28,6 +28,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/files/source_paths.h"
 #include "geo/files/whole_file.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region_description.h"
 #include "geo/region/region_prints.h"
 #include "geo/sources/raster_parts.h"

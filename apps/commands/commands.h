@@ -1,7 +1,7 @@
 // The program's commands. Each returns an Error or has done what it says; main turns that into an exit code.
 #pragma once
 
-#include "apps/commands/options.h"
+#include "apps/options/options.h"
 #include "core/base/result.h"
 
 namespace oro {

@@ -3,9 +3,9 @@
 
 #include "apps/commands/commands.h"
 #include "apps/drawing/pipeline_choice.h"
-#include "apps/output/data_folder.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/styles/data_folder.h"
 #include "geo/sources/library_report.h"
 #include "render/device/device_words.h"
 

@@ -12,8 +12,9 @@
 #include "apps/report/region_json.h"
 #include "apps/view/view.h"
 #include "geo/listing/file_listing.h"
-#include "geo/region/baked_region.h"
-#include "geo/region/region_sources.h"
+#include "geo/opening/baked_region.h"
+#include "geo/opening/open_region.h"
+#include "geo/opening/region_sources.h"
 #include "geo/together/cut_regions.h"
 
 namespace oro {

@@ -9,8 +9,8 @@
 #include "apps/report/resampling_words.h"
 #include "core/baked/region_format.h"
 #include "core/earth/ellipsoid.h"
-#include "geo/region/source_words.h"
 #include "geo/sources/raster_source.h"
+#include "geo/sources/source_words.h"
 
 namespace oro {
 namespace {

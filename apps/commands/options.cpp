@@ -3,12 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/command_line/option_group.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/options/view_limits.h"
 #include "apps/report/option_words.h"
+#include "apps/view/accuracy.h"
 #include "apps/view/model_names.h"
-#include "apps/view/view_limits.h"
 #include "render/device/raster_request.h"
 
 namespace oro {

@@ -1,7 +1,6 @@
 // orograph plan: how large each effect is in a view, before anything is drawn.
 #include <cstdio>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/mesh_forecast.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
@@ -15,6 +14,7 @@
 #include "apps/report/region_json.h"
 #include "apps/report/resampling_words.h"
 #include "apps/report/summit_words.h"
+#include "apps/view/accuracy.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view_changes.h"
 #include "core/base/parallel.h"

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/beyond_data.h"
 #include "apps/accuracy/mesh_forecast.h"
+#include "apps/view/accuracy.h"
 #include "apps/view/view.h"
 
 namespace oro {

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "apps/accuracy/truth.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sun_text.h"
@@ -14,6 +13,7 @@
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
+#include "apps/view/truth.h"
 #include "apps/view/view.h"
 #include "core/base/parallel.h"
 #include "core/light/sun_over_terrain.h"

@@ -7,7 +7,6 @@
 #include <thread>
 #include <utility>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -21,6 +20,7 @@
 #include "apps/trade/trade_measurement.h"
 #include "apps/trade/trade_report.h"
 #include "apps/trade/trade_settings.h"
+#include "apps/view/accuracy.h"
 #include "apps/view/style.h"
 #include "apps/view/view_changes.h"
 #include "core/truth/view_set.h"

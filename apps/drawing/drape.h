@@ -1,7 +1,7 @@
 // A view's images over the ground, from their files to a scene.
 #pragma once
 
-#include "apps/commands/options.h"
+#include "apps/options/options.h"
 #include "apps/view/view.h"
 #include "render/scene/scene.h"
 

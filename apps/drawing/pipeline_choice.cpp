@@ -12,8 +12,8 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "geo/files/whole_file.h"
-#include "render/device/calibration.h"
 #include "render/device/raster_request.h"
+#include "render/frame/calibration.h"
 
 namespace oro {
 namespace {

@@ -11,7 +11,7 @@
 
 namespace oro {
 
-// GPU times of one calibration frame (render/device/calibration.h) by either way, and when they were taken.
+// GPU times of one calibration frame (render/frame/calibration.h) by either way, and when they were taken.
 struct PipelineTimes {
     double mesh_s{};
     double compute_s{};

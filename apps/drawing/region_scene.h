@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands/options.h"
+#include "apps/options/options.h"
 #include "geo/region/region.h"
 #include "geo/together/cut_regions.h"
 #include "render/scene/scene.h"

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "apps/commands/options.h"
+#include "apps/options/options.h"
 #include "core/base/result.h"
 #include "core/terrain/summit.h"
 #include "geo/region/region.h"

@@ -9,7 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/measure/shown_place.h"
 #include "core/terrain/horn_slope.h"
-#include "geo/region/source_at.h"
+#include "geo/posts/source_at.h"
 #include "render/frame/shown_ground.h"
 
 namespace oro {

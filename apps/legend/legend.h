@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/drawing/picking.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
-#include "apps/window/picking.h"
 
 namespace oro {
 

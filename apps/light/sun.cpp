@@ -4,8 +4,8 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/command_line/whole_text.h"
+#include "apps/options/view_limits.h"
 #include "apps/report/json_text.h"
-#include "apps/view/view_limits.h"
 #include "core/light/refraction.h"
 #include "core/light/sun_position.h"
 #include "core/light/usual_sun.h"

@@ -5,7 +5,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/maps/ortho_map.h"
-#include "apps/view/view_limits.h"
+#include "apps/options/view_limits.h"
 #include "geo/together/cut_regions.h"
 
 namespace oro {

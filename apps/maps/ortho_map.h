@@ -1,7 +1,7 @@
 // A map from straight above: each pixel shows the ground at its own place of the CRS.
 #pragma once
 
-#include "apps/commands/options.h"
+#include "apps/options/options.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "core/truth/true_ground.h"

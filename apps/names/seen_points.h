@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/names/named_points.h"
+#include "apps/vectors/named_points.h"
 #include "core/earth/camera.h"
 #include "core/earth/cylinder.h"
 #include "core/earth/world_model.h"

@@ -4,9 +4,9 @@
 
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/fingerprints/fingerprints_json.h"
 #include "apps/maps/ortho_map.h"
 #include "apps/report/region_json.h"
-#include "apps/view/fingerprints_json.h"
 #include "apps/view/view_paths.h"
 #include "geo/pixels/picture_difference.h"
 

@@ -3,9 +3,9 @@
 
 #include <span>
 
+#include "apps/drawing/picking.h"
 #include "apps/labels/labelled_picture.h"
 #include "apps/view/view.h"
-#include "apps/window/picking.h"
 #include "geo/pictures/picture.h"
 #include "render/frame/picture_renderer.h"
 

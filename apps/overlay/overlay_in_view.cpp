@@ -4,10 +4,10 @@
 #include <map>
 #include <optional>
 
-#include "apps/names/named_points.h"
+#include "apps/options/view_limits.h"
 #include "apps/overlay/line_masks.h"
 #include "apps/styles/colour_text.h"
-#include "apps/view/view_limits.h"
+#include "apps/vectors/named_points.h"
 #include "core/base/elapsed.h"
 
 namespace oro {

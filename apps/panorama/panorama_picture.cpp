@@ -6,11 +6,11 @@
 
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/fingerprints/fingerprints_json.h"
 #include "apps/names/names_in_view.h"
 #include "apps/output/picture_file.h"
 #include "apps/overlay/overlay_in_view.h"
 #include "apps/report/region_json.h"
-#include "apps/view/fingerprints_json.h"
 #include "apps/view/view_paths.h"
 #include "core/base/parallel.h"
 #include "geo/files/letter_case.h"

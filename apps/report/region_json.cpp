@@ -13,7 +13,7 @@
 #include "core/earth/ellipsoid.h"
 #include "geo/files/foreign_text.h"
 #include "geo/region/source_fields.h"
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 
 namespace oro {
 namespace {

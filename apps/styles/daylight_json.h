@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/view/view_limits.h"
+#include "apps/options/view_limits.h"
 #include "shaders/shared.h"
 
 namespace oro {

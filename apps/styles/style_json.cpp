@@ -6,11 +6,11 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/options/view_limits.h"
 #include "apps/report/json_fields.h"
 #include "apps/styles/colours.h"
 #include "apps/styles/daylight_json.h"
 #include "apps/styles/style_fields.h"
-#include "apps/view/view_limits.h"
 
 namespace oro {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/accuracy/accuracy.h"
+#include "apps/view/accuracy.h"
 #include "core/effects/effect_table.h"
 
 namespace oro {

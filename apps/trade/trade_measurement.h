@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/verification.h"
-#include "apps/commands/options.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/options/options.h"
 #include "apps/trade/trade_report.h"
 #include "apps/trade/trade_settings.h"
+#include "apps/view/accuracy.h"
 #include "render/frame/depth_picture.h"
 
 namespace oro {

@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/view/accuracy.h"
 
 namespace oro {
 namespace {

@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "apps/command_line/refusals.h"
-#include "apps/names/named_points.h"
+#include "apps/options/view_limits.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
+#include "apps/report/path_json.h"
 #include "apps/report/progress_bar.h"
 #include "apps/styles/colour_text.h"
 #include "apps/styles/style_fields.h"
-#include "apps/view/path_json.h"
-#include "apps/view/view_limits.h"
+#include "apps/vectors/named_points.h"
 
 namespace oro {
 namespace {

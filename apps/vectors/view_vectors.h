@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands/options.h"
+#include "apps/fingerprints/fingerprints.h"
+#include "apps/options/options.h"
 #include "apps/styles/colours.h"
-#include "apps/view/fingerprints.h"
 #include "core/base/result.h"
 #include "geo/vectors/vector_file.h"
 

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/output/data_folder.h"
 #include "apps/report/json_fields.h"
 #include "apps/styles/colour_table.h"
 #include "apps/styles/contour_interval.h"
+#include "apps/styles/data_folder.h"
 #include "apps/styles/daylight_json.h"
 #include "apps/styles/style_json.h"
 #include "apps/view/model_names.h"

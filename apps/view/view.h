@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands/options.h"
+#include "apps/fingerprints/fingerprints.h"
 #include "apps/light/sun.h"
+#include "apps/options/options.h"
 #include "apps/vectors/view_vectors.h"
-#include "apps/view/fingerprints.h"
+#include "core/base/progress.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
-#include "core/terrain/height_quantization.h"
+#include "core/frame/height_quantization.h"
 #include "core/terrain/page.h"
 #include "geo/drape/image_source.h"
 #include "geo/rasters/map_frame.h"
@@ -114,7 +115,7 @@ Result<Air> air_asked_for(const std::optional<double>& refraction_k, const std::
 Result<View> view_without_eye(const ViewOptions& options, RegionRequest region);
 
 // Puts the eye of a view where the options say: at a place over the ground or above sea level, or so that the
-// whole region is in the picture (apps/eye/overview.h). Errors: no data under an eye that is placed over the
+// whole region is in the picture (apps/view/overview.h). Errors: no data under an eye that is placed over the
 // ground (no_data); an eye beyond view_limits (usage).
 Result<void> place_eye(View& view, const ViewOptions& options, const Region& region);
 

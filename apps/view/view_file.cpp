@@ -2,16 +2,16 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "apps/accuracy/accuracy.h"
+#include "apps/fingerprints/fingerprints_json.h"
+#include "apps/options/view_limits.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/option_words.h"
-#include "apps/view/fingerprints_json.h"
+#include "apps/report/path_json.h"
+#include "apps/view/accuracy.h"
 #include "apps/view/model_names.h"
-#include "apps/view/path_json.h"
 #include "apps/view/view.h"
-#include "apps/view/view_limits.h"
 #include "apps/view/view_paths.h"
 #include "core/light/utc_time.h"
 #include "geo/files/letter_case.h"

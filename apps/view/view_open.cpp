@@ -3,11 +3,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/drawing/own_posts_limits.h"
 #include "apps/eye/standpoint.h"
+#include "apps/view/own_posts_limits.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "core/base/file_there.h"
+#include "geo/opening/open_region.h"
 
 namespace oro {
 

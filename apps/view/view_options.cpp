@@ -4,13 +4,13 @@
 #include <cstdlib>
 #include <utility>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/command_line/refusals.h"
 #include "apps/command_line/whole_text.h"
+#include "apps/options/view_limits.h"
 #include "apps/report/json_text.h"
+#include "apps/view/accuracy.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
-#include "apps/view/view_limits.h"
 #include "geo/sources/told_of_files.h"
 
 namespace oro {

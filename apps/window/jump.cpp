@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "apps/eye/place_camera.h"
 #include "apps/eye/standpoint.h"
+#include "apps/view/place_camera.h"
 #include "apps/window/flight.h"
 #include "core/terrain/ground.h"
 

@@ -23,7 +23,7 @@ class Jumps {
     // roll_deg: the user's own, of all pictures that jumps make; whatever roll framing gave to a camera.
     explicit Jumps(double roll_deg = 0.0) : roll_deg_(roll_deg) {}
 
-    // The camera that shows a place (apps/eye/place_camera.h), from the side that the eye looked from when it
+    // The camera that shows a place (apps/view/place_camera.h), from the side that the eye looked from when it
     // last moved by itself, where that sees it; a place with a height of its own is where the eye goes, or
     // over the ground there. Remembers the camera for back(). typed: how errors call a cell; other places are
     // called by their latitude and longitude. Errors: no elevation data there, in words for people; the eye

@@ -6,6 +6,7 @@
 
 #include "apps/drawing/region_scene.h"
 #include "apps/view/view.h"
+#include "core/base/progress.h"
 #include "render/device/device_report.h"
 
 namespace oro {

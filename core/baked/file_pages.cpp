@@ -11,7 +11,7 @@
 
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
-#include "core/net/page_on_net.h"
+#include "core/terrain/page_on_net.h"
 
 namespace oro {
 namespace {

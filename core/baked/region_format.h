@@ -13,7 +13,7 @@
 //
 // Versions 1 and 3 have posts on latitudes and longitudes, versions 2 and 4 on a net, 5 and 6 on a net with
 // corrections. In 1, 2 and 5 all cells are split from their north-west to their south-east posts, in 3, 4 and
-// 6 as the posts of their level decide (core/cells/cell_diagonal.h); there a page in which a region round the
+// 6 as the posts of their level decide (core/terrain/cell_diagonal.h); there a page in which a region round the
 // Earth ends has one more column of posts. Of a net's axes only step and count mean anything: that of the
 // rows has the bytes of the net where the other versions have the first post's index, that of the columns its
 // checksum, and all else is 0.

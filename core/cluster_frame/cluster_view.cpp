@@ -4,7 +4,7 @@
 #include <cassert>
 #include <glm/geometric.hpp>
 
-#include "core/frame/culling.h"
+#include "core/earth/culling.h"
 
 namespace oro {
 

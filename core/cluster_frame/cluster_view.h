@@ -8,8 +8,8 @@
 #include "core/cluster_frame/group_rule.h"
 #include "core/cluster_frame/region_clusters.h"
 #include "core/earth/camera.h"
-#include "core/earth/model_view.h"
 #include "core/earth/world_model.h"
+#include "core/frame/model_view.h"
 
 namespace oro {
 

@@ -15,7 +15,7 @@ namespace oro {
 // A group stands where its error, projected from the nearest place that it may have, is at most tau: the
 // bound of projected_error_px (shaders/choose/levels.glsl). The processor measures a group for an eye, in
 // double; the answer is that of shaders/clusters/group_rule.glsl, in float, here as on the GPU, to the bit.
-// Light may bend (core/earth/model_view.h, whose spheres grow alike). As errors and spheres grow from a group
+// Light may bend (core/frame/model_view.h, whose spheres grow alike). As errors and spheres grow from a group
 // to those above, so does the bound; rounding is kept out by letting tau shrink and spheres grow, by two and
 // by one millionth from a level to the next. So where a group stands all below it stand, whatever order they
 // are asked in.

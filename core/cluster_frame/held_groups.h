@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/cluster_file/group_code.h"
+#include "core/earth/culling.h"
 #include "core/earth/ellipsoid.h"
-#include "core/frame/culling.h"
 
 namespace oro {
 

@@ -15,9 +15,9 @@
 #include "core/cluster_file/cluster_file.h"
 #include "core/cluster_frame/held_groups.h"
 #include "core/clusters/cluster_graph.h"
-#include "core/frame/culling.h"
+#include "core/earth/culling.h"
+#include "core/frame/height_quantization.h"
 #include "core/surface/grid_surface.h"
-#include "core/terrain/height_quantization.h"
 #include "core/terrain/post_grid.h"
 #include "shaders/shared.h"
 

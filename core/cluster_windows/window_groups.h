@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string>
 
-#include "core/cells/cell_diagonals.h"
 #include "core/cluster_windows/begun_graph.h"
 #include "core/cluster_windows/region_windows.h"
 #include "core/surface/ground_bounds.h"
+#include "core/terrain/cell_diagonals.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {

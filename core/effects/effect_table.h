@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/earth/world_model.h"
-#include "core/terrain/height_quantization.h"
+#include "core/frame/height_quantization.h"
 
 namespace oro {
 

@@ -9,8 +9,8 @@
 
 #include "core/effects/effect_sizes.h"
 #include "core/effects/effects.h"
+#include "core/frame/sampled_detail.h"
 #include "core/lod/levels_gpu.h"
-#include "core/lod/sampled_detail.h"
 
 namespace oro {
 

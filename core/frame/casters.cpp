@@ -10,9 +10,9 @@
 #include <map>
 #include <set>
 
-#include "core/cast/cast_map.h"
-#include "core/earth/model_view.h"
+#include "core/frame/cast_map.h"
 #include "core/frame/frame_plan.h"
+#include "core/frame/model_view.h"
 #include "core/lod/levels.h"
 #include "core/lod/levels_gpu.h"
 

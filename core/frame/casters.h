@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/cast/cast_receiver.h"
 #include "core/earth/camera.h"
+#include "core/frame/cast_receiver.h"
 #include "core/frame/region_pages.h"
 #include "shaders/shared.h"
 

@@ -10,11 +10,11 @@
 #include <tuple>
 #include <utility>
 
-#include "core/earth/model_view.h"
 #include "core/frame/frame_tables.h"
+#include "core/frame/model_view.h"
 #include "core/lod/levels.h"
 #include "core/lod/levels_gpu.h"
-#include "core/net/page_on_net.h"
+#include "core/terrain/page_on_net.h"
 
 namespace oro {
 namespace {

@@ -8,12 +8,12 @@
 #include <functional>
 #include <vector>
 
-#include "core/cluster_frame/cluster_plan.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
 #include "core/frame/casters.h"
+#include "core/frame/cluster_plan.h"
+#include "core/frame/height_quantization.h"
 #include "core/frame/region_pages.h"
-#include "core/terrain/height_quantization.h"
 #include "shaders/shared.h"
 
 namespace oro {

@@ -4,11 +4,11 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/earth/model_view.h"
-#include "core/frame/culling.h"
+#include "core/earth/culling.h"
+#include "core/frame/model_view.h"
 #include "core/lod/levels.h"
-#include "core/net/page_on_net.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/page_on_net.h"
 #include "shaders/shared_heights.h"
 
 namespace oro {

@@ -10,8 +10,8 @@
 
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
+#include "core/frame/height_quantization.h"
 #include "core/frame/region_pages.h"
-#include "core/terrain/height_quantization.h"
 #include "shaders/shared.h"
 
 namespace oro {

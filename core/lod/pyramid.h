@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/frame/culling.h"
+#include "core/earth/culling.h"
 #include "core/terrain/page.h"
 #include "core/terrain/post_grid.h"
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/cells/cell_diagonal.h"
 #include "core/earth/extremes.h"
+#include "core/terrain/cell_diagonal.h"
 
 namespace oro {
 

@@ -13,8 +13,8 @@
 
 #include "core/base/parallel.h"
 #include "core/net/grid_net.h"
-#include "core/net/page_on_net.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/page_on_net.h"
 
 namespace oro {
 namespace {

@@ -24,7 +24,7 @@ struct GridWindow {
 [[nodiscard]] std::uint64_t surface_fingerprint(std::uint64_t posts, CellSplit split);
 
 // Vertex number row * columns + column, counted within the heights; places are those in the region. A cell is
-// two triangles (core/cells/cell_diagonal.h); a triangle with a void post is not there,
+// two triangles (core/terrain/cell_diagonal.h); a triangle with a void post is not there,
 // so that cells with void posts are holes. Leaves are the nodes of level 0: 8 x 8 quads. Reads `heights`
 // where it is.
 class GridSurface final : public OriginalSurface {

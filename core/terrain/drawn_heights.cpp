@@ -6,7 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/wide.h"
-#include "core/cells/floor_within.h"
+#include "core/terrain/floor_within.h"
 
 namespace oro {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/cells/cell_diagonals.h"
 #include "core/earth/ellipsoid.h"
+#include "core/terrain/cell_diagonals.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {

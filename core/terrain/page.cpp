@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "core/base/lent.h"
-#include "core/net/page_on_net.h"
-#include "core/placed/placed_posts.h"
+#include "core/terrain/page_on_net.h"
 #include "core/terrain/page_posts.h"
+#include "core/terrain/placed_posts.h"
 
 namespace oro {
 namespace {

@@ -7,8 +7,8 @@
 #include <glm/vec3.hpp>
 #include <memory>
 
+#include "core/earth/culling.h"
 #include "core/earth/ellipsoid.h"
-#include "core/frame/culling.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/level_grid.h"
 #include "core/terrain/post_grid.h"

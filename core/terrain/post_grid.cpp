@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/cells/cell_diagonal.h"
+#include "core/terrain/cell_diagonal.h"
 
 namespace oro {
 

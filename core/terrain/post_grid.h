@@ -35,7 +35,7 @@ struct GridAxis {
 
 // What splits the cells of a region, on all levels, into two triangles each: one diagonal for all, from the
 // north-west to the south-east post, as older region files have it; or for each cell the one that its posts
-// decide for (core/cells/cell_diagonal.h).
+// decide for (core/terrain/cell_diagonal.h).
 enum class CellSplit : unsigned char { all_fall, by_posts };
 // How regions are split that do not say otherwise.
 extern const CellSplit usual_split;
@@ -126,7 +126,7 @@ class PostSource {
 
 // The true surface of a scene: orthometric heights H on a post grid, and the undulation N that lifts them
 // onto the ellipsoid (h = H + N). Each cell is two triangles, split by a diagonal
-// (core/cells/cell_diagonal.h); between posts H is linear over those triangles in geodetic coordinates.
+// (core/terrain/cell_diagonal.h); between posts H is linear over those triangles in geodetic coordinates.
 struct HeightField {
     PostGrid grid;
     std::vector<float> H_m;  // row by row, rows() * columns(); void_height_m where there is none
@@ -154,7 +154,7 @@ struct HeightField {
     // H of the surface at a place, or void_height_m outside the region and on triangles with a void post.
     [[nodiscard]] float H_at_m(double lat_deg, double lon_deg) const;
     // The same in double, before it is rounded to 0.5 mm.
-    // left_out: by post, 1 where it is cut out, and so decides no diagonal (core/cells/cell_diagonal.h).
+    // left_out: by post, 1 where it is cut out, and so decides no diagonal (core/terrain/cell_diagonal.h).
     [[nodiscard]] std::optional<double> surface_H_m(double lat_deg, double lon_deg,
                                                     const std::vector<char>* left_out = nullptr) const;
 };

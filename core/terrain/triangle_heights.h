@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/cells/cell_diagonal.h"
+#include "core/terrain/cell_diagonal.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {

@@ -34,7 +34,7 @@ struct SightHit {
     double distance_m{};  // from the eye to where the point is seen: along the ray
     int row{};            // north-west post of its cell
     int column{};
-    bool west{};          // of the cell's two triangles (core/cells/cell_diagonal.h)
+    bool west{};          // of the cell's two triangles (core/terrain/cell_diagonal.h)
     bool from_below{};    // it is met from beneath: through a hole, or over the data's rim
     double residual_m{};  // of the root: height of the point above its triangle
     std::size_t grid{};   // of the ground's: whose cell it is

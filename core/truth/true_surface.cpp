@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/parallel.h"
-#include "core/cells/cell_diagonals.h"
+#include "core/terrain/cell_diagonals.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/post_spacing.h"
 #include "core/terrain/triangle_heights.h"

@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "core/cells/cell_diagonal.h"
 #include "core/earth/ellipsoid.h"
+#include "core/terrain/cell_diagonal.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {
 
 // The full-resolution surface of a height field: each post at (latitude, longitude, H * exaggeration + N) on
-// WGS84, each cell two triangles (core/cells/cell_diagonal.h), h linear over each in latitude and longitude
+// WGS84, each cell two triangles (core/terrain/cell_diagonal.h), h linear over each in latitude and longitude
 // (so a triangle is as curved as the ellipsoid). Safe to ask from several threads.
 class TrueSurface {
   public:

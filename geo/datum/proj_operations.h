@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/region/region.h"
+#include "geo/places/bounding_box.h"
 
 namespace oro {
 

@@ -9,7 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 

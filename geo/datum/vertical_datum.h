@@ -9,7 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
-#include "geo/region/region.h"
+#include "geo/places/bounding_box.h"
 
 namespace oro {
 

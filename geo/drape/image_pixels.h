@@ -8,7 +8,7 @@
 #include "core/base/result.h"
 #include "geo/drape/image_source.h"
 #include "geo/drape/window_read.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 

@@ -7,7 +7,7 @@
 
 #include "core/drape/ground_image.h"
 #include "geo/drape/image_source.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 

@@ -13,8 +13,8 @@
 #include "geo/drape/image_values.h"
 #include "geo/drape/window_read.h"
 #include "geo/files/guarded_files.h"
+#include "geo/files/raster_library.h"
 #include "geo/sources/raster_crs.h"
-#include "geo/sources/raster_library.h"
 #include "geo/sources/raster_parts.h"
 
 namespace oro {

@@ -14,7 +14,7 @@
 #include <system_error>
 
 #include "geo/files/letter_case.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 namespace {

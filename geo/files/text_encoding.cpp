@@ -13,7 +13,7 @@
 
 #include "geo/files/foreign_text.h"
 #include "geo/files/letter_case.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 namespace {

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
-#include "geo/region/region.h"
+#include "geo/sources/region_request.h"
+#include "geo/sources/source_report.h"
 
 namespace oro {
 
@@ -31,7 +33,7 @@ struct ListingCache {
     std::string stamp;
 };
 
-// Reads no post, but a few rows of files that share a grid (geo/region/companions.h). Files that by their
+// Reads no post, but a few rows of files that share a grid (geo/opening/companions.h). Files that by their
 // names lie outside a box are not listed. Errors: a path that is not there, or has nothing in it; what was
 // told of files and PROJ does not know.
 Result<FileListing> list_files(const RegionRequest& request, const ListingCache& cache,

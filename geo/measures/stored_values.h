@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geo/sources/source.h"
+#include "geo/sources/source_report.h"
 
 namespace oro {
 

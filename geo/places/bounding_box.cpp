@@ -1,12 +1,13 @@
-// Bounding boxes as people write them: four numbers, or names of whole-degree tiles.
+#include "geo/places/bounding_box.h"
+
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <string_view>
-
-#include "geo/region/region.h"
-#include "geo/sources/hgt_source.h"
 
 namespace oro {
 namespace {
@@ -51,7 +52,41 @@ Result<std::array<double, 4>> four_numbers(const std::string& text) {
     return numbers;
 }
 
+char lower(char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+// Digits only, all of them.
+std::optional<int> whole_number(std::string_view digits) {
+    int number = 0;
+    for (const char c : digits) {
+        if (c < '0' || c > '9') return std::nullopt;
+        number = number * 10 + (c - '0');
+    }
+    return number;
+}
+
 }  // namespace
+
+std::string tile_name(int lat_deg, int lon_deg) {
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "%c%02d%c%03d", lat_deg < 0 ? 'S' : 'N', std::abs(lat_deg),
+                  lon_deg < 0 ? 'W' : 'E', std::abs(lon_deg));
+    return name.data();
+}
+
+std::optional<TileName> parse_tile_name(std::string_view text) {
+    if (text.size() != 7) return std::nullopt;
+    const char north = lower(text[0]);
+    const char east = lower(text[3]);
+    const auto lat = whole_number(text.substr(1, 2));
+    const auto lon = whole_number(text.substr(4, 3));
+    if (!lat || !lon || (north != 'n' && north != 's') || (east != 'e' && east != 'w')) return std::nullopt;
+    const TileName tile{north == 's' ? -*lat : *lat, east == 'w' ? -*lon : *lon};
+    if (tile.lat_deg < -90 || tile.lat_deg > 89 || tile.lon_deg < -180 || tile.lon_deg > 179)
+        return std::nullopt;
+    return tile;
+}
 
 std::string bounding_box_text(const BoundingBox& box) {
     std::string text;

@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "geo/places/bounding_box.h"
+
 namespace oro {
 namespace {
 

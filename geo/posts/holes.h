@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/terrain/post_grid.h"
-#include "geo/region/region.h"
 
 namespace oro {
 

@@ -4,12 +4,13 @@
 #include <limits>
 #include <optional>
 
-#include "geo/measures/resampling_error.h"
 #include "geo/measures/stored_values.h"
+#include "geo/posts/resampling_error.h"
 #include "geo/posts/source_sampling.h"
 #include "geo/posts/tiles_ahead.h"
 #include "geo/region/region_grid.h"
 #include "geo/region/region_prints.h"
+#include "geo/sources/notes.h"
 
 namespace oro {
 namespace {
@@ -133,10 +134,6 @@ std::vector<int> turns_of(const Source& source, const PostGrid& grid) {
 }
 
 }  // namespace
-
-void add_note(std::vector<std::string>& notes, const std::string& note) {
-    if (!note.empty() && std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
-}
 
 Result<void> note_findings(SourceReport& report, std::uint64_t lent, std::uint64_t beyond_grid, bool strict,
                            std::vector<std::string>& notes) {

@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
 #include "geo/datum/vertical_datum.h"
-#include "geo/measures/resampling_error.h"
+#include "geo/posts/resampling_error.h"
 #include "geo/posts/seams.h"
-#include "geo/region/region.h"
 #include "geo/sources/source.h"
+#include "geo/sources/source_report.h"
 
 namespace oro {
 
@@ -42,8 +43,5 @@ Result<std::vector<MeasuredSource>> lay_sources(std::vector<Source>& sources, co
 // latter.
 Result<void> note_findings(SourceReport& report, std::uint64_t lent, std::uint64_t beyond_grid, bool strict,
                            std::vector<std::string>& notes);
-
-// Adds a line that is not there yet and not empty.
-void add_note(std::vector<std::string>& notes, const std::string& note);
 
 }  // namespace oro

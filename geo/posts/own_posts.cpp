@@ -9,13 +9,14 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/net/page_on_net.h"
-#include "geo/datum/horizontal_datum.h"
+#include "core/terrain/page_on_net.h"
+#include "geo/files/raster_library.h"
 #include "geo/measures/stored_values.h"
 #include "geo/posts/laying.h"
 #include "geo/region/region_grid.h"
 #include "geo/region/region_prints.h"
-#include "geo/sources/raster_library.h"
+#include "geo/sources/horizontal_datum.h"
+#include "geo/sources/notes.h"
 
 namespace oro {
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
 #include "geo/datum/vertical_datum.h"

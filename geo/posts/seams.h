@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/terrain/post_grid.h"
-#include "geo/region/region.h"
 #include "geo/sources/source.h"
+#include "geo/sources/source_report.h"
 
 namespace oro {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geo/files/raster_library.h"
 #include "geo/posts/source_cubic.h"
-#include "geo/sources/raster_library.h"
 
 namespace oro {
 namespace {

@@ -10,6 +10,7 @@
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
 #include "geo/sources/source.h"
+#include "geo/sources/source_report.h"
 
 namespace oro {
 

@@ -6,6 +6,7 @@
 
 #include "geo/posts/laying.h"
 #include "geo/sources/height_unit.h"
+#include "geo/sources/notes.h"
 #include "geo/sources/undeclared_voids.h"
 
 namespace oro {

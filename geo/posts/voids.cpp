@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdio>
 
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <span>
 
-#include "geo/rasters/map_crs.h"
+#include "geo/files/raster_library.h"
 #include "geo/rasters/map_frame.h"
-#include "geo/sources/raster_library.h"
+#include "geo/sources/map_crs.h"
 
 namespace oro {
 namespace {

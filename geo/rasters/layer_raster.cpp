@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 namespace {

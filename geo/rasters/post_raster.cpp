@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdio>
 
+#include "geo/files/raster_library.h"
 #include "geo/files/whole_file.h"
-#include "geo/sources/raster_library.h"
 
 namespace oro {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/base/json_bounds.h"
 #include "geo/region/source_fields.h"
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 
 namespace oro {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
-#include "geo/region/region.h"
+#include "geo/places/bounding_box.h"
 #include "geo/sources/source.h"
 
 namespace oro {

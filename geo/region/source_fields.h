@@ -3,8 +3,8 @@
 // nested initializer lists GCC 12 destroys what was never made.
 #pragma once
 
-#include "geo/region/source_report.h"
-#include "geo/region/source_words.h"
+#include "geo/sources/source_report.h"
+#include "geo/sources/source_words.h"
 
 namespace oro {
 

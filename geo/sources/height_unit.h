@@ -7,8 +7,8 @@
 
 #include "core/base/result.h"
 #include "geo/datum/vertical_datum.h"
+#include "geo/files/raster_library.h"
 #include "geo/sources/length_unit.h"
-#include "geo/sources/raster_library.h"
 #include "geo/sources/source.h"
 
 namespace oro {

@@ -15,7 +15,7 @@
 #include "core/earth/ellipsoid.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 #include "geo/sources/raster_parts.h"
 
 namespace oro {
@@ -27,20 +27,6 @@ struct CloseFile {
     void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 using File = std::unique_ptr<VSILFILE, CloseFile>;
-
-char lower(char c) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
-
-// Digits only, all of them.
-std::optional<int> whole_number(std::string_view digits) {
-    int number = 0;
-    for (const char c : digits) {
-        if (c < '0' || c > '9') return std::nullopt;
-        number = number * 10 + (c - '0');
-    }
-    return number;
-}
 
 int stated_arc_seconds(std::string_view text) {
     const std::string name = lower_case(text);
@@ -146,26 +132,6 @@ std::string srtm_attribution(const SourcePath& path) {
 }
 
 }  // namespace
-
-std::string tile_name(int lat_deg, int lon_deg) {
-    std::array<char, 32> name{};
-    std::snprintf(name.data(), name.size(), "%c%02d%c%03d", lat_deg < 0 ? 'S' : 'N', std::abs(lat_deg),
-                  lon_deg < 0 ? 'W' : 'E', std::abs(lon_deg));
-    return name.data();
-}
-
-std::optional<TileName> parse_tile_name(std::string_view text) {
-    if (text.size() != 7) return std::nullopt;
-    const char north = lower(text[0]);
-    const char east = lower(text[3]);
-    const auto lat = whole_number(text.substr(1, 2));
-    const auto lon = whole_number(text.substr(4, 3));
-    if (!lat || !lon || (north != 'n' && north != 's') || (east != 'e' && east != 'w')) return std::nullopt;
-    const TileName tile{north == 's' ? -*lat : *lat, east == 'w' ? -*lon : *lon};
-    if (tile.lat_deg < -90 || tile.lat_deg > 89 || tile.lon_deg < -180 || tile.lon_deg > 179)
-        return std::nullopt;
-    return tile;
-}
 
 std::optional<HgtName> parse_hgt_name(std::string_view file_name) {
     if (file_name.size() < 11 || lower_case(file_name.substr(file_name.size() - 4)) != ".hgt")

@@ -7,20 +7,10 @@
 
 #include "core/base/result.h"
 #include "geo/files/source_paths.h"
+#include "geo/places/bounding_box.h"
 #include "geo/sources/source.h"
 
 namespace oro {
-
-// A whole-degree cell by its south-west corner: lat in [-90, 89], lon in [-180, 179].
-struct TileName {
-    int lat_deg{};
-    int lon_deg{};
-};
-
-// "N46E008" and nothing else (letters of any case).
-std::optional<TileName> parse_tile_name(std::string_view text);
-// The same for a cell: its name.
-std::string tile_name(int lat_deg, int lon_deg);
 
 // What an .hgt's file name says: N46E008.hgt, N46E008.SRTMGL3.hgt, n46e008.hgt. Nothing when the name is not
 // of that form.

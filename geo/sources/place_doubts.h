@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 #include "geo/sources/source.h"
 
 namespace oro {

@@ -10,8 +10,8 @@
 
 #include "geo/files/letter_case.h"
 #include "geo/files/name_pattern.h"
+#include "geo/files/raster_library.h"
 #include "geo/sources/known_products.h"
-#include "geo/sources/raster_library.h"
 
 namespace oro {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 

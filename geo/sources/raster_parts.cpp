@@ -14,7 +14,7 @@
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/name_pattern.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 namespace {

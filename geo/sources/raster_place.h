@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/base/result.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 #include "geo/sources/source.h"
 
 namespace oro {

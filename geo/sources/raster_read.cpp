@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "geo/files/guarded_files.h"
+#include "geo/files/raster_library.h"
 #include "geo/sources/hgt_source.h"
-#include "geo/sources/raster_library.h"
 #include "geo/sources/raster_source.h"
 #include "geo/sources/undeclared_voids.h"
 #include "geo/sources/unwritten_parts.h"

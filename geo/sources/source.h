@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "geo/region/region.h"
+#include "geo/sources/source_report.h"
 
 namespace oro {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "geo/rasters/map_crs.h"
+#include "geo/files/raster_library.h"
 #include "geo/sources/known_products.h"
+#include "geo/sources/map_crs.h"
 #include "geo/sources/raster_crs.h"
-#include "geo/sources/raster_library.h"
 
 namespace oro {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 #include "geo/datum/vertical_datum.h"
-#include "geo/region/region.h"
+#include "geo/sources/region_request.h"
 #include "geo/sources/source.h"
 
 namespace oro {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 #include "geo/sources/source.h"
 
 namespace oro {

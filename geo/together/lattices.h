@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "geo/region/region.h"
+#include "geo/places/bounding_box.h"
+#include "geo/sources/region_request.h"
 #include "geo/sources/source.h"
 
 namespace oro {

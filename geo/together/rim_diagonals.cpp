@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cells/cell_diagonal.h"
+#include "core/terrain/cell_diagonal.h"
 
 namespace oro {
 namespace {

@@ -10,7 +10,7 @@
 
 namespace oro {
 
-// A cell's diagonal is decided by the 4 x 4 posts around it (core/cells/cell_diagonal.h), and falls where one
+// A cell's diagonal is decided by the 4 x 4 posts around it (core/terrain/cell_diagonal.h), and falls where one
 // of them is cut out. So the ground of cells within two posts of a rim is not what it is without the finer
 // file.
 struct RimDiagonals {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "geo/files/foreign_text.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "geo/files/guarded_files.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 namespace {

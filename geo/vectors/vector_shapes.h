@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 #include "geo/vectors/left_out.h"
 #include "geo/vectors/text_path.h"
 #include "geo/vectors/vector_file.h"

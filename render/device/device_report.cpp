@@ -136,14 +136,6 @@ Result<DeviceReport> describe_device(VkPhysicalDevice physical, const GpuOptions
     return report;
 }
 
-MeshletSplit meshlet_split_for(MeshletSplit request, const DeviceReport& device) {
-    if (request == MeshletSplit::whole || !device.mesh_ballots) return MeshletSplit::whole;
-    if (request == MeshletSplit::halves) return MeshletSplit::halves;
-    // Measured on a card whose subgroups have so many (docs/notes, half-a-meshlet).
-    constexpr std::uint32_t of_halves = 32;
-    return device.subgroup_size == of_halves ? MeshletSplit::halves : MeshletSplit::whole;
-}
-
 Result<RasterPath> raster_path_for(const std::string& request, const DeviceReport& device) {
     const std::optional<RasterRequest> named = raster_request_named(request);
     const bool wants_mesh =

@@ -256,7 +256,7 @@ Result<std::vector<DeviceReport>> Gpu::survey(const GpuOptions& options) {
 }
 
 Gpu::~Gpu() {
-    kept_pipelines_.clear();
+    kept_.reset();
     if (device_) vkDestroyDevice(device_, nullptr);
     if (messenger_) {
         const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(

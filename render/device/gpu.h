@@ -1,16 +1,13 @@
 // The device: which GPUs there are, what they can do, and the one that draws.
 #pragma once
 
-#include <compare>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "render/device/vulkan.h"
-#include "shaders/shared.h"
 
 namespace oro {
 
@@ -73,44 +70,11 @@ GpuOptions gpu_options_from_environment();
 enum class RasterPath { mesh, compute };
 
 // The way that a request ("auto", "mesh", "compute") means on a device; auto takes mesh shaders where there
-// are any, without measuring (render/device/calibration.h does). Errors (no_device): the device lacks what
+// are any, without measuring (render/frame/calibration.h does). Errors (no_device): the device lacks what
 // the request names.
 Result<RasterPath> raster_path_for(const std::string& request, const DeviceReport& device);
 // "mesh" or "compute".
 std::string name_of(RasterPath path);
-
-// What a mesh workgroup draws at a time: as many whole meshlets as it has room for, or half of one. The
-// triangle ids are the same.
-enum class MeshletSplit { by_device, whole, halves };
-// What a device draws where so much is asked: halves only where it has mesh_ballots, of itself where its
-// subgroups have 32 besides. Never by_device.
-MeshletSplit meshlet_split_for(MeshletSplit request, const DeviceReport& device);
-
-struct Pipelines;  // render/frame/pipelines.h
-
-// How many entries the compute path's lists take in a frame, of those that their buffers hold
-// (shaders/shared.h: boxes_max and so on). Fewer in tests of full lists only.
-struct ListRoom {
-    std::uint32_t boxes{gpu::boxes_max};
-    std::uint32_t large{gpu::large_max};
-    std::uint32_t tasks{gpu::tasks_max};
-    std::uint32_t clips{gpu::clips_max};
-    auto operator<=>(const ListRoom&) const = default;
-};
-
-// Which of a device's pipelines: those of one way of drawing, as render/frame/pipelines.h, PipelineWants,
-// says.
-struct PipelinesKey {
-    RasterPath path{};
-    bool record_positions{};
-    bool leave_out_small{};
-    bool overdraw{};
-    bool packed_heights{};
-    bool shares_triangles{};
-    MeshletSplit split{MeshletSplit::whole};
-    ListRoom list_room{};
-    auto operator<=>(const PipelinesKey&) const = default;
-};
 
 // Instance, device, queue. Not copyable or movable: everything else points to it.
 class Gpu {
@@ -138,11 +102,9 @@ class Gpu {
     // Messages of the validation layer so far (warnings and errors).
     [[nodiscard]] const std::vector<std::string>& validation_messages() const { return messages_; }
 
-    // Null until somebody keeps some there (render/frame/pipelines.h, shared_pipelines); they end with the
-    // device.
-    [[nodiscard]] std::shared_ptr<Pipelines>& kept_pipelines(const PipelinesKey& key) const {
-        return kept_pipelines_[key];
-    }
+    // What is made once for the device and ends just before it: render/pipelines/pipelines.h keeps its
+    // programs there, and nobody else anything. Null until then.
+    [[nodiscard]] std::shared_ptr<void>& kept() const { return kept_; }
     // Memory type with all of `properties` among the allowed bits; nothing when the device has none.
     [[nodiscard]] std::optional<std::uint32_t> memory_type(std::uint32_t allowed_bits,
                                                            VkMemoryPropertyFlags properties) const;
@@ -170,7 +132,7 @@ class Gpu {
     DeviceReport report_;
     VkPhysicalDeviceMemoryProperties memory_{};
     std::vector<std::string> messages_;
-    mutable std::map<PipelinesKey, std::shared_ptr<Pipelines>> kept_pipelines_;
+    mutable std::shared_ptr<void> kept_;
     PFN_vkCmdDrawMeshTasksIndirectEXT draw_mesh_tasks_indirect_{nullptr};
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name_{nullptr};
 };

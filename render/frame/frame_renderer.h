@@ -11,7 +11,7 @@
 #include "core/measure/drawn_point.h"
 #include "render/device/resources.h"
 #include "render/frame/grid_frame.h"
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 #include "render/raster/compute_raster.h"
 #include "render/raster/occlusion.h"
 #include "render/shading/air_tables.h"

@@ -7,7 +7,7 @@
 #include "core/lod/ground_means.h"
 #include "render/frame/frame_layout.h"
 #include "render/frame/frame_renderer.h"
-#include "render/shading/shading.h"
+#include "render/pipelines/shading_pipelines.h"
 
 namespace oro {
 namespace {

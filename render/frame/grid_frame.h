@@ -9,7 +9,7 @@
 #include "core/frame/frame_plan.h"
 #include "core/frame/seen_ground.h"
 #include "render/device/resources.h"
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 #include "render/shading/caster_buffers.h"
 #include "render/shading/drape_wants.h"
 

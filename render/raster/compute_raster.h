@@ -3,7 +3,7 @@
 
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 
 namespace oro {
 

@@ -7,7 +7,7 @@
 
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 #include "render/raster/faster_way.h"
 
 namespace oro {

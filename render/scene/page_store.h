@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/terrain/height_quantization.h"
+#include "core/frame/height_quantization.h"
 #include "core/terrain/page.h"
 #include "render/device/resources.h"
 #include "render/scene/page_budget.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "render/shading/shading.h"
+#include "render/pipelines/shading_pipelines.h"
 
 namespace oro {
 namespace {

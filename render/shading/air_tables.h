@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "render/device/resources.h"
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 #include "shaders/shared.h"
 
 namespace oro {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstring>
 
-#include "render/shading/shading.h"
+#include "render/pipelines/shading_pipelines.h"
 #include "shaders/shared_places.h"
 
 namespace oro {

@@ -7,8 +7,8 @@
 
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
-#include "render/frame/pipelines.h"
-#include "render/shading/shading.h"
+#include "render/pipelines/pipelines.h"
+#include "render/pipelines/shading_pipelines.h"
 #include "shaders/shared_places.h"
 
 namespace oro {

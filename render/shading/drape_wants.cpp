@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "render/shading/shading.h"
+#include "render/pipelines/shading_pipelines.h"
 
 namespace oro {
 namespace {

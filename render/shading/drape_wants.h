@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "render/frame/pipelines.h"
+#include "render/pipelines/pipelines.h"
 #include "render/scene/drape_store.h"
 #include "shaders/shared.h"
 

@@ -5,7 +5,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Li
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer LargeTriangles { LargeTriangle at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer LargeTasks { LargeTask at[]; };
 
-// How many find room in the lists: all that the buffers hold, but in tests of full lists (render/raster/pipeline_parts.cpp).
+// How many find room in the lists: all that the buffers hold, but in tests of full lists (render/pipelines/pipeline_parts.cpp).
 layout(constant_id = 101) const uint boxes_room = boxes_max;
 layout(constant_id = 102) const uint large_room = large_max;
 layout(constant_id = 103) const uint tasks_room = tasks_max;

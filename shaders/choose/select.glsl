@@ -1,5 +1,5 @@
 // Which meshlets are worth drawing. Conservative: may keep what is hidden, never drops what can be seen. Compiled as GLSL for
-// the GPU and as C++ by core/frame/culling.cpp, so that what is tested against brute force is what runs.
+// the GPU and as C++ by core/earth/culling.cpp, so that what is tested against brute force is what runs.
 
 // A sphere in the page frame that lies wholly outside one of the planes. Slack: above the float rounding of every term.
 ORO_FUNCTION bool sphere_beyond_plane(vec3 centre, float radius, vec4 plane) {

@@ -82,7 +82,7 @@ bool rises_at(PageBlocks block, uvec2 quad) {
 }
 
 // The posts of one of a quad's two triangles (0: that with its western edge) as (row, column), counter-clockwise seen from above;
-// as core/cells/cell_diagonal.h has them.
+// as core/terrain/cell_diagonal.h has them.
 void quad_posts(uvec2 nw, bool rises, uint odd, out uvec2 a, out uvec2 b, out uvec2 c) {
     uvec2 sw = nw + uvec2(1u, 0u), se = nw + uvec2(1u, 1u), ne = nw + uvec2(0u, 1u);
     a = rises && odd != 0u ? sw : nw;

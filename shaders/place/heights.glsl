@@ -10,7 +10,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Pa
 };
 
 // Whether the frame's pages may have packed heights: programs without the code for them take fewer registers.
-layout(constant_id = 100) const bool heights_packed = false;  // render/raster/pipeline_parts.cpp
+layout(constant_id = 100) const bool heights_packed = false;  // render/pipelines/pipeline_parts.cpp
 
 // As unpacked_height of core/packed/packed_heights.cpp.
 int packed_height(PackedPages page, uvec2 place) {

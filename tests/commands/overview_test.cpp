@@ -1,5 +1,5 @@
 // The view without --at holds the whole region with a margin of 5 %, whatever its shape and the picture's.
-#include "apps/eye/overview.h"
+#include "apps/view/overview.h"
 
 #include <gtest/gtest.h>
 

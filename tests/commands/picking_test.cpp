@@ -1,5 +1,5 @@
 // What is seen at a point of a picture, on ground whose heights are written down here.
-#include "apps/window/picking.h"
+#include "apps/drawing/picking.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a picture of a place shows: all of a cell; any other place in its middle, with nothing before it.
-#include "apps/eye/place_camera.h"
+#include "apps/view/place_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "apps/eye/overview.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/summit_words.h"
+#include "apps/view/overview.h"
 #include "apps/window/jump.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/ground.h"

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro::test {
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/base/parallel.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/extremes/accuracy_table.h"
 #include "tests/extremes/stage.h"

@@ -23,7 +23,7 @@
 #include "core/cluster_file/cluster_file.h"
 #include "core/cluster_file/cluster_format.h"
 #include "core/cluster_frame/cluster_choice.h"
-#include "core/clusters/cluster_cut.h"
+#include "core/cluster_frame/cluster_cut.h"
 #include "core/clusters/graph_builder.h"
 #include "core/surface/grid_surface.h"
 #include "core/terrain/drawn_heights.h"

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

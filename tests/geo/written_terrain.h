@@ -15,8 +15,9 @@
 #include <string>
 #include <vector>
 
+#include "geo/files/raster_library.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
-#include "geo/sources/raster_library.h"
 
 namespace oro::test {
 

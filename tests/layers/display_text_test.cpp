@@ -21,7 +21,7 @@ const std::string prose =
     "[a-z]+_text)";
 
 // The one file that makes words of a source's facts, and for baked regions facts of these words.
-const std::string words_and_back = "geo/region/source_words.cpp";
+const std::string words_and_back = "geo/sources/source_words.cpp";
 
 // The lines of a source that compare prose with something, or look for something in it.
 std::vector<std::string> decisions_on_prose(const std::string& text) {

@@ -8,6 +8,7 @@
 
 #include "core/baked/file_pages.h"
 #include "core/base/checksum.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/mutations/mutation.h"
 #include "tests/support/test_data.h"

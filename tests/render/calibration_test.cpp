@@ -1,5 +1,5 @@
 // The calibration finishes, measures both ways of drawing and knows the faster.
-#include "render/device/calibration.h"
+#include "render/frame/calibration.h"
 
 #include <cstdio>
 

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "core/frame/casters.h"
-#include "core/terrain/height_quantization.h"
+#include "core/frame/height_quantization.h"
 #include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/drawn/made_renderer.h"
 #include "tests/support/rough_terrain.h"

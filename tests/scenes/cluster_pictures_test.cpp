@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/measure/picture_errors.h"
 #include "core/truth/view_set.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/asked_count.h"

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <random>
 
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/support/asked_count.h"
 #include "tests/support/drawn/cracks.h"

@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/terrain/ground.h"
 #include "core/truth/oracle.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "render/frame/frame_renderer.h"
 #include "render/scene/scene.h"

@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
-#include "core/cells/cell_diagonal.h"
 #include "core/measure/picture_errors.h"
+#include "core/terrain/cell_diagonal.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/ground.h"
 #include "geo/together/cut_regions.h"

@@ -12,6 +12,7 @@
 #include "core/baked/file_pages.h"
 #include "core/cluster_frame/region_clusters.h"
 #include "core/terrain/ground.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/support/drawn/cracks.h"
 #include "tests/support/drawn/streamed_frames.h"

@@ -1,6 +1,7 @@
 // Tiles of the real data as one region.
 #pragma once
 
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/support/test_data.h"
 

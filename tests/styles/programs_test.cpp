@@ -4,7 +4,7 @@
 
 #include "apps/view/style.h"
 #include "render/frame/picture_renderer.h"
-#include "render/raster/pipeline_parts.h"
+#include "render/pipelines/pipeline_parts.h"
 #include "tests/styles/region_with_means.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/test_data.h"

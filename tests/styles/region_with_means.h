@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/drawing/region_scene.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 
 namespace oro::test {

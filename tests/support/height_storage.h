@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/terrain/height_quantization.h"
+#include "core/frame/height_quantization.h"
 
 namespace oro::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands/options.h"
+#include "apps/options/options.h"
 #include "apps/view/view.h"
 #include "core/truth/true_surface.h"
 #include "geo/region/region.h"

@@ -8,10 +8,11 @@
 #include <ctime>
 #include <map>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/view/accuracy.h"
 #include "core/base/parallel.h"
 #include "core/measure/picture_errors.h"
+#include "geo/opening/open_region.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/asked_count.h"
 #include "tests/support/gpu_fixture.h"

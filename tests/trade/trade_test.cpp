@@ -8,6 +8,7 @@
 #include "apps/trade/trade_measurement.h"
 #include "core/base/parallel.h"
 #include "core/truth/view_set.h"
+#include "geo/opening/open_region.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"

@@ -5,9 +5,10 @@
 #include <string>
 
 #include "apps/bench/bench_style.h"
-#include "core/terrain/height_quantization.h"
+#include "core/frame/height_quantization.h"
 #include "render/device/gpu.h"
 #include "render/device/raster_request.h"
+#include "render/pipelines/pipelines.h"
 
 namespace oro {
 

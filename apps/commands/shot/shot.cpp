@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <span>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/verification.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
@@ -12,6 +11,7 @@
 #include "apps/commands/shot/shot_json.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/picking.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/eye/asked_summit.h"
@@ -27,10 +27,10 @@
 #include "apps/report/region_json.h"
 #include "apps/report/resampling_words.h"
 #include "apps/report/summit_words.h"
+#include "apps/view/accuracy.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_changes.h"
-#include "apps/window/picking.h"
 #include "core/base/elapsed.h"
 #include "core/base/files_read.h"
 #include "core/lod/ground_means.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/accuracy/pixel_check.h"
-#include "apps/commands/options.h"
 #include "apps/commands/shot/shot_json.h"
+#include "apps/options/options.h"
 #include "apps/output/picture_file.h"
 
 namespace oro {

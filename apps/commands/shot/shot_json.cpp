@@ -1,12 +1,12 @@
 #include "apps/commands/shot/shot_json.h"
 
-#include "apps/accuracy/truth.h"
 #include "apps/layers/picture_layers.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
+#include "apps/view/truth.h"
 #include "render/device/device_words.h"
 
 namespace oro {

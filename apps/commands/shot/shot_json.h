@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/accuracy/accuracy.h"
 #include "apps/accuracy/beyond_data.h"
 #include "apps/accuracy/pixel_check.h"
 #include "apps/accuracy/verification.h"
+#include "apps/drawing/picking.h"
 #include "apps/output/picture_file.h"
+#include "apps/view/accuracy.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
-#include "apps/window/picking.h"
 #include "core/terrain/summit.h"
 #include "geo/region/region.h"
 #include "render/device/gpu.h"

@@ -5,10 +5,11 @@
 #include <utility>
 
 #include "apps/command_line/refusals.h"
+#include "apps/options/view_limits.h"
 #include "apps/report/json_object.h"
 #include "apps/view/view.h"
-#include "apps/view/view_limits.h"
 #include "core/sight/lookout.h"
+#include "geo/opening/open_region.h"
 
 namespace oro {
 

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands/options.h"
 #include "apps/eye/standpoint.h"
+#include "apps/options/options.h"
+#include "core/base/progress.h"
 #include "core/truth/true_ground.h"
 #include "geo/together/region_ground.h"
 

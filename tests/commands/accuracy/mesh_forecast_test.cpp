@@ -1,5 +1,6 @@
 // What plan tells of blocks and clusters, of regions of any size.
 #include "apps/accuracy/mesh_forecast.h"
+#include "geo/opening/open_region.h"
 
 #include <gtest/gtest.h>
 

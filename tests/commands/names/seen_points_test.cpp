@@ -1,5 +1,6 @@
 // Which named points an eye sees: against a walk along each sight line in small steps.
 #include "apps/names/seen_points.h"
+#include "geo/opening/open_region.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // Lines on the ground: on the surface all along, and on the picture where their places project.
 #include "apps/overlay/ground_line.h"
+#include "geo/opening/open_region.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // The names of a panorama over real summits: where GeographicLib has them, and those alone that a walk along
 // the sight line sees.
 #include "apps/panorama/panorama_names.h"
+#include "geo/opening/open_region.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,8 @@
 #include <memory>
 #include <vector>
 
-#include "apps/names/named_points.h"
 #include "apps/panorama/elevations.h"
+#include "apps/vectors/named_points.h"
 #include "core/base/parallel.h"
 #include "core/light/sun_position.h"
 #include "geo/places/geodesic.h"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/clusters/cluster_cut.h"
+#include "core/cluster_frame/cluster_cut.h"
 #include "core/clusters/graph_builder.h"
 #include "core/surface/grid_surface.h"
 #include "core/terrain/triangle_heights.h"

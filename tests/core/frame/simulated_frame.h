@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/frame/culling.h"
+#include "core/earth/culling.h"
 #include "core/frame/frame_plan.h"
 #include "core/lod/levels.h"
 #include "core/lod/levels_gpu.h"

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "core/cells/floor_within.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/floor_within.h"
 
 namespace oro {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/cells/cell_diagonal.h"
 #include "core/lod/levels_gpu.h"
+#include "core/terrain/cell_diagonal.h"
 
 namespace oro {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "core/net/page_on_net.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/page_on_net.h"
 #include "tests/support/net_terrain.h"
 
 namespace oro {

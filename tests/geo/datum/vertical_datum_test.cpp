@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <random>
 
-#include "geo/region/source_words.h"
 #include "geo/sources/source.h"
+#include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"

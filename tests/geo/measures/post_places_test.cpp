@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "geo/sources/raster_library.h"
+#include "geo/files/raster_library.h"
 
 namespace oro {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "geo/files/raster_library.h"
 #include "geo/files/source_paths.h"
-#include "geo/sources/raster_library.h"
 #include "geo/sources/raster_source.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"

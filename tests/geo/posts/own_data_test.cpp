@@ -8,8 +8,9 @@
 #include <random>
 
 #include "core/terrain/ground.h"
+#include "geo/files/raster_library.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
-#include "geo/sources/raster_library.h"
 #include "tests/support/test_data.h"
 
 namespace oro::test {

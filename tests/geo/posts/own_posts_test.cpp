@@ -10,10 +10,10 @@
 #include <cmath>
 #include <random>
 
-#include "core/net/page_on_net.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/page_on_net.h"
+#include "geo/files/raster_library.h"
 #include "geo/region/region.h"
-#include "geo/sources/raster_library.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"

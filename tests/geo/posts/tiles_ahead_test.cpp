@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "geo/files/raster_library.h"
 #include "geo/files/source_paths.h"
 #include "geo/region/region_grid.h"
 #include "geo/sources/hgt_source.h"
-#include "geo/sources/raster_library.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "geo/opening/region_sources.h"
 #include "geo/region/region_grid.h"
-#include "geo/region/region_sources.h"
 
 namespace oro {
 namespace {

@@ -13,7 +13,7 @@
 #include "core/baked/region_format.h"
 #include "core/base/checksum.h"
 #include "core/terrain/ground.h"
-#include "geo/region/baked_region.h"
+#include "geo/opening/baked_region.h"
 #include "geo/region/region_description.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/mutated_bytes.h"

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/terrain/ground.h"
 #include "core/truth/oracle.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/support/test_data.h"
 

@@ -6,6 +6,7 @@
 
 #include "core/packed/packed_heights.h"
 #include "core/terrain/page.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/support/test_data.h"
 

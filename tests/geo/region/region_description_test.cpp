@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 
 namespace oro {
 namespace {

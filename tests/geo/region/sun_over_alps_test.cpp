@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/light/sun_over_terrain.h"
 #include "core/terrain/ground.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/core/light/sun_scan.h"
 #include "tests/support/test_data.h"

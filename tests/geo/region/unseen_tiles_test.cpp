@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/unseen/unseen_ground.h"
+#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/support/test_data.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 

@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 

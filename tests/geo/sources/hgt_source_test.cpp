@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "geo/region/source_words.h"
+#include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 

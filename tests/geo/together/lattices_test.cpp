@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/region/region_sources.h"
+#include "geo/opening/region_sources.h"
 
 namespace oro {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/cells/cell_diagonal.h"
+#include "core/terrain/cell_diagonal.h"
 
 namespace oro {
 namespace {

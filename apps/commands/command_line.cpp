@@ -1,0 +1,377 @@
+#include "apps/commands/command_line.h"
+
+#include <CLI/CLI.hpp>
+
+#include "apps/command_line/help.h"
+#include "apps/command_line/option_group.h"
+#include "apps/commands/options.h"
+
+namespace oro {
+namespace {
+
+constexpr const char* hidden = "";
+constexpr const char* draw_view =
+    "Take data, eye and settings from a picture that orograph wrote, or from its view in a .json file. "
+    "Looks, detail and --size may be changed; the eye and the part of the data may not.";
+
+void add_json(CLI::App& command, bool& json) {
+    OptionGroup(command, "Messages")
+        .flag("--json", json, "Print the results as one JSON object on standard output.");
+}
+
+void add_quiet(CLI::App& command, bool& quiet, const std::string& but) {
+    OptionGroup(command, "Messages").flag("-q,--quiet", quiet, "Print nothing but " + but + ".");
+}
+
+void add_shot(CLI::App& app, ShotOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "shot", "Write a picture of terrain that tells where it was taken from and can be drawn again");
+    OptionGroup picture(command, "The picture");
+    picture.option("--out", options.out, "FILE",
+                   "The picture to write: .png, .jpg or .tif. With --view it may be left out: then the "
+                   "picture is drawn again and compared with the file.");
+    picture.option("--view", options.view_file, "FILE", draw_view);
+    add_time(command, "The picture", options.view);
+    picture.flag("--verify", options.verify,
+                 "Measure how far the picture is from full detail, in metres and pixels, and write "
+                 "NAME.error.png beside it.");
+    picture.flag("--layers", options.layers,
+                 "Write what each pixel shows as TIFFs beside the picture: NAME.longitude.tif and latitude, "
+                 "height (above sea level), ellipsoidal-height, distance, slope, source and shadow.");
+    picture.flag(
+        "--ortho", options.ortho,
+        "Draw a map from straight above instead, of all the data or of --bbox: a GeoTIFF with opacity "
+        "(or .png, .jpg), and a world file beside it.");
+    picture.option(
+        "--crs", options.crs, "CRS",
+        "The map's coordinate reference system, as GDAL takes it: EPSG:2056. Default: UTM on WGS84. "
+        "Needs --ortho.");
+    picture.number("--resolution", options.resolution, "UNITS",
+                   "A side of the map's pixels in the unit of its CRS: metres of UTM, degrees of EPSG:4326. "
+                   "Default: about the data's. Not with --size. Needs --ortho.");
+    CLI::Option& legend = picture.flag(
+        "--legend", options.view.legend,
+        "Add a strip below the picture: north, scale, colours, eye, sun and where the data come from. "
+        "Pictures of --show have it by themselves.");
+    picture.flag("--no-legend", options.no_legend, "Leave this strip out. Not with --legend.")
+        .excludes(&legend);
+    add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
+    add_no_paths(command, "The picture", options.no_paths);
+    add_data_changed(command, options.data_changed);
+    picture.flag("--overwrite", options.overwrite, "Replace files that are there.");
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    add_memory_options(command, options.memory);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "errors, and the table of --verify");
+    set_help(command, {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
+                       "",
+                       "docs/commands/shot.md"});
+}
+
+void add_panorama(CLI::App& app, PanoramaOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "panorama", "Write a picture all around a place, with rulers and the names of what is seen");
+    OptionGroup picture(command, "The picture");
+    picture.option("--out", options.out, "FILE",
+                   "The file to write: .png, .jpg, .tif, or .svg, in which names and figures are text.");
+    picture.option(
+        "--sector", options.sector, "FROM,TO",
+        "Show these azimuths alone, in degrees clockwise from north: 300,60 is from the north-west "
+        "to the north-east. Default: all around, from north to north.");
+    picture.option("--elevation", options.elevation, "LOW,HIGH",
+                   "Show these angles above level, in degrees, -75 to 75. Default: from 10 degrees below the "
+                   "skyline's lowest place to some sky above its highest.");
+    picture.whole_number(
+        "--width", options.width_px, 100, 50000, "PIXELS",
+        "Width of the picture, 100 to 50000 (default 20 for each degree). Its height follows.");
+    picture.choice("--ridges", options.ridges, {"on", "off"},
+                   "Draw lines where nearer ground ends before farther ground or the sky (default on).");
+    picture.option(
+        "--view", options.view_file, "FILE",
+        "Take data, eye and settings from a panorama that orograph wrote. Looks, detail and --width "
+        "may be changed.");
+    add_time(command, "The picture", options.view);
+    add_no_paths(command, "The picture", options.no_paths);
+    add_data_changed(command, options.data_changed);
+    picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    command.get_option("--at")->description(
+        "Where the eye is: latitude,longitude as in 46.57,7.99, or in another way that shot takes.");
+    command.get_option("--above")->description(
+        "Height of the eye over the ground there (default 2). Needs --at. Not with --altitude.");
+    command.get_option("--air")->description(
+        "standard (default): air that bends light less the higher the eye is, by 0.13 at sea level, 0.091 at "
+        "3,000 m and nothing from space. Not with --refraction.");
+    command.get_option("--refraction")
+        ->description(
+            "How much the air bends light (a surveyor's coefficient of refraction), the same at all heights, "
+            "-1 to 0.9: 0 is not at all, 0.13 is usual by day. Not with --air.");
+    hide(command, {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--show",
+                   "--tolerance"});
+    add_memory_options(command, options.memory);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "errors");
+    set_help(command, {{"panorama PATH... --at PLACE --out FILE [OPTIONS]",
+                        "panorama --view PICTURE --out FILE [OPTIONS]"},
+                       "The Earth's curvature always counts.",
+                       "docs/commands/panorama.md"});
+}
+
+void add_compare(CLI::App& app, CompareOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("compare", "Measure how far a picture is from full detail, in metres and pixels");
+    OptionGroup picture(command, "The picture");
+    picture
+        .option("PICTURE", options.view_file, "",
+                "A picture that orograph wrote, or its view in a .json file. It is drawn again, and stays as "
+                "it is.")
+        .required();
+    picture.option("--out", options.out, "FILE",
+                   "Write a picture of the errors, a .png. Without it they are told in figures only.");
+    add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
+    add_data_changed(command, options.data_changed);
+    picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    command.get_option("PATH")->description("The picture's elevation data, where they have moved.");
+    hide(command, {"--bbox", "--tile", "--height-unit", "--source-crs", "--source-vertical", "--strict-datum",
+                   "--fill-voids", "--resample", "--order", "--feather"});
+    add_memory_options(command, options.memory);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the table and errors");
+    set_help(command, {{"compare PICTURE [PATH...] [OPTIONS]"}, "", "docs/commands/compare.md"});
+}
+
+void add_view(CLI::App& app, WindowOptions& options) {
+    CLI::App& command = *app.add_subcommand("view", "Fly over terrain in a window");
+    OptionGroup window(command, "The window");
+    window.option(
+        "--view", options.view_file, "FILE",
+        "Begin with data, eye and settings of a picture that orograph wrote, or of its view in a .json file. "
+        "Looks, detail and --size may be changed; the eye and the part of the data may not.");
+    add_no_paths(command, "The window", options.no_paths);
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    command.get_option("--size")->description("Size of the window in pixels (default 1280x720).");
+    add_time(command, hidden, options.view);
+    hide(command, {"--tolerance"});
+    add_memory_options(command, options.memory);
+    add_quiet(command, options.quiet, "errors");
+    set_help(command,
+             {{"view PATH... [OPTIONS]", "view --view PICTURE [OPTIONS]"},
+              "Keys: W A S D move; Space and Ctrl go up and down; Shift is faster. Drag the mouse, or Q E R "
+              "F, to look. Right click tells what is there, in the title and on standard output. G goes to a "
+              "place that you type. P writes a picture into the working folder. Esc leaves.",
+              "docs/commands/view.md"});
+}
+
+void add_plan(CLI::App& app, PlanOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("plan", "Predict how far off a picture would be, and why, before it is drawn");
+    OptionGroup view(command, "The picture");
+    view.option("--view", options.view_file, "FILE", draw_view);
+    add_unseen_ceiling(command, "The picture", options.unseen_ceiling_m);
+    add_time(command, hidden, options.view);
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    command.get_option("--tolerance")
+        ->description(
+            "How far off the picture may be, 0.001 to 1000, e.g. 1px (default 1px). Errors are judged by "
+            "it.");
+    hide(command, {"--style",       "--drape",        "--drape-opacity",  "--drape-values",  "--names",
+                   "--names-field", "--overlay",      "--overlay-colour", "--overlay-width", "--overlay-fill",
+                   "--sun",         "--sun-time",     "--visibility",     "--sea",           "--rim",
+                   "--shadows",     "--sky-openness", "--labels",         "--edges",         "--samples",
+                   "--pipeline",    "--show",         "--mesh",           "--mesh-level"});
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
+                       "Nothing is drawn or written.",
+                       "docs/commands/plan.md"});
+}
+
+void add_trade(CLI::App& app, TradeOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "trade", "Measure what accuracy costs: draw pictures with many settings, compare time and error");
+    OptionGroup report(command, "The report");
+    report.option("--out", options.out, "FOLDER",
+                  "Write trade.csv and trade.html into this folder. Default: the working folder.");
+    report.whole_number("--views", options.views, 1, 1000, "N",
+                        "Draw from so many places, 1 to 1000 (default 6): the first sees all the data, the "
+                        "others are chosen at all heights. With --at or --view there is that one alone.");
+    report.whole_number("--repeats", options.repeats, 1, 1000, "N",
+                        "Draw each picture so many times, 1 to 1000 (default 3). The median time counts.");
+    report.option("--view", options.view_file, "FILE", draw_view);
+    add_time(command, "The report", options.view);
+    report.flag("--overwrite", options.overwrite, "Replace files that are there.");
+    add_region_options(command, options.region);
+    add_view_options(command, options.view);
+    command.get_option("--size")->description("Size of the pictures in pixels (default 640x360).");
+    hide(command, {"--names",        "--names-field", "--overlay", "--overlay-colour", "--overlay-width",
+                   "--overlay-fill", "--tau",         "--earth",   "--refraction",     "--air",
+                   "--precision",    "--geoid",       "--heights", "--accuracy",       "--tolerance",
+                   "--labels",       "--edges",       "--samples", "--show",           "--mesh",
+                   "--mesh-level"});
+    add_memory_options(command, options.memory);
+    add_quiet(command, options.quiet, "the table and errors");
+    set_help(command,
+             {{"trade PATH... [OPTIONS]", "trade --view PICTURE [OPTIONS]"},
+              "The settings to compare are --tau, --earth, --refraction, --air, --precision, --geoid, "
+              "--heights and --accuracy. trade sets them itself.",
+              "docs/commands/trade.md"});
+}
+
+void add_sun(CLI::App& app, SunOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "sun", "Tell when the sun first and last shows at a place, over its terrain and a plain horizon");
+    OptionGroup day(command, "The day");
+    day.option("--date", options.date, "DATE", "The day, e.g. 2026-06-21 (default: today).");
+    day.option(
+        "--zone", options.zone, "ZONE",
+        "Distance from UTC of the day and of the times that are told, e.g. +02:00. Default: the day is "
+        "from midnight by the sun to midnight, the times are UTC.");
+    add_region_options(command, options.region);
+    command.get_option("PATH")->description(
+        "Files or folders of elevation data, as of shot. Without any: over a plain horizon alone.");
+    add_place_options(command, options.view);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"sun --at PLACE [PATH...] [OPTIONS]"}, "", "docs/commands/sun.md"});
+}
+
+void add_sight(CLI::App& app, SightOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("sight", "Tell whether one place is seen from another, and by how many metres");
+    OptionGroup line(command, "The line");
+    line.option("--from", options.from, "PLACE",
+                "Where the eye is: latitude,longitude as in 46.57,7.99, or in another way that shot takes.");
+    line.option("--to", options.to, "PLACE", "What is looked at, as --from.");
+    CLI::Option& above = line.number("--above", options.above_m, "METRES",
+                                     "Height of the eye over the ground at --from (default 2). Not with "
+                                     "--altitude.");
+    line.number("--altitude", options.altitude_m, "METRES",
+                "Height of the eye above sea level instead. Not with --above.")
+        .excludes(&above);
+    add_on_summit(line, options.on_summit, "the eye stands", "--from");
+    line.number("--target", options.target_m, "METRES",
+                "Height of what is looked at over the ground at --to (default 0: the ground itself).");
+    add_region_options(command, options.region);
+    add_air_options(command, options.air);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"sight PATH... --from PLACE --to PLACE [OPTIONS]"},
+                       "The Earth's curvature always counts. Hidden is an answer, too: the exit code is 0.",
+                       "docs/commands/sight.md"});
+}
+
+void add_profile(CLI::App& app, ProfileOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("profile", "Tell how high the ground is along a line, as text, table or drawing");
+    OptionGroup line(command, "The line");
+    line.option("--along", options.along, "LINE",
+                "A file with a line (GPX, KML, GeoJSON, GeoPackage); or two places or more with ; between "
+                "them, as in \"46.57,7.99; 46.62,8.05\". From place to place it is the shortest way.");
+    line.whole_number("--line", options.line, 1, 1000000000, "N",
+                      "Which line of a file that has several, from 1. Default: the only one.");
+    line.number("--step", options.step_m, "METRES",
+                "Ask for heights so far apart. Default: wherever the line passes from one triangle of the "
+                "ground to the next: between those the ground is straight.");
+    line.number("--climb-threshold", options.climb_threshold_m, "METRES",
+                "Rises and falls of so many metres or more make the ascent and the descent, as guides count "
+                "them, 0 to 10000 (default 10). The sum of every one is told beside them.");
+    line.option("--out", options.out, "FILE",
+                "The file to write: .csv, .svg or .geojson. Without it the sums alone are told.");
+    line.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command,
+             {{"profile PATH... --along LINE [--out FILE] [OPTIONS]"}, "", "docs/commands/profile.md"});
+}
+
+void add_viewshed(CLI::App& app, ViewshedOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("viewshed", "Write which places are seen from one or several others (GeoTIFF)");
+    OptionGroup shed(command, "The viewshed");
+    shed.option("--at", options.at, "PLACE",
+                "Where the observer is: latitude,longitude as in 46.57,7.99, or in another way that shot "
+                "takes. Give it again for each further observer.")
+        .allow_extra_args(false);  // what follows the place is elevation data
+    CLI::Option& above = shed.number("--above", options.above_m, "METRES",
+                                     "Height of observers over the ground (default 2). Not with --altitude.");
+    shed.number("--altitude", options.altitude_m, "METRES",
+                "Height of observers above sea level instead. Not with --above.")
+        .excludes(&above);
+    add_on_summit(shed, options.on_summit, "each observer stands", "its --at");
+    shed.number("--target", options.target_m, "METRES",
+                "Height of what is looked at over the ground of each post (default 0: the ground itself).");
+    shed.number("--radius", options.radius_km, "KM", "How far to look, 0.01 to 1000 (default 20).");
+    shed.option("--out", options.out, "FILE", "The GeoTIFF to write (.tif).");
+    shed.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    add_air_options(command, options.air);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"viewshed PATH... --at PLACE --out FILE.tif [OPTIONS]"},
+                       "The Earth's curvature always counts.",
+                       "docs/commands/viewshed.md"});
+}
+
+void add_bake(CLI::App& app, BakingOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "bake", "Write elevation data into one file (.oro) that opens at once, however large it is");
+    OptionGroup file(command, "The file");
+    file.option("--out", options.out, "FILE", "The .oro file to write.");
+    file.choice("--mesh", options.mesh, {"grid", "clusters"},
+                "What is drawn of it: blocks of the grid (default), or clusters beside them, which take some "
+                "seconds a tile to build, and a fraction of the triangles.");
+    file.flag("--overwrite", options.overwrite, "Replace a file that is there.");
+    add_region_options(command, options.region);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "errors");
+    set_help(command, {{"bake PATH... --out FILE.oro [OPTIONS]"},
+                       "When a bake is stopped half-way, FILE.oro.partial and FILE.oro.partial-stitched "
+                       "stay. Give the same command again: it goes on from there and removes them.",
+                       "docs/commands/bake.md"});
+}
+
+void add_info(CLI::App& app, InfoOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("info", "Tell what elevation data are, what they cover and what is missing");
+    add_region_options(command, options.region);
+    OptionGroup(command, "Elevation data")
+        .flag("--check", options.check,
+              "Read all of a .oro file, and name the first damaged byte. Other files are always read whole.");
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"info PATH... [OPTIONS]"}, "", "docs/commands/info.md"});
+}
+
+void add_doctor(CLI::App& app, DoctorOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("doctor", "Tell what this machine can draw, what it lacks and what helps");
+    add_json(command, options.json);
+    set_help(command, {{"doctor [OPTIONS]"}, "", "docs/commands/doctor.md"});
+}
+
+}  // namespace
+
+void add_commands(CLI::App& app, CommandLine& line) {
+    set_program_help(app);
+    add_shot(app, line.shot);
+    add_panorama(app, line.panorama);
+    add_view(app, line.view);
+    add_compare(app, line.compare);
+    add_plan(app, line.plan);
+    add_trade(app, line.trade);
+    add_sun(app, line.sun);
+    add_sight(app, line.sight);
+    add_profile(app, line.profile);
+    add_viewshed(app, line.viewshed);
+    add_bake(app, line.bake);
+    add_info(app, line.info);
+    add_doctor(app, line.doctor);
+}
+
+}  // namespace oro

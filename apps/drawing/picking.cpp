@@ -1,0 +1,56 @@
+#include "apps/drawing/picking.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "core/truth/oracle.h"
+#include "geo/places/geodesic.h"
+#include "geo/posts/source_at.h"
+
+namespace oro {
+
+Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround& ground,
+                                            glm::dvec2 point_px) {
+    const Camera& camera = view.camera;
+    const auto hit = first_hit(ground.ground(), sight_from(camera.eye, view.model.air),
+                               camera.ecef_direction_at(point_px), sight_reach_m(camera.eye.h_m));
+    // What could not be read counts as void: the sight line went through it.
+    ORO_CHECK(ground.ground().health());
+    if (!hit) return std::optional<SeenPlace>();
+    SeenPlace place;
+    place.lat_deg = hit->point.lat_deg;
+    place.lon_deg = hit->point.lon_deg;
+    const Region& region = ground.region(hit->grid);
+    const double N_m = region.field.undulation.at_m(place.lat_deg, place.lon_deg);
+    place.H_m = (hit->point.h_m - N_m) / view.exaggeration;
+    place.h_m = place.H_m + N_m;
+    const GeodesicPath path =
+        geodesic_between(camera.eye.lat_deg, camera.eye.lon_deg, place.lat_deg, place.lon_deg);
+    place.bearing_deg = path.bearing_deg;
+    place.distance_m = path.distance_m;
+    place.seen_distance_m = hit->distance_m;
+    place.row = hit->row;
+    place.column = hit->column;
+    if (const SourceReport* const source = source_at(region, place.lat_deg, place.lon_deg))
+        place.source = source->path;
+    return std::optional(place);
+}
+
+Result<std::optional<SeenPlace>> place_in_middle(const View& view, const RegionGround& ground) {
+    return place_seen(view, ground, {0.5 * view.camera.width_px, 0.5 * view.camera.height_px});
+}
+
+std::string line_of(const std::optional<SeenPlace>& place) {
+    if (!place) return "nothing there: the sight line meets no ground of this region";
+    char text[240];
+    std::snprintf(
+        text, sizeof text,
+        "%.6f° %.6f°  %.2f m above sea level (%.2f m above the ellipsoid)  %.2f m away  bearing %.2f°  cell "
+        "in row %d, column %d of the posts  from ",
+        place->lat_deg, place->lon_deg, place->H_m, place->h_m, place->seen_distance_m, place->bearing_deg,
+        place->row, place->column);
+    const std::string name = std::filesystem::path(place->source).filename().string();
+    return text + (name.empty() ? "an unknown source" : one_line(name));
+}
+
+}  // namespace oro

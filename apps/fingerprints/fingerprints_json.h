@@ -1,0 +1,19 @@
+// Fingerprints in the JSON of a view.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/fingerprints/fingerprints.h"
+
+namespace oro {
+
+nlohmann::ordered_json prints_json(const Fingerprints& prints);
+// Throws JsonFault.
+Fingerprints prints_from(const nlohmann::json& json);
+
+// The pixels' fingerprint as a view's text has it: known when the last of them is drawn, and put where it was
+// 0 until then.
+std::string pixels_field(std::uint64_t pixels);
+
+}  // namespace oro

@@ -1,0 +1,238 @@
+// What the command line says, as it says it: nothing is looked up or opened yet.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oro {
+
+// Which terrain.
+struct RegionOptions {
+    std::vector<std::string> paths;
+    std::string bbox;
+    std::string tile;
+    std::string height_unit;
+    std::string source_crs;       // of files that state none
+    std::string source_vertical;  // likewise, what heights refer to
+    bool strict_datum{false};
+    bool fill_voids{false};
+    bool resample{false};
+    std::string order;  // finest, listed; "": not said
+    std::optional<double> feather_m;
+};
+
+// From where, and how it looks.
+struct ViewOptions {
+    std::optional<std::string> at;
+    std::optional<double> above_m;
+    std::optional<double> altitude_m;
+    std::optional<double> heading_deg;
+    std::optional<double> pitch_deg;
+    std::optional<double> roll_deg;
+    std::optional<double> vertical_fov_deg;
+    std::optional<std::string> look_at;
+    std::optional<std::string> size;
+    std::optional<std::string> sun;
+    std::optional<std::string> sun_time;
+    std::optional<std::string> shadows;  // on, off
+    std::optional<std::string> sky_openness;
+    std::optional<std::string> labels;
+    std::optional<std::string> edges;  // smooth, steps
+    std::optional<std::string> show;   // visible, levels, meshlets, triangles, overdraw, clusters, groups
+    bool legend{false};                // a strip below the picture
+    bool takes_maps{false};            // not an option: whether a view that is a map may be opened
+    bool on_summit{false};             // the eye stands on the highest post near --at
+    bool stands_at_place{false};       // not an option: whether --at alone is where the eye stands
+    std::optional<double> exaggeration;
+    std::optional<int> samples;
+    std::optional<std::string> style;
+    std::optional<double> visibility_km;
+    std::optional<std::string> sea;
+    std::optional<std::string> rim;
+    std::vector<std::string> drape;  // images over the ground, the last on top
+    std::optional<double> drape_opacity;
+    std::optional<std::string> drape_values;  // auto, codes, reflectance
+    std::vector<std::string> names;           // vector files whose points are named
+    std::optional<std::string> names_field;
+    std::vector<std::string> overlay;  // vector files that lie on the ground
+    std::optional<std::string> overlay_colour;
+    std::optional<double> overlay_width_px;
+    std::optional<double> overlay_fill;
+    std::optional<std::string> time;
+    std::optional<std::string> pipeline;
+    std::optional<std::string> mesh;
+    std::optional<int> mesh_level;
+    std::optional<double> tau_px;
+    std::optional<std::string> earth;
+    std::optional<double> refraction_k;
+    std::optional<std::string> air;
+    std::optional<std::string> precision;
+    std::optional<std::string> geoid;
+    std::optional<std::string> heights;
+    std::optional<std::string> accuracy;   // a bundle of options; single ones win over it
+    std::optional<std::string> tolerance;  // pixels: the cheapest bundle that holds it
+};
+
+// How much memory drawing may take, MB of 10^6 bytes; nothing: as much as is reasonable here.
+struct MemoryOptions {
+    std::optional<int> gpu_memory_mb;
+    std::optional<int> memory_mb;
+};
+
+struct ShotOptions {
+    RegionOptions region;
+    ViewOptions view;
+    MemoryOptions memory;
+    std::string view_file;
+    std::string out;
+    std::optional<double> unseen_ceiling_m;
+    bool verify{false};
+    bool layers{false};
+    bool ortho{false};
+    std::optional<std::string> crs;    // of a map; as GDAL takes it
+    std::optional<double> resolution;  // of a map: a pixel, in the unit of its CRS
+    bool no_legend{false};             // not even where --show has one by itself
+    bool data_changed{false};
+    bool no_paths{false};  // the picture tells no paths
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct CompareOptions {
+    RegionOptions region;
+    MemoryOptions memory;
+    std::string view_file;
+    std::string out;
+    std::optional<double> unseen_ceiling_m;
+    bool data_changed{false};
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct PlanOptions {
+    RegionOptions region;
+    ViewOptions view;
+    std::string view_file;
+    std::optional<double> unseen_ceiling_m;
+    bool json{false};
+    bool quiet{false};
+};
+
+struct TradeOptions {
+    RegionOptions region;
+    ViewOptions view;
+    MemoryOptions memory;
+    std::string view_file;
+    int views{6};
+    int repeats{3};
+    std::string out{"."};  // folder
+    std::string command;   // as it was typed
+    bool overwrite{false};
+    bool quiet{false};
+};
+
+struct SunOptions {
+    RegionOptions region;  // none: over a plain horizon alone
+    ViewOptions view;      // the place, and the air
+    std::optional<std::string> date;
+    std::optional<std::string> zone;
+    bool json{false};
+    bool quiet{false};
+};
+
+// How light goes.
+struct AirOptions {
+    std::optional<double> refraction_k;
+    std::optional<std::string> air;
+};
+
+struct SightOptions {
+    RegionOptions region;
+    AirOptions air;
+    std::string from;
+    std::string to;
+    std::optional<double> above_m;
+    std::optional<double> altitude_m;
+    std::optional<double> target_m;
+    bool on_summit{false};  // the eye stands on the highest post near --from
+    bool json{false};
+    bool quiet{false};
+};
+
+struct ProfileOptions {
+    RegionOptions region;
+    std::string along;
+    std::optional<int> line;  // of a file with several, from 1
+    std::optional<double> step_m;
+    double climb_threshold_m{10.0};
+    std::string out;
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct ViewshedOptions {
+    RegionOptions region;
+    AirOptions air;
+    std::vector<std::string> at;
+    std::optional<double> above_m;
+    std::optional<double> altitude_m;
+    std::optional<double> target_m;
+    std::optional<double> radius_km;
+    bool on_summit{false};  // each observer stands on the highest post near its place
+    std::string out;
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct PanoramaOptions {
+    RegionOptions region;
+    ViewOptions view;
+    MemoryOptions memory;
+    std::string view_file;
+    std::string out;
+    std::optional<int> width_px;
+    std::string sector;                 // FROM,TO
+    std::string elevation;              // LOW,HIGH
+    std::optional<std::string> ridges;  // on, off
+    bool data_changed{false};
+    bool no_paths{false};
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct WindowOptions {
+    RegionOptions region;
+    ViewOptions view;
+    MemoryOptions memory;
+    std::string view_file;
+    bool no_paths{false};  // its pictures tell no paths
+    bool quiet{false};
+};
+
+struct BakingOptions {
+    RegionOptions region;
+    std::string out;
+    std::string mesh{"grid"};  // or "clusters"
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct InfoOptions {
+    RegionOptions region;
+    bool check{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+struct DoctorOptions {
+    bool json{false};
+};
+
+}  // namespace oro

@@ -1,0 +1,205 @@
+#include "core/frame/cast_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/earth/world_model.h"
+
+namespace oro {
+namespace {
+
+constexpr double sun_radius_rad = 0.00465;
+constexpr int cells_max = 128;  // along a side
+
+// The ellipsoid's point at a place of a grid.
+glm::dvec3 sea_level_ecef(const PostGrid& grid, double row, double column) {
+    const PostPlace at = grid.place_at(row, column);
+    return ecef_from_geodetic({at.lat_deg, at.lon_deg, 0.0}).m;
+}
+
+// How a line towards the sun rises from anywhere within half_m of a place.
+struct SunRise {
+    double level;   // cosine of the sun's elevation
+    double lowest;  // metres a metre, of the line that rises least, to the sun's lower edge
+    double slope;   // ... of those by which casters may be off, 0.02 to 1
+};
+SunRise sun_rise(const glm::dvec3& sun_enu, double half_rad) {
+    const double level = std::max(std::hypot(sun_enu.x, sun_enu.y), 1e-6);
+    const double rise = std::atan2(sun_enu.z, level) - half_rad;
+    return {level, std::tan(std::clamp(rise - 1.1 * sun_radius_rad, -1.5, 1.5)),
+            std::clamp(std::tan(rise), 0.02, 1.0)};
+}
+
+}  // namespace
+
+void CastMap::divide(const RegionPages& pages) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    while (level_ + 1 < pages.levels() &&
+           std::max(pages.layout(level_).rows, pages.layout(level_).columns) > cells_max)
+        ++level_;
+    layout_ = pages.layout(level_);
+    needs_.resize(static_cast<std::size_t>(layout_.rows) * static_cast<std::size_t>(layout_.columns));
+    posts_ = std::int64_t{gpu::page_quads} << level_;
+    receivers_.resize(needs_.size(), {infinite, infinite});
+    const double last_row = grid_.rows() - 1, last_column = grid_.columns() - 1;
+    middle_ = {sea_level_ecef(grid_, 0.5 * last_row, 0.5 * last_column)};
+    for (int i = 0; i < 9; ++i)
+        reach_m_ = std::max(reach_m_, glm::length(sea_level_ecef(grid_, 0.5 * (i / 3) * last_row,
+                                                                 0.5 * (i % 3) * last_column) -
+                                                  middle_.m));
+    reach_m_ *= 1.1;  // rims are curved
+}
+
+CastMap::Patch CastMap::patch(std::int64_t row, std::int64_t column, std::int64_t posts) const {
+    const auto clamped = [](std::int64_t cell, int count) {
+        return static_cast<int>(std::clamp<std::int64_t>(cell, 0, count - 1));
+    };
+    return {clamped(row / posts_, layout_.rows), clamped((row + posts - 1) / posts_, layout_.rows),
+            clamped(column / posts_, layout_.columns),
+            clamped((column + posts - 1) / posts_, layout_.columns)};
+}
+
+void CastMap::receive(const Patch& patch, double error_per_slope_m, double lowest_m) {
+    for (int row = patch.north; row <= patch.south; ++row)
+        for (int column = patch.west; column <= patch.east; ++column) {
+            Need& need = receivers_[place(row, column)];
+            need.error_m = std::min(need.error_m, error_per_slope_m);
+            need.low_m = std::min(need.low_m, lowest_m);
+        }
+}
+
+void CastMap::cast() {
+    for (int row = 0; row < layout_.rows; ++row)
+        for (int column = 0; column < layout_.columns; ++column)
+            if (receivers_[place(row, column)].low_m < std::numeric_limits<double>::infinity())
+                cast_from(row, column);
+}
+
+CastMap::Need CastMap::need(const Patch& patch) const {
+    Need all;
+    for (int row = patch.north; row <= patch.south; ++row)
+        for (int column = patch.west; column <= patch.east; ++column) {
+            all.error_m = std::min(all.error_m, needs_[place(row, column)].error_m);
+            all.low_m = std::min(all.low_m, needs_[place(row, column)].low_m);
+        }
+    return all;
+}
+
+void CastMap::mark(double north, double south, double west, double east, const Need& need) {
+    const auto clamped = [](double cell, int count) {
+        return static_cast<int>(std::clamp(std::floor(cell), 0.0, static_cast<double>(count - 1)));
+    };
+    if (south < 0.0 || east < 0.0 || north >= layout_.rows || west >= layout_.columns) return;
+    any_ = true;
+    for (int row = clamped(north, layout_.rows); row <= clamped(south, layout_.rows); ++row)
+        for (int column = clamped(west, layout_.columns); column <= clamped(east, layout_.columns);
+             ++column) {
+            Need& there = needs_[place(row, column)];
+            there.error_m = std::min(there.error_m, need.error_m);
+            there.low_m = std::min(there.low_m, need.low_m);
+        }
+}
+
+CastMap::CellLie CastMap::lie_of_cell(std::int64_t row, std::int64_t column) const {
+    if (grid_.net) {
+        const auto y = static_cast<double>(row), x = static_cast<double>(column);
+        const GridNet::Lie lie = grid_.net->lie_at(y, x);
+        return {grid_.net->place_at(y, x), lie.row_m, lie.column_m,
+                sine_cosine_deg(deg_from_radians(Radians(lie.turn_rad))), 1.0 + grid_.net->bend()};
+    }
+    const double lat_deg = row_lat_deg(grid_, row);
+    return {{lat_deg, grid_.lon.at_deg(column)},
+            meridian_radius_m(lat_deg) * grid_.row_step_rad(),
+            prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine * grid_.column_step_rad(),
+            {0.0, 1.0},
+            1.0 + std::abs(std::tan(radians_from_deg(lat_deg).rad))};
+}
+
+// Moves a cell towards the sun, half a cell at a time, until it is above all terrain.
+void CastMap::cast_from(int row, int column) {
+    const Need& receiver = receivers_[place(row, column)];
+    const auto posts = static_cast<double>(posts_);
+    const std::int64_t at_post_row = std::min<std::int64_t>(row * posts_ + posts_ / 2, grid_.rows() - 1);
+    const std::int64_t at_post_column =
+        std::min<std::int64_t>(column * posts_ + posts_ / 2, grid_.columns() - 1);
+    const CellLie lie = lie_of_cell(at_post_row, at_post_column);
+    const glm::dvec3 sun = glm::transpose(ecef_from_enu(lie.place.lat_deg, lie.place.lon_deg)) * sun_ecef_;
+    const double row_m = posts * lie.row_m, column_m = std::max(1.0, posts * lie.column_m);
+    const double half_rad =
+        0.5 * std::hypot(row_m, column_m) / mean_radius_m;  // the sun's rise differs over the cell
+    const SunRise rise = sun_rise(sun, half_rad);
+    const double level = rise.level, lowest = rise.lowest;
+    const Need need{receiver.error_m * rise.slope, receiver.low_m};
+    const double step_m = 0.5 * std::min(row_m, column_m);
+    // Cells a metre.
+    const double south = (sun.x * lie.turn.sine - sun.y * lie.turn.cosine) / level / row_m;
+    const double east = (sun.x * lie.turn.cosine + sun.y * lie.turn.sine) / level / column_m;
+    double low_m = receiver.low_m;
+    for (double from_m = 0.0; low_m <= top_m_ || from_m * lowest < 0.0; from_m += step_m) {
+        const double to_m = from_m + step_m;
+        // Towards the pole's side the line bends, and the sun's direction differs over the cell.
+        const double aside_m = to_m * (half_rad + to_m / (2.0 * mean_radius_m)) * lie.bend;
+        const double rows = aside_m / row_m + 0.01, columns = aside_m / column_m + 0.01;
+        const double sag_m = from_m * from_m / (2.0 * mean_radius_m);
+        low_m = receiver.low_m + std::min(from_m * lowest, to_m * lowest) + 0.99 * sag_m;
+        if (to_m > 1.2e6) break;
+        mark(row + std::min(from_m * south, to_m * south) - rows,
+             row + 1.0 + std::max(from_m * south, to_m * south) + rows,
+             column + std::min(from_m * east, to_m * east) - columns,
+             column + 1.0 + std::max(from_m * east, to_m * east) + columns, {need.error_m, low_m});
+        const double at_row = row + 0.5 + from_m * south, at_column = column + 0.5 + from_m * east;
+        if (at_row < -1.0 - rows || at_row > layout_.rows + 1.0 + rows || at_column < -1.0 - columns ||
+            at_column > layout_.columns + 1.0 + columns)
+            break;
+    }
+}
+
+// From a place beside the grid. Where a line is over the ground its straight way through space tells.
+void CastMap::cast_from_beside(const CastReceiver& receiver) {
+    const Geodetic at = geodetic_from_ecef(receiver.centre);
+    const glm::dvec3 sun = glm::transpose(ecef_from_enu(at.lat_deg, at.lon_deg)) * sun_ecef_;
+    const double half_rad = receiver.radius_m / mean_radius_m;
+    const SunRise rise = sun_rise(sun, half_rad);
+    const double level = std::max(rise.level, 0.02);  // a sun in the zenith: all is within the radius
+    const CellLie middle = lie_of_cell(grid_.rows() / 2, grid_.columns() / 2);
+    const double cell_m =
+        static_cast<double>(posts_) * std::max(1.0, std::min(middle.row_m, middle.column_m));
+    const double step_m = std::max(0.5 * cell_m, 0.25 * receiver.radius_m);
+    double low_m = receiver.lowest_m;
+    double from_m = 0.0;
+    for (double next_m = 0.0; low_m <= top_m_ || from_m * rise.lowest < 0.0; from_m = next_m) {
+        const double to_m = next_m = from_m + step_m;
+        if (to_m > 1.2e6) break;
+        const double sag_m = from_m * from_m / (2.0 * mean_radius_m);
+        low_m = receiver.lowest_m + std::min(from_m * rise.lowest, to_m * rise.lowest) + 0.99 * sag_m;
+        const glm::dvec3 there = receiver.centre.m + sun_ecef_ * ((from_m + 0.5 * step_m) / level);
+        // Around it: what is received, half a step, and lines that are not quite parallel over the ground.
+        const double around_m = receiver.radius_m + 0.51 * step_m + to_m * half_rad;
+        const double highest_m =
+            std::max(top_m_, 0.0) + to_m * to_m / mean_radius_m + 2.0e4 + to_m * std::max(sun.z, 0.0) / level;
+        const double off_m = glm::length(there - middle_.m) - (reach_m_ + around_m + highest_m);
+        if (off_m > 0.0) {
+            // Past the grid it does not come back; before it half of the way is free.
+            if (glm::dot(there - middle_.m, sun_ecef_) > 0.0) break;
+            next_m = std::max(to_m, from_m + 0.5 * off_m * level);
+            continue;
+        }
+        const Geodetic below = geodetic_from_ecef({there});
+        const PostNumber post = grid_.post_at(below.lat_deg, below.lon_deg);
+        if (!std::isfinite(post.row) || !std::isfinite(post.column)) continue;
+        const auto within = [](double number, int count) {
+            return static_cast<std::int64_t>(std::clamp(number, 0.0, static_cast<double>(count - 1)));
+        };
+        const CellLie lie = lie_of_cell(within(post.row, grid_.rows()), within(post.column, grid_.columns()));
+        const auto posts = static_cast<double>(posts_);
+        const double rows = 1.02 * around_m / (posts * lie.row_m) + 0.01,
+                     columns = 1.02 * around_m / (posts * std::max(lie.column_m, 1.0e-2)) + 0.01;
+        mark(post.row / posts - rows, post.row / posts + rows, post.column / posts - columns,
+             post.column / posts + columns, {receiver.error_per_slope_m * rise.slope, low_m});
+    }
+}
+
+}  // namespace oro

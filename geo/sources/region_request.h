@@ -1,0 +1,41 @@
+// What a region is asked for: which files, which part of them, and what is told of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/places/bounding_box.h"
+
+namespace oro {
+
+// The files that a region is made of, the part of them that is wanted, and how they become one surface.
+struct RegionRequest {
+    std::vector<std::string>
+        paths;  // files, folders (recursive), .zip, .gz, VRT: what GDAL or the .hgt reader opens; or one .oro
+    std::optional<BoundingBox> box;  // nothing: all that the sources cover
+    bool strict_datum{false};        // refuse instead of letting another geoid stand in
+    bool fill_voids{
+        false};            // fill void posts from their neighbours (GDALFillNodata) instead of leaving holes
+    bool resample{false};  // bring the posts of files in a CRS of their own onto latitudes and longitudes,
+                           // instead of keeping them where they are
+    // Where several have ground for a place, the one named first wins (of a folder by the byte order of
+    // names), not the finest.
+    bool listed_first{false};
+    // Of several grids: heights go over to those of the coarser within so many metres of a finer one's rim;
+    // 0: they do not.
+    double feather_m{0.0};
+    std::string height_unit;  // "", or "m", "ft", "us-ft", "cm": overrides what the files say
+    // For files that do not say themselves: where they lie ("EPSG:2056", or whatever PROJ knows), and what
+    // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). ""
+    // for nothing told.
+    std::string source_crs, source_vertical;
+    // Whoever asks can do with several grids: files that lie far apart (lying_apart.h) are then a region
+    // each. Otherwise one grid holds them all, with what lies between.
+    bool grids_apart{false};
+};
+
+// What becomes of void posts: they are left out of the terrain, or filled from their neighbours.
+enum class VoidMethod { holes, filled };
+
+}  // namespace oro

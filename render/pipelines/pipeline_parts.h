@@ -1,0 +1,44 @@
+// What every pipeline is made of: shaders, their constants, stages.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/device/gpu.h"
+#include "render/device/resources.h"
+#include "render/pipelines/pipelines.h"
+
+namespace oro {
+
+// SPIR-V words whose loops all stay loops, whatever they ask for. A driver that compiles for processors
+// unrolls those of few turns, and then takes up to twice as long for a program: it works on each turn by
+// itself.
+std::vector<std::uint32_t> with_whole_loops(std::span<const std::uint32_t> words);
+
+// A module of SPIR-V words; where a processor draws, of their with_whole_loops(). Errors: the device.
+Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t> words, const char* name);
+
+// The entry point of a shader; shader and constants must outlive what is returned.
+VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, const OwnedShader& shader,
+                                      const VkSpecializationInfo* constants);
+
+// A program's own constants, and those that many programs have: all that read heights
+// (shaders/place/heights.glsl), and all that list triangles (shaders/choose/lists.glsl).
+class AllConstants {
+  public:
+    // own: may be null.
+    AllConstants(const VkSpecializationInfo* own, const Pipelines& pipelines);
+    AllConstants(const AllConstants&) = delete;
+    AllConstants& operator=(const AllConstants&) = delete;
+    // Points into this.
+    [[nodiscard]] const VkSpecializationInfo* info() const { return &info_; }
+
+  private:
+    std::vector<VkSpecializationMapEntry> entries_;
+    std::vector<std::byte> values_;
+    VkSpecializationInfo info_{};
+};
+
+}  // namespace oro
