@@ -14,6 +14,8 @@ namespace {
 
 class Programs : public test::GpuTest {
   protected:
+    void SetUp() override { renew_gpu(); }
+
     // A picture of the bundled region from a place near its middle, RGB.
     std::vector<std::uint8_t> draw(const Gpu& gpu, const char* style_name) {
         Region region;

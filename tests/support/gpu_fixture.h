@@ -4,25 +4,46 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "render/device/gpu.h"
 
 namespace oro::test {
 
+// The device of this process, which its tests share: making one and its pipelines takes longer than most of them.
+inline std::unique_ptr<Gpu>& shared_gpu() {
+    static std::unique_ptr<Gpu> gpu;
+    return gpu;
+}
+
 class GpuTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        GpuOptions options = gpu_options_from_environment();
-        options.validation = true;
-        auto made = Gpu::create(options);
-        ASSERT_TRUE(made.ok()) << made.error().line();
-        gpu_ = std::move(made).value();
+        if (!shared_gpu()) {
+            GpuOptions options = gpu_options_from_environment();
+            options.validation = true;
+            auto made = Gpu::create(options);
+            ASSERT_TRUE(made.ok()) << made.error().line();
+            shared_gpu() = std::move(made).value();
+        }
+        gpu_ = shared_gpu().get();
+        messages_before_ = gpu_->validation_messages().size();
     }
     void TearDown() override {
         if (!gpu_) return;
-        for (const std::string& message : gpu_->validation_messages()) ADD_FAILURE() << message;
+        const auto& messages = gpu_->validation_messages();
+        for (std::size_t i = messages_before_; i < messages.size(); ++i) ADD_FAILURE() << messages[i];
+    }
+    // A device without pipelines, for tests that count what is made on it. The next tests share it.
+    void renew_gpu() {
+        shared_gpu().reset();
+        GpuTest::SetUp();
     }
 
-    std::unique_ptr<Gpu> gpu_;
+    Gpu* gpu_{};  // of the process
+
+  private:
+    std::size_t messages_before_{};
 };
 
 }  // namespace oro::test
