@@ -30,30 +30,22 @@ Error wrong_net(const std::string& what) {
 
 std::vector<std::byte> net_to_bytes(const GridNet& net) {
     const GridNet::Stored stored = net.stored();
-    std::vector<std::byte> bytes(net_front_bytes + stored.coefficients.size() * 24);
-    std::byte* at = bytes.data();
-    auto put = [&at](const auto& number) {
-        to_little_endian(number, at);
-        at += sizeof(number);
-    };
+    NumberWriter put;
     exchange_front(put, stored);
     for (const glm::dvec3& coefficient : stored.coefficients)
         for (int axis = 0; axis < 3; ++axis) put(coefficient[axis]);
-    if (stored.corrections.empty()) return bytes;
-    const std::vector<std::byte> corrections = pack_corrections(stored);
-    bytes.insert(bytes.end(), corrections.begin(), corrections.end());
-    return bytes;
+    if (!stored.corrections.empty()) {
+        const std::vector<std::byte> corrections = pack_corrections(stored);
+        put.bytes.insert(put.bytes.end(), corrections.begin(), corrections.end());
+    }
+    return std::move(put.bytes);
 }
 
 Result<std::shared_ptr<const GridNet>> net_from_bytes(std::span<const std::byte> bytes, int rows,
                                                       int columns) {
     if (bytes.size() < net_front_bytes) return wrong_net("it has " + std::to_string(bytes.size()) + " bytes");
     GridNet::Stored stored;
-    const std::byte* at = bytes.data();
-    auto get = [&at](auto& number) {
-        number = from_little_endian<std::remove_reference_t<decltype(number)>>(at);
-        at += sizeof(number);
-    };
+    NumberReader get(bytes);
     exchange_front(get, stored);
     if (stored.down.posts != rows || stored.across.posts != columns)
         return wrong_net("it has " + std::to_string(stored.down.posts) + " x " +
@@ -68,8 +60,7 @@ Result<std::shared_ptr<const GridNet>> net_from_bytes(std::span<const std::byte>
     stored.coefficients.resize(patches * GridNet::coefficients_a_patch);
     for (glm::dvec3& coefficient : stored.coefficients)
         for (int axis = 0; axis < 3; ++axis) get(coefficient[axis]);
-    const std::span<const std::byte> corrections = bytes.subspan(net_front_bytes + patches * patch_bytes);
-    if (!corrections.empty()) ORO_CHECK(unpack_corrections(corrections, stored));
+    if (!get.rest().empty()) ORO_CHECK(unpack_corrections(get.rest(), stored));
     return GridNet::from(stored);
 }
 

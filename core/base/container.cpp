@@ -14,20 +14,30 @@ namespace {
 using namespace std::string_view_literals;
 constexpr std::array older_beginnings = {"\x89ORO\r\n\x1a\n"sv, "\x89ORC\r\n\x1a\n"sv,
                                          "\x89ORW\r\n\x1a\x04"sv, "OROGRIDS"sv, "OROCLUST"sv};
-constexpr std::array all_types = {ChunkType::outline, ChunkType::description, ChunkType::undulation,
-                                  ChunkType::net,     ChunkType::pages,       ChunkType::heights,
-                                  ChunkType::graph,   ChunkType::groups,      ChunkType::meshes,
-                                  ChunkType::window,  ChunkType::blocks};
+struct TypeName {
+    ChunkType type;
+    const char* name;
+};
+constexpr std::array type_names = {TypeName{ChunkType::outline, "the outline"},
+                                   TypeName{ChunkType::description, "the description"},
+                                   TypeName{ChunkType::undulation, "the undulation"},
+                                   TypeName{ChunkType::net, "the net"},
+                                   TypeName{ChunkType::pages, "the table of pages"},
+                                   TypeName{ChunkType::heights, "the chunk of heights"},
+                                   TypeName{ChunkType::graph, "the outline of clusters"},
+                                   TypeName{ChunkType::groups, "the table of groups"},
+                                   TypeName{ChunkType::meshes, "the chunk of meshes"},
+                                   TypeName{ChunkType::window, "the index of a window"},
+                                   TypeName{ChunkType::blocks, "the chunk of a window's groups"}};
 
 Error refused(const OpenFile& file, const std::string& what) {
     return {ErrorKind::failed, file.path(), what};
 }
 
-std::string name_of(ChunkType type) {
-    std::string name;
-    for (unsigned i = 0; i < 4; ++i)
-        name += static_cast<char>(static_cast<std::uint32_t>(type) >> (8 * i) & 0xffU);
-    return name;
+// Null: no file has such a chunk.
+const char* name_of(ChunkType type) {
+    const auto found = std::ranges::find(type_names, type, &TypeName::type);
+    return found == type_names.end() ? nullptr : found->name;
 }
 
 template <class Visit, class Line>
@@ -65,7 +75,7 @@ Result<std::uint64_t> read_pieces(const OpenFile& file, const Chunk& chunk, cons
 Result<void> check_sum(const OpenFile& file, const Chunk& chunk, std::uint64_t sum) {
     if (sum == chunk.checksum) return {};
     return file.damaged(chunk.offset,
-                        "the chunk " + name_of(chunk.type) + " " + other_checksum(sum, chunk.checksum));
+                        std::string(name_of(chunk.type)) + " " + other_checksum(sum, chunk.checksum));
 }
 
 // That the chunks are what they may be, and fill the file.
@@ -75,9 +85,8 @@ Result<void> check_chunks(const OpenFile& file, const ChunkTable& table) {
     for (std::size_t i = 0; i < table.chunks.size(); ++i) {
         const Chunk& chunk = table.chunks[i];
         const std::uint64_t at = ChunkTable::header_bytes + i * ChunkTable::entry_bytes;
-        if (std::ranges::find(all_types, chunk.type) == all_types.end())
-            return file.damaged(at, "a chunk of a type that no file has");
-        const std::string name = "the chunk " + name_of(chunk.type);
+        if (!name_of(chunk.type)) return file.damaged(at, "a chunk of a type that no file has");
+        const std::string name = name_of(chunk.type);
         if (chunk.offset != end)
             return file.damaged(at + 8, name + " from byte " + std::to_string(chunk.offset) +
                                             ", expected from byte " + std::to_string(end));
@@ -219,8 +228,8 @@ Result<std::shared_ptr<const Container>> Container::open(const std::string& path
 
 Result<Chunk> Container::chunk(ChunkType type, std::uint32_t grid) const {
     if (const Chunk* const found = table_.find(type, grid)) return *found;
-    return file_.damaged(ChunkTable::header_bytes,
-                         "its table has no chunk " + name_of(type) + " of grid " + std::to_string(grid));
+    return file_.damaged(ChunkTable::header_bytes, "its table of chunks lacks " + std::string(name_of(type)) +
+                                                       " of grid " + std::to_string(grid));
 }
 
 Result<void> Container::check(const Chunk& chunk) const {
