@@ -238,18 +238,15 @@ Error ClusterFile::unsound(std::uint32_t number, const std::string& what) const 
     return container_->file().damaged(record_offset(number), "group " + std::to_string(number) + " " + what);
 }
 
-// All that is read of a graph as a whole.
 Result<void> ClusterFile::check_chunks() const {
     ORO_CHECK(container_->check(groups_));
-    ORO_CHECK(container_->check(meshes_));
-    ORO_CHECK(groups());
-    return {};
+    return container_->check(meshes_);
 }
 
 Result<ClusterGraph> ClusterFile::graph(const OriginalSurface& surface, const GroundBounds& bounds,
                                         int threads) const {
     ORO_TRY(ClusterGraph graph, begin_graph(*this, surface));
-    ORO_CHECK(check_chunks());
+    ORO_CHECK(groups());
     for (std::uint32_t first = 0; first < outline_.groups; first += groups_at_a_time) {
         std::vector<GroupPart> parts(std::min(groups_at_a_time, outline_.groups - first));
         std::vector<Result<void>> read(parts.size());
@@ -273,6 +270,7 @@ Result<ClusterGraph> ClusterFile::graph(const OriginalSurface& surface, const Gr
                                return {};
                            }},
                           surface, bounds, threads));
+    ORO_CHECK(check_chunks());
     return graph;
 }
 
@@ -292,11 +290,12 @@ Result<void> ClusterFile::check(const OriginalSurface& surface, const GroundBoun
     std::size_t triangles = 0;
     for (std::uint32_t leaf = 0; leaf < leaves.count; ++leaf) triangles += leaves.triangles(leaf).size();
     ORO_CHECK(check_surface(*this, surface, leaves.count, triangles));
-    ORO_CHECK(check_chunks());
-    return check_sound(
+    ORO_CHECK(groups());
+    ORO_CHECK(check_sound(
         {.leaf = leaves.triangles,
          .part = [this](std::uint32_t number, GroupPart& part) { return this->part(number, part); }},
-        surface, bounds, threads);
+        surface, bounds, threads));
+    return check_chunks();
 }
 
 }  // namespace oro

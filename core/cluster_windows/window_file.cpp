@@ -11,7 +11,7 @@
 namespace oro {
 namespace {
 
-// A container (core/base/container.h) of two chunks: the index, and the groups' blocks one after another.
+// A container (core/base/container.h) of two chunks: the groups' blocks one after another, and the index.
 constexpr std::size_t tile_bytes = 16;
 
 template <class Visit, class Each>
@@ -147,14 +147,14 @@ Result<void> write_window(const std::string& path, WindowIndex index,
     NumberWriter put;
     visit_index(put, index);
     ChunkTable table{0,
-                     {{ChunkType::window, 0, 0, put.bytes.size(), xxh64(put.bytes)},
-                      {ChunkType::blocks, 0, 0, at, sum.sum()}}};
+                     {{ChunkType::blocks, 0, 0, at, sum.sum()},
+                      {ChunkType::window, 0, 0, put.bytes.size(), xxh64(put.bytes)}}};
     table.file_bytes = table.place();
     ORO_CHECK(file.resize(0));
     ORO_CHECK(file.write(0, table.to_bytes()));
-    ORO_CHECK(file.write(table.chunks[0].offset, put.bytes));
     for (std::size_t i = 0; i < blocks.size(); ++i)
-        ORO_CHECK(file.write(table.chunks[1].offset + index.groups[i].offset, blocks[i]));
+        ORO_CHECK(file.write(table.chunks[0].offset + index.groups[i].offset, blocks[i]));
+    ORO_CHECK(file.write(table.chunks[1].offset, put.bytes));
     ORO_CHECK(file.sync());
     if (const int why = take_file_name(file.path(), path, true); why != 0)
         return Error{ErrorKind::failed, path, "cannot be written: " + system_reason(why)};
