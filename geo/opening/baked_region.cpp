@@ -7,6 +7,7 @@
 
 #include "core/baked/baked_file.h"
 #include "core/baked/file_pages.h"
+#include "core/base/container.h"
 #include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
 #include "geo/posts/holes.h"
