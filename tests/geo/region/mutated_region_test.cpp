@@ -138,6 +138,7 @@ std::vector<std::size_t> parts_of(const std::string& path) {
     std::size_t pages = 0;
     for (const Chunk& chunk : (*container)->table().chunks) {
         if (chunk.type == ChunkType::pages) pages = chunk.bytes / region_format::record_bytes;
+        if (chunk.bytes == 0) continue;
         const bool is_of_pages = chunk.type == ChunkType::pages || chunk.type == ChunkType::heights;
         const std::size_t pieces = is_of_pages ? pages : 1;
         for (std::size_t piece = 0; piece < pieces; ++piece)
