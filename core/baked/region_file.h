@@ -141,7 +141,6 @@ class RegionFileWriter {
     Result<void> start_or_resume(const std::vector<std::byte>& chunks);
     Result<void> find_pages_done(bool needs_stitched);
     void take_sums(std::span<const std::byte> record, std::span<const std::byte> payload);
-    Result<void> take_name();
 
     std::string path_;
     bool overwrite_{};

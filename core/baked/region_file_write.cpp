@@ -322,17 +322,7 @@ Result<void> RegionFileWriter::finish() {
     ORO_CHECK(partial_.write(0, whole.to_bytes()));
     ORO_CHECK(partial_.sync());
     unlink(stitched_.path().c_str());
-    return take_name();
-}
-
-Result<void> RegionFileWriter::take_name() {
-    const std::string& partial = partial_.path();
-    const int why = take_file_name(partial, path_, overwrite_);
-    if (why == EEXIST && !overwrite_)
-        return fault(path_,
-                     "appeared while it was being written, and is left as it is; the new one is " + partial);
-    if (why != 0) return fault(path_, "cannot be written: " + system_reason(why));
-    return {};
+    return give_name(partial_.path(), path_, overwrite_);
 }
 
 }  // namespace oro

@@ -122,12 +122,7 @@ Result<void> write_cluster_groups(const std::string& path, const ClusterOutline&
     ORO_CHECK(file.sync());
     ORO_CHECK(file.write(0, table.to_bytes()));
     ORO_CHECK(file.sync());
-    const int why = take_file_name(file.path(), target, overwrite);
-    if (why == EEXIST && !overwrite)
-        return fault(target, "appeared while it was being written, and is left as it is; the new one is " +
-                                 file.path());
-    if (why != 0) return fault(target, "cannot be written: " + system_reason(why));
-    return {};
+    return give_name(file.path(), target, overwrite);
 }
 
 }  // namespace oro

@@ -156,9 +156,7 @@ Result<void> write_window(const std::string& path, WindowIndex index,
         ORO_CHECK(file.write(table.chunks[0].offset + index.groups[i].offset, blocks[i]));
     ORO_CHECK(file.write(table.chunks[1].offset, put.bytes));
     ORO_CHECK(file.sync());
-    if (const int why = take_file_name(file.path(), path, true); why != 0)
-        return Error{ErrorKind::failed, path, "cannot be written: " + system_reason(why)};
-    return {};
+    return give_name(file.path(), path, true);
 }
 
 }  // namespace oro
