@@ -276,7 +276,8 @@ set_tests_properties(
   Certificate.NothingInViewIsFartherThanTauFromItsPlace
   ClusterFile.AFlippedBitAnywhereIsFound
   ClusterFileOfRealGround.N46E008
-  ClusteredFile.DamageIsToldInOneLine
+  BakedFile.DamageIsToldInOneLine
+  BakedFile.HasSeveralGridsInTheirOrder
   Culling.NoVisiblePostIsEverCulled
   DamagedGeoid.CutEmptyAndHeaderOnlyGridsAreErrors
   FrameChoice.MeetsItselfRoundTheEarth

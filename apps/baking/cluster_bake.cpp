@@ -1,5 +1,7 @@
 #include "apps/baking/cluster_bake.h"
 
+#include <array>
+
 #include "apps/report/figures.h"
 #include "core/baked/region_file.h"
 #include "core/base/elapsed.h"
@@ -8,8 +10,7 @@
 #include "core/cluster_windows/windowed_graph.h"
 #include "core/clusters/graph_builder.h"
 #include "core/surface/grid_surface.h"
-#include "geo/clusters/clustered_region.h"
-#include "geo/together/baked_grids.h"
+#include "geo/together/baked_parts.h"
 
 namespace oro {
 
@@ -60,13 +61,13 @@ Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions&
                                         const std::function<void(double, const char*)>& told) {
     const std::string clusters_path = path_of_clusters(how.path);
     ORO_TRY(const BakeHold hold, BakeHold::take(how.path, how.overwrite));
-    ORO_CHECK(check_path_of_clusters(clusters_path));
+    ORO_CHECK(check_path_of_part(clusters_path));
     BakeOptions grid = how;
     grid.path = path_of_grid(how.path, 0);
     grid.overwrite = true;
     ClusterBakeReport report;
-    ORO_CHECK(check_path_of_grid(grid.path));
-    if (is_baked_grid(grid.path, grid.fingerprint, grid.description, region.field.grid.split)) {
+    ORO_CHECK(check_path_of_part(grid.path));
+    if (is_baked_grid(grid.path, grid.fingerprint, grid.description)) {
         ORO_TRY(const RegionFile file, RegionFile::open(grid.path));
         report.region = {file.order().count(), file.order().count(), file.outline().triangles};
     } else {
@@ -77,16 +78,16 @@ Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions&
     }
     const auto building = Clock::now();
     told(0.0, "building clusters");
-    const std::uint64_t fingerprint = surface_fingerprint(how.fingerprint, region.field.grid.split);
-    if (!are_baked_clusters(clusters_path, fingerprint))
-        ORO_CHECK(build(region, clusters_path, fingerprint, told));
+    if (!are_baked_clusters(clusters_path, how.fingerprint))
+        ORO_CHECK(build(region, clusters_path, how.fingerprint, told));
     report.build_s = seconds_since(building);
     {
         ORO_TRY(const ClusterFile file, ClusterFile::open(clusters_path));
         report.levels = file.outline().levels.size();
         report.triangles = static_cast<std::size_t>(file.outline().triangles);
     }
-    ORO_CHECK(join_clusters(how.path, grid.path, clusters_path, how.overwrite));
+    ORO_CHECK(join_parts(how.path, how.overwrite,
+                         std::array<ContainerPart, 2>{{{grid.path, 0}, {clusters_path, 0}}}));
     return report;
 }
 

@@ -18,8 +18,8 @@
 #include "apps/bench/bench_blocks.h"
 #include "apps/bench/bench_path.h"
 #include "apps/bench/bench_tin.h"
-#include "core/baked/clustered_file.h"
 #include "core/baked/file_pages.h"
+#include "core/base/container.h"
 #include "core/base/parallel.h"
 #include "core/cluster_file/cluster_file.h"
 #include "core/cluster_frame/cluster_cut.h"
@@ -107,27 +107,16 @@ Result<void> print_bytes(const std::string& region, const PostCounts& posts, con
 Result<void> write_out(const std::string& out, const RegionFile& file, const PostCounts& posts,
                        const ClusterGraph& graph, int threads) {
     const std::string clusters_path = out + ".clusters";
-    ORO_CHECK(write_cluster_graph(clusters_path, graph, posts,
-                                  surface_fingerprint(file.fingerprint(), file.outline().grid.split), true,
-                                  threads));
+    ORO_CHECK(write_cluster_graph(clusters_path, graph, posts, file.fingerprint(), true, threads));
     ORO_TRY(OpenFile whole, OpenFile::open(out, OpenFile::Use::write));
+    ORO_CHECK(whole.resize(0));
     std::uint64_t at = 0;
-    const auto append = [&](const std::vector<std::byte>& bytes) {
+    const std::array<ContainerPart, 2> parts{{{file.path(), 0}, {clusters_path, 0}}};
+    ORO_CHECK(join_containers(parts, [&](std::span<const std::byte> bytes) {
         const std::uint64_t first = at;
         at += bytes.size();
         return whole.write(first, bytes);
-    };
-    std::array<std::vector<std::byte>, 2> parts;
-    for (std::size_t i = 0; i < 2; ++i) {
-        ORO_TRY(const OpenFile part,
-                OpenFile::open(i == 0 ? file.path() : clusters_path, OpenFile::Use::read));
-        ORO_TRY(const std::uint64_t bytes, part.size());
-        parts[i].resize(static_cast<std::size_t>(bytes));
-        ORO_CHECK(part.read(0, parts[i]));
-    }
-    ORO_CHECK(append(clustered_header(parts[0].size(), parts[1].size())));
-    for (const std::vector<std::byte>& part : parts) ORO_CHECK(append(part));
-    ORO_CHECK(whole.resize(at));
+    }));
     std::remove(clusters_path.c_str());
     return {};
 }

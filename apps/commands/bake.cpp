@@ -24,7 +24,6 @@
 #include "core/base/elapsed.h"
 #include "core/base/files_read.h"
 #include "core/base/parallel.h"
-#include "geo/clusters/clustered_region.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/source_paths.h"
 #include "geo/files/whole_file.h"
@@ -32,7 +31,7 @@
 #include "geo/region/region_description.h"
 #include "geo/region/region_prints.h"
 #include "geo/sources/raster_parts.h"
-#include "geo/together/baked_grids.h"
+#include "geo/together/baked_parts.h"
 #include "geo/together/cut_regions.h"
 
 namespace oro {
@@ -168,21 +167,12 @@ void add(BakeReport& sum, const BakeReport& part) {
 
 // One grid of several into a file of its own, which is there when a bake was broken off after it.
 Result<BakeReport> bake_grid(const Region& region, const BakeOptions& how, const BakeProgress& progress) {
-    ORO_CHECK(check_path_of_grid(how.path));
-    if (is_baked_grid(how.path, how.fingerprint, how.description, region.field.grid.split)) {
+    ORO_CHECK(check_path_of_part(how.path));
+    if (is_baked_grid(how.path, how.fingerprint, how.description)) {
         ORO_TRY(const RegionFile file, RegionFile::open(how.path));
         return BakeReport{file.order().count(), file.order().count(), file.outline().triangles};
     }
     return bake_region(region.field, how, progress);
-}
-
-// Ranks without gaps: a file whose posts are all void had one, and is left out.
-std::vector<std::uint32_t> as_ranks(const std::vector<std::uint32_t>& order) {
-    std::vector<std::uint32_t> ranks;
-    for (const std::uint32_t rank : order)
-        ranks.push_back(static_cast<std::uint32_t>(
-            std::ranges::count_if(order, [&](std::uint32_t other) { return other < rank; })));
-    return ranks;
 }
 
 // Each grid by itself, then all of them into one file.
@@ -190,7 +180,7 @@ Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options
     const std::vector<const Region*> grids = all_grids(region);
     BakeReport report;
     ORO_TRY(const BakeHold hold, BakeHold::take(options.out, options.overwrite));
-    std::vector<std::uint32_t> order;
+    std::vector<ContainerPart> parts;
     for (std::size_t i = 0; i < grids.size(); ++i) {
         ORO_TRY(const BakeOptions how, options_for(*grids[i], path_of_grid(options.out, i), true));
         const std::string what =
@@ -200,9 +190,11 @@ Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options
                     return true;
                 }));
         add(report, baked);
-        order.push_back(static_cast<std::uint32_t>(grids[i]->rank));
+        // Ranks without gaps: a file whose posts are all void had one, and is left out.
+        const auto before = [&](const Region* other) { return other->rank < grids[i]->rank; };
+        parts.push_back({how.path, static_cast<std::uint32_t>(std::ranges::count_if(grids, before))});
     }
-    ORO_CHECK(join_grids(options.out, options.overwrite, as_ranks(order)));
+    ORO_CHECK(join_parts(options.out, options.overwrite, parts));
     return report;
 }
 

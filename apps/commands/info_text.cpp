@@ -7,7 +7,7 @@
 #include "apps/report/figures.h"
 #include "apps/report/region_json.h"
 #include "apps/report/resampling_words.h"
-#include "core/baked/region_format.h"
+#include "core/base/container.h"
 #include "core/earth/ellipsoid.h"
 #include "geo/sources/raster_source.h"
 #include "geo/sources/source_words.h"
@@ -286,8 +286,7 @@ std::string baked_text(const RegionFile& file, const ClusterFile* clusters) {
         detail += ", and " + counted(static_cast<std::uint64_t>(levels - 1), "coarser one", "coarser ones") +
                   " for ground that is far away";
     std::string text = one_line(file.path()) + "\n";
-    text += line("format", "baked region (.oro), version " +
-                               std::to_string(region_format::version_of(file.outline().grid)));
+    text += line("format", "baked region (.oro), version " + std::to_string(ChunkTable::version));
     text += line("levels", detail);
     if (clusters)
         text += line("clusters", counted(clusters->outline().triangles, "triangle", "triangles") + " in " +

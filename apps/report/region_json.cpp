@@ -9,7 +9,7 @@
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/progress_bar.h"
-#include "core/baked/region_format.h"
+#include "core/base/container.h"
 #include "core/earth/ellipsoid.h"
 #include "geo/files/foreign_text.h"
 #include "geo/region/source_fields.h"
@@ -133,7 +133,7 @@ ordered_json file_json(const Region& region) {
     ordered_json json = ordered_json::object();
     json["path"] = file.path();
     json["format"] = "baked region";
-    json["version"] = region_format::version_of(file.outline().grid);
+    json["version"] = ChunkTable::version;
     json["levels"] = file.order().levels();
     json["pages"] = file.order().count();
     json["triangles"] = file.outline().triangles;

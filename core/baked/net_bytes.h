@@ -1,6 +1,6 @@
 // A net of posts (core/net/grid_net.h) as it lies in a region file: how its posts are cut into patches, its
-// error, the coefficients of each patch, and where there are any the corrections of some patches
-// (core/baked/packed_corrections.h); little endian, to the bit.
+// error, the coefficients of each patch, and where there are any the corrections of some patches,
+// packed; little endian, to the bit.
 #pragma once
 
 #include <cstddef>

@@ -4,11 +4,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/baked/page_compression.h"
+#include "core/base/checksum.h"
+#include "core/base/container.h"
 #include "core/base/open_file.h"
 #include "core/base/result.h"
 #include "core/lod/pyramid.h"
@@ -56,12 +60,11 @@ class PageOrder {
     std::uint64_t count_{0};
 };
 
-// Where the parts of a region file lie; see core/baked/region_format.h.
+// Where the pages' records and payloads lie in the file; see core/baked/region_format.h.
 struct RegionOffsets {
-    std::uint64_t undulation;
-    std::uint64_t net;
     std::uint64_t records;
     std::uint64_t payloads;
+    std::uint64_t end;  // of the payloads
 };
 
 // A page as it goes into the file. Making one is the costly part of writing.
@@ -135,9 +138,9 @@ class RegionFileWriter {
 
   private:
     RegionFileWriter(OpenFile partial, OpenFile stitched, const PostGrid& grid);
-    Result<void> start_or_resume(std::vector<std::byte> beginning);
+    Result<void> start_or_resume(const std::vector<std::byte>& chunks);
     Result<void> find_pages_done(bool needs_stitched);
-    Result<void> take_name();
+    void take_sums(std::span<const std::byte> record, std::span<const std::byte> payload);
 
     std::string path_;
     bool overwrite_{};
@@ -145,10 +148,11 @@ class RegionFileWriter {
     OpenFile partial_;
     OpenFile stitched_;
     PageOrder order_;
+    ChunkTable table_;  // as it is while the file is unfinished
     RegionOffsets offsets_{};
-    std::vector<std::byte> header_;  // as it is while the file is unfinished
     std::uint64_t pages_done_{0};
-    std::uint64_t end_{0};  // of the payloads that are there
+    std::uint64_t end_{0};               // of the payloads that are there
+    RunningChecksum records_, heights_;  // of those
 };
 
 // A region file that is read. Opening reads what concerns the whole region, a few KB; a page's record and
@@ -159,16 +163,16 @@ class RegionFileWriter {
 //     ORO_TRY(const PageRecord record, file.record({0, 0, 0}));  // row, column, level: the north-west page
 class RegionFile {
   public:
-    // Errors: no region file, one of another version of the format, cut off, unfinished, damaged, or with a
-    // number that no region has.
+    // Errors: those of Container; several grids in one file; damage, and numbers that no region has.
     static Result<RegionFile> open(const std::string& path);
-    // One that is a part of a file (core/baked/grids_file.h).
-    static Result<RegionFile> open(OpenFile file);
+    // The grid of that number in a file.
+    static Result<RegionFile> open(std::shared_ptr<const Container> container, std::uint32_t grid);
 
-    [[nodiscard]] const std::string& path() const { return file_.path(); }
+    [[nodiscard]] const std::string& path() const { return container_->path(); }
     [[nodiscard]] const RegionOutline& outline() const { return outline_; }
     [[nodiscard]] const PageOrder& order() const { return order_; }
     [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_; }
+    // The size that the grid has in a file of its own.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
     // Of a page that the region has.
     [[nodiscard]] Result<PageRecord> record(PageIndex index) const;
@@ -178,20 +182,16 @@ class RegionFile {
     [[nodiscard]] Result<void> verify() const;
 
   private:
-    RegionFile(OpenFile file, RegionOutline outline);
+    RegionFile(std::shared_ptr<const Container> container, RegionOutline outline);
     [[nodiscard]] Result<void> check_end() const;
-    [[nodiscard]] Result<void> check_unchanged() const;
 
-    OpenFile file_;
+    std::shared_ptr<const Container> container_;
     RegionOutline outline_;
     PageOrder order_;
-    std::vector<std::byte> header_;  // as it was when the file was opened
+    Chunk pages_, heights_;
     RegionOffsets offsets_{};
     std::uint64_t fingerprint_{};
     std::uint64_t bytes_{};
 };
-
-// True for a plain file that begins as a region file does, of whatever version and in whatever state.
-[[nodiscard]] bool looks_like_region_file(const std::string& path);
 
 }  // namespace oro

@@ -22,7 +22,6 @@ namespace {
 using namespace region_format;
 
 constexpr std::size_t stitched_bytes = sizeof(StitchedDeviations) + 8;  // and a checksum
-constexpr std::uint64_t at_file_bytes = 16;
 
 Error fault(const std::string& path, const std::string& what) {
     return {ErrorKind::failed, path, what};
@@ -54,13 +53,11 @@ Result<Leftover> only_name(const OpenFile& file) {
     return Leftover{static_cast<std::uint64_t>(found.st_size)};
 }
 
-// A .partial that a bake left behind begins as a region file does, as far as it goes.
+// A .partial that a bake left behind begins as a baked file does, as far as it goes.
 Result<Leftover> check_partial(const OpenFile& file) {
     ORO_TRY(const Leftover found, only_name(file));
-    std::array<std::byte, magic.size()> begins;
-    const auto there = std::span(begins).first(std::min<std::uint64_t>(found.bytes, begins.size()));
-    ORO_CHECK(file.read(0, there));
-    if (!std::equal(there.begin(), there.end(), std::as_bytes(std::span(magic)).begin()))
+    ORO_TRY(const FileBeginning begins, file_beginning(file));
+    if (begins == FileBeginning::foreign)
         return no_leftover(file.path(), "is there already, and no bake has left it behind");
     return found;
 }
@@ -84,14 +81,31 @@ Result<OpenFile> open_alone(const std::string& path) {
     return fault(path, "cannot be written: it is taken away again and again");
 }
 
-// The header that was given, with the file's size in it.
-std::vector<std::byte> header_with_size(const std::vector<std::byte>& header, std::uint64_t file_bytes) {
-    HeaderBytes bytes;
-    std::copy(header.begin(), header.end(), bytes.begin());
-    RegionHeader changed = header_from_bytes(bytes);
-    changed.file_bytes = file_bytes;
-    bytes = header_to_bytes(changed);
-    return {bytes.begin(), bytes.end()};
+// The table of a finished file: that of an unfinished one with what is known of the pages in the end.
+ChunkTable finished(ChunkTable table, std::uint64_t records_checksum, std::uint64_t heights_bytes,
+                    std::uint64_t heights_checksum) {
+    table.chunks[table.chunks.size() - 2].checksum = records_checksum;
+    table.chunks.back().bytes = heights_bytes;
+    table.chunks.back().checksum = heights_checksum;
+    table.file_bytes = table.place();
+    return table;
+}
+
+// Whether a file begins with that table, unfinished or finished.
+struct FoundTable {
+    bool same{};
+    bool is_finished{};
+};
+FoundTable found_table(std::span<const std::byte> found, const ChunkTable& table) {
+    const auto begins_with = [&](const ChunkTable& expected) {
+        return std::ranges::equal(found.first(static_cast<std::size_t>(table.bytes())), expected.to_bytes());
+    };
+    const std::size_t end = static_cast<std::size_t>(table.bytes());
+    const auto number = [&](std::size_t before_end) {
+        return from_little_endian<std::uint64_t>(&found[end - before_end]);
+    };
+    if (begins_with(table)) return {true, false};
+    return {begins_with(finished(table, number(ChunkTable::entry_bytes + 8), number(16), number(8))), true};
 }
 
 Result<void> read_stitched(const OpenFile& file, std::uint64_t number, StitchedDeviations* into) {
@@ -101,16 +115,11 @@ Result<void> read_stitched(const OpenFile& file, std::uint64_t number, StitchedD
     const std::uint64_t computed = xxh64(std::span(bytes).first(stitched_bytes - 8), number);
     const auto stored = from_little_endian<std::uint64_t>(&bytes[stitched_bytes - 8]);
     if (computed != stored)
-        return file.damaged(offset, "the errors of page number " + std::to_string(number) +
-                                        " have checksum " + hexadecimal(computed) + ", expected " +
-                                        hexadecimal(stored));
-    const std::byte* at = bytes.data();
-    for (std::size_t node = 0; into && node < into->size(); ++node) {
-        for (float& error_m : (*into)[node]) {
-            error_m = from_little_endian<float>(at);
-            at += sizeof(float);
-        }
-    }
+        return file.damaged(offset, "the record of errors of page number " + std::to_string(number) + " " +
+                                        other_checksum(computed, stored));
+    NumberReader get(bytes);
+    for (std::size_t node = 0; into && node < into->size(); ++node)
+        for (float& error_m : (*into)[node]) get(error_m);
     return {};
 }
 
@@ -202,38 +211,36 @@ Result<RegionFileWriter> RegionFileWriter::create(const std::string& path, const
     writer.path_ = target;
     writer.overwrite_ = overwrite;
     writer.old_mode_ = old_mode;
-    ORO_CHECK(writer.start_or_resume(beginning_of(outline, fingerprint)));
+    RegionBeginning begin = beginning_of(outline, fingerprint);
+    writer.table_ = std::move(begin.table);
+    ORO_CHECK(writer.start_or_resume(begin.chunks));
     return writer;
 }
 
-Result<void> RegionFileWriter::start_or_resume(std::vector<std::byte> beginning) {
-    header_.assign(beginning.begin(), beginning.begin() + header_bytes);
-    offsets_.records = beginning.size();
-    offsets_.payloads = offsets_.records + order_.count() * record_bytes;
+Result<void> RegionFileWriter::start_or_resume(const std::vector<std::byte>& chunks) {
+    const std::vector<std::byte> header = table_.to_bytes();
+    offsets_ = {header.size() + chunks.size(), table_.chunks.back().offset, largest_file};
     end_ = offsets_.payloads;
     ORO_TRY(const std::uint64_t found_bytes, partial_.size());
-    bool same = found_bytes >= beginning.size();
-    bool begun_to_finish = false;
-    if (same) {
-        std::vector<std::byte> found(beginning.size());
+    FoundTable front;
+    if (found_bytes >= offsets_.records) {
+        std::vector<std::byte> found(offsets_.records);
         ORO_CHECK(partial_.read(0, found));
-        const auto finished_bytes = from_little_endian<std::uint64_t>(&found[at_file_bytes]);
-        begun_to_finish = finished_bytes != 0;
-        const std::vector<std::byte> expected = header_with_size(header_, finished_bytes);
-        same = std::equal(expected.begin(), expected.end(), found.begin()) &&
-               std::equal(beginning.begin() + header_bytes, beginning.end(), found.begin() + header_bytes);
+        front = found_table(found, table_);
+        front.same = front.same && std::ranges::equal(std::span(found).subspan(header.size()), chunks);
     }
-    if (same) {
+    if (front.same) {
         // Broken off in finish(): then all is there, except perhaps the stitched deviations, which nobody
         // needs any more.
-        if (begun_to_finish) ORO_CHECK(find_pages_done(false));
-        if (!begun_to_finish || pages_done_ < order_.count()) {
-            ORO_CHECK(partial_.write(0, header_));
+        if (front.is_finished) ORO_CHECK(find_pages_done(false));
+        if (!front.is_finished || pages_done_ < order_.count()) {
+            ORO_CHECK(partial_.write(0, header));
             ORO_CHECK(find_pages_done(true));
         }
     } else {
         ORO_CHECK(partial_.resize(0));
-        ORO_CHECK(partial_.write(0, beginning));
+        ORO_CHECK(partial_.write(0, header));
+        ORO_CHECK(partial_.write(header.size(), chunks));
     }
     // What a break has torn.
     ORO_CHECK(partial_.resize(end_));
@@ -244,26 +251,37 @@ Result<void> RegionFileWriter::start_or_resume(std::vector<std::byte> beginning)
 Result<void> RegionFileWriter::find_pages_done(bool needs_stitched) {
     end_ = offsets_.payloads;
     pages_done_ = 0;
+    records_ = RunningChecksum();
+    heights_ = RunningChecksum();
     ORO_TRY(const std::uint64_t found_bytes, partial_.size());
+    const RegionOffsets there{offsets_.records, offsets_.payloads, std::max(found_bytes, offsets_.payloads)};
     for (; pages_done_ < order_.count(); ++pages_done_) {
-        const auto record = read_record(partial_, offsets_, order_, pages_done_, found_bytes);
-        if (!record.ok() || record->payload_offset != end_) break;
-        if (!read_payload(partial_, *record).ok()) break;
+        const auto record = read_record(partial_, there, order_, pages_done_);
+        if (!record.ok() || record->payload_offset != end_ - offsets_.payloads) break;
+        const auto payload = read_payload(partial_, there, *record);
+        if (!payload.ok()) break;
         if (needs_stitched && !read_stitched(stitched_, pages_done_, nullptr).ok()) break;
+        take_sums(record_to_bytes(*record), *payload);
         end_ += record->payload_bytes;
     }
     return {};
 }
 
+void RegionFileWriter::take_sums(std::span<const std::byte> record, std::span<const std::byte> payload) {
+    records_.add(record);
+    heights_.add(payload);
+}
+
 // These read nothing that append() changes, so that they may be called beside it.
 Result<PageRecord> RegionFileWriter::record(std::uint64_t number) const {
-    ORO_TRY(const StoredRecord stored, read_record(partial_, offsets_, order_, number, largest_file));
+    ORO_TRY(const StoredRecord stored, read_record(partial_, offsets_, order_, number));
     return stored.page;
 }
 
 Result<void> RegionFileWriter::payload(std::uint64_t number, PagePayload& payload) const {
-    ORO_TRY(const StoredRecord stored, read_record(partial_, offsets_, order_, number, largest_file));
-    return read_payload(partial_, stored, payload);
+    ORO_TRY(const StoredRecord stored, read_record(partial_, offsets_, order_, number));
+    ORO_TRY(const std::vector<std::byte> bytes, read_payload(partial_, offsets_, stored));
+    return decode_payload(partial_, offsets_, stored, bytes, payload);
 }
 
 Result<void> RegionFileWriter::stitched(std::uint64_t number, StitchedDeviations& stitched) const {
@@ -276,20 +294,17 @@ Result<void> RegionFileWriter::append(const EncodedPage& page, const StitchedDev
         return fault(partial_.path(), "cannot take " + *what);
     assert(!page.payload.empty() && page.payload.size() <= largest_payload_bytes);
     if (page.payload.size() > largest_file - end_) return fault(partial_.path(), "would exceed 2^63 bytes");
-    std::array<std::byte, stitched_bytes> errors;
-    std::byte* at = errors.data();
-    for (const auto& node : stitched) {
-        for (const float error_m : node) {
-            to_little_endian(error_m, at);
-            at += sizeof(float);
-        }
-    }
-    to_little_endian(xxh64(std::span(errors).first(stitched_bytes - 8), pages_done_), at);
-    ORO_CHECK(stitched_.write(pages_done_ * stitched_bytes, errors));
+    NumberWriter errors;
+    for (const auto& node : stitched)
+        for (const float error_m : node) errors(error_m);
+    errors(xxh64(errors.bytes, pages_done_));
+    ORO_CHECK(stitched_.write(pages_done_ * stitched_bytes, errors.bytes));
     ORO_CHECK(partial_.write(end_, page.payload));
     const auto bytes = static_cast<std::uint32_t>(page.payload.size());
-    ORO_CHECK(partial_.write(offsets_.records + pages_done_ * record_bytes,
-                             record_to_bytes({page.record, end_, bytes, page.checksum})));
+    const std::vector<std::byte> record =
+        record_to_bytes({page.record, end_ - offsets_.payloads, bytes, page.checksum});
+    ORO_CHECK(partial_.write(offsets_.records + pages_done_ * record_bytes, record));
+    take_sums(record, page.payload);
     end_ += bytes;
     ++pages_done_;
     return {};
@@ -303,20 +318,11 @@ Result<void> RegionFileWriter::finish() {
     // A file that its owner had closed to others stays closed to them when it is replaced.
     if (old_mode_ != 0) (void)fchmod(partial_.descriptor(), old_mode_);
     ORO_CHECK(partial_.sync());
-    ORO_CHECK(partial_.write(0, header_with_size(header_, end_)));
+    const ChunkTable whole = finished(table_, records_.sum(), end_ - offsets_.payloads, heights_.sum());
+    ORO_CHECK(partial_.write(0, whole.to_bytes()));
     ORO_CHECK(partial_.sync());
     unlink(stitched_.path().c_str());
-    return take_name();
-}
-
-Result<void> RegionFileWriter::take_name() {
-    const std::string& partial = partial_.path();
-    const int why = take_file_name(partial, path_, overwrite_);
-    if (why == EEXIST && !overwrite_)
-        return fault(path_,
-                     "appeared while it was being written, and is left as it is; the new one is " + partial);
-    if (why != 0) return fault(path_, "cannot be written: " + system_reason(why));
-    return {};
+    return give_name(partial_.path(), path_, overwrite_);
 }
 
 }  // namespace oro

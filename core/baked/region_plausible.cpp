@@ -1,25 +1,22 @@
-// Which numbers a region file's header may hold.
+// Which numbers the outline of a baked grid may hold.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
-#include "core/baked/net_bytes.h"
 #include "core/baked/region_format.h"
 
 namespace oro::region_format {
 namespace {
 
 // Where the numbers lie that errors name.
-constexpr std::uint64_t at_header_size = 12, at_file_bytes = 16, at_grid_lat = 32, at_grid_lon = 64,
-                        at_undulation_lat = 96, at_undulation_lon = 128, at_radii = 160, at_heights = 184,
-                        at_voids = 192, at_triangles = 200, at_description = 208, at_nodes = 216,
-                        at_pages = 224;
+constexpr std::uint64_t at_lat = 8, at_lon = 40, at_undulation_lat = 72, at_undulation_lon = 104,
+                        at_radii = 136, at_heights = 160, at_voids = 168, at_triangles = 176;
 // More posts would overflow the numbers of quads and pages in core/terrain/level_grid.h.
 constexpr int most_posts = std::numeric_limits<int>::max() - 255;
 constexpr std::int64_t largest_index = std::int64_t{1} << 53U;  // exact in a double
 constexpr double angle_slack_deg = 1.0e-6;                      // of spacings that were rounded
-constexpr std::uint64_t most_nodes = std::uint64_t{1} << 32U;
 
 std::string said(double number) {
     char text[40];
@@ -79,18 +76,16 @@ void check_angles(Findings& findings, const PostGrid& grid, std::uint64_t lat_of
                      "width in degrees", width_deg, "at most 360");
 }
 
-void check_undulation(Findings& findings, const RegionHeader& header) {
-    const GridAxis& lat = header.undulation_lat;
-    const GridAxis& lon = header.undulation_lon;
-    if (header.undulation_nodes == 0 && lat.count == 0 && lon.count == 0) {
-        findings.require(within(lat.posts_per_deg, 0.0, 1.0e9), at_undulation_lat, "nodes per degree",
-                         lat.posts_per_deg, "0 to 1e9");
-        findings.require(within(lon.posts_per_deg, 0.0, 1.0e9), at_undulation_lon, "nodes per degree",
-                         lon.posts_per_deg, "0 to 1e9");
-        findings.require(within(lat.phase_deg, -720.0, 720.0), at_undulation_lat + 8, "phase", lat.phase_deg,
-                         "-720 to 720 degrees");
-        findings.require(within(lon.phase_deg, -720.0, 720.0), at_undulation_lon + 8, "phase", lon.phase_deg,
-                         "-720 to 720 degrees");
+void check_undulation(Findings& findings, const OutlineNumbers& numbers, std::uint64_t stored_bytes) {
+    const GridAxis& lat = numbers.undulation_lat;
+    const GridAxis& lon = numbers.undulation_lon;
+    if (stored_bytes == 0 && lat.count == 0 && lon.count == 0) {
+        for (const auto& [axis, at] : {std::pair(&lat, at_undulation_lat), {&lon, at_undulation_lon}}) {
+            findings.require(within(axis->posts_per_deg, 0.0, 1.0e9), at, "nodes per degree",
+                             axis->posts_per_deg, "0 to 1e9");
+            findings.require(within(axis->phase_deg, -720.0, 720.0), at + 8, "phase", axis->phase_deg,
+                             "-720 to 720 degrees");
+        }
         return;
     }
     check_axis(findings, lat, -1, at_undulation_lat);
@@ -99,96 +94,72 @@ void check_undulation(Findings& findings, const RegionHeader& header) {
     const double beyond_deg =
         findings.first() ? 0.0 : 2.0 / lon.posts_per_deg + 2.0 / lat.posts_per_deg + angle_slack_deg;
     check_angles(findings, {lat, lon}, at_undulation_lat, at_undulation_lon, beyond_deg);
-    const std::uint64_t nodes = static_cast<std::uint64_t>(std::max(0, lat.count)) *
+    const std::uint64_t bytes = sizeof(float) * static_cast<std::uint64_t>(std::max(0, lat.count)) *
                                 static_cast<std::uint64_t>(std::max(0, lon.count));
-    findings.require(header.undulation_nodes == nodes, at_nodes, "undulation nodes", header.undulation_nodes,
-                     said(nodes));
-    findings.require(nodes <= most_nodes, at_nodes, "undulation nodes", nodes, "at most 2^32");
+    findings.require(stored_bytes == bytes, at_undulation_lat + 28, "bytes of undulation", stored_bytes,
+                     said(bytes));
 }
 
-void check_terrain(Findings& findings, const RegionHeader& header) {
+void check_terrain(Findings& findings, const OutlineNumbers& numbers) {
     for (int i = 0; i < 3; ++i)
-        findings.require(within(header.occluder_radii_m[i], 1.0, 1.0e7),
+        findings.require(within(numbers.occluder_radii_m[i], 1.0, 1.0e7),
                          at_radii + 8U * static_cast<unsigned>(i), "occluder radius in metres",
-                         header.occluder_radii_m[i], "1 to 1e7");
-    const auto lowest_m = static_cast<double>(header.lowest_H_m);
-    const auto highest_m = static_cast<double>(header.highest_H_m);
+                         numbers.occluder_radii_m[i], "1 to 1e7");
+    const auto lowest_m = static_cast<double>(numbers.lowest_H_m);
+    const auto highest_m = static_cast<double>(numbers.highest_H_m);
     findings.require(std::isfinite(lowest_m), at_heights, "lowest height", lowest_m, "a finite one");
     findings.require(std::isfinite(highest_m) && highest_m >= lowest_m, at_heights + 4, "highest height",
                      highest_m, "a finite one, no lower than " + said(lowest_m));
     if (findings.first()) return;
-    const auto rows = static_cast<std::uint64_t>(header.grid.rows());
-    const auto columns = static_cast<std::uint64_t>(header.grid.columns());
-    findings.require(header.voids <= rows * columns, at_voids, "void posts", header.voids,
+    const auto rows = static_cast<std::uint64_t>(numbers.lat.count);
+    const auto columns = static_cast<std::uint64_t>(numbers.lon.count);
+    findings.require(numbers.voids <= rows * columns, at_voids, "void posts", numbers.voids,
                      "at most " + said(rows * columns));
     const std::uint64_t triangles = 2 * (rows - 1) * (columns - 1);
-    findings.require(header.triangles <= triangles, at_triangles, "triangles", header.triangles,
+    findings.require(numbers.triangles <= triangles, at_triangles, "triangles", numbers.triangles,
                      "at most " + said(triangles));
 }
 
 void check_net_axis(Findings& findings, const GridAxis& axis, int step, std::uint64_t offset) {
     findings.require(axis.posts_per_deg == 0.0, offset, "posts per degree of a net", axis.posts_per_deg, "0");
     findings.require(axis.phase_deg == 0.0, offset + 8, "phase of a net", axis.phase_deg, "0");
+    findings.require(axis.first == 0, offset + 16, "first post's index of a net",
+                     static_cast<double>(axis.first), "0");
     findings.require(axis.step == step, offset + 24, "step", static_cast<double>(axis.step),
                      step > 0 ? "1" : "-1");
     findings.require(axis.count >= 2 && axis.count <= most_posts, offset + 28, "posts",
                      static_cast<double>(axis.count), "2 to " + std::to_string(most_posts));
 }
 
-// Of a grid on a net; what its coefficients say is looked at when they are read.
-void check_net(Findings& findings, const RegionHeader& header) {
-    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 40U;
-    check_net_axis(findings, header.grid.lat, -1, at_grid_lat);
-    check_net_axis(findings, header.grid.lon, +1, at_grid_lon);
-    const std::uint64_t bytes = header.net_bytes;
-    // Corrections may have any size.
-    findings.require(
-        bytes >= net_front_bytes + patch_bytes && bytes <= most_bytes &&
-            (is_on_corrected_net(header.version) || (bytes - net_front_bytes) % patch_bytes == 0),
-        at_grid_lat + 16, "net bytes", bytes,
-        said(net_front_bytes) + " and " + said(patch_bytes) + " for each patch");
-}
-
-// All that does not follow from other numbers.
-std::optional<Implausible> implausible_given(const RegionHeader& header) {
-    Findings findings;
-    if (is_on_net(header.version)) {
-        check_net(findings, header);
-    } else {
-        check_axis(findings, header.grid.lat, -1, at_grid_lat);
-        check_axis(findings, header.grid.lon, +1, at_grid_lon);
-        check_angles(findings, header.grid, at_grid_lat, at_grid_lon, angle_slack_deg);
-    }
-    check_undulation(findings, header);
-    check_terrain(findings, header);
-    findings.require(header.description_bytes <= longest_description, at_description, "description bytes",
-                     header.description_bytes, "at most " + said(longest_description));
-    return findings.first();
-}
-
 }  // namespace
 
-std::optional<Implausible> implausible(const RegionHeader& header) {
-    if (const auto wrong = implausible_given(header)) return wrong;
+std::optional<Implausible> implausible(const OutlineNumbers& numbers, std::uint64_t undulation_bytes,
+                                       bool on_net) {
     Findings findings;
-    findings.require(header.header_size == header_bytes, at_header_size, "header bytes",
-                     static_cast<std::uint64_t>(header.header_size), said(std::uint64_t{header_bytes}));
-    const std::uint64_t pages = PageOrder(header.grid).count();
-    findings.require(header.pages == pages, at_pages, "pages", header.pages, said(pages));
-    const std::uint64_t least = offsets_of(header).payloads;
-    if (header.file_bytes != 0)
-        findings.require(header.file_bytes >= least && header.file_bytes <= largest_file, at_file_bytes,
-                         "file bytes", header.file_bytes, said(least) + " or more");
+    // What the coefficients of a net say is looked at when they are read.
+    const auto check = on_net ? check_net_axis : check_axis;
+    check(findings, numbers.lat, -1, at_lat);
+    check(findings, numbers.lon, +1, at_lon);
+    if (!on_net) check_angles(findings, {numbers.lat, numbers.lon}, at_lat, at_lon, angle_slack_deg);
+    check_undulation(findings, numbers, undulation_bytes);
+    check_terrain(findings, numbers);
     return findings.first();
 }
 
 std::optional<Implausible> implausible(const RegionOutline& outline) {
-    if (const auto wrong = implausible_given(header_of(outline, 0))) return wrong;
-    return implausible(outline.undulation.N_m, header_bytes + outline.description.size());
+    const std::vector<float>& N_m = outline.undulation.N_m;
+    if (const auto wrong =
+            implausible(numbers_of(outline, 0), sizeof(float) * N_m.size(), outline.grid.net != nullptr))
+        return wrong;
+    if (outline.description.size() > longest_description)
+        return Implausible{0, "its description has " + said(std::uint64_t{outline.description.size()}) +
+                                  " bytes, expected at most " + said(longest_description)};
+    return implausible(N_m);
 }
 
-std::optional<Implausible> implausible(std::span<const float> N_m, std::uint64_t offset) {
+std::optional<Implausible> implausible(std::span<const float> N_m) {
     Findings findings;
+    std::uint64_t offset = 0;
     for (const float value : N_m) {
         const auto found_m = static_cast<double>(value);
         if (!findings.require(within(found_m, -1.0e5, 1.0e5), offset, "undulation in metres", found_m,

@@ -1,5 +1,7 @@
 #include "core/base/checksum.h"
 
+#include <cstdio>
+
 // All of xxHash is compiled into this file: a benchmark carries it to machines that lack the library.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -8,6 +10,13 @@ namespace oro {
 
 std::uint64_t xxh64(std::span<const std::byte> bytes, std::uint64_t seed) {
     return XXH64(bytes.data(), bytes.size(), seed);
+}
+
+std::string other_checksum(std::uint64_t found, std::uint64_t expected) {
+    char text[80];
+    std::snprintf(text, sizeof(text), "has checksum %016llx, expected %016llx",
+                  static_cast<unsigned long long>(found), static_cast<unsigned long long>(expected));
+    return text;
 }
 
 struct RunningChecksum::State {
@@ -19,6 +28,7 @@ RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) {
 }
 
 RunningChecksum::RunningChecksum(RunningChecksum&&) noexcept = default;
+RunningChecksum& RunningChecksum::operator=(RunningChecksum&&) noexcept = default;
 RunningChecksum::~RunningChecksum() = default;
 
 void RunningChecksum::add(std::span<const std::byte> bytes) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace oro {
 
@@ -13,13 +14,17 @@ namespace oro {
 // Source: Y. Collet, xxHash fast digest algorithm, specification 0.1.1, section "XXH64".
 [[nodiscard]] std::uint64_t xxh64(std::span<const std::byte> bytes, std::uint64_t seed = 0);
 
-// The same, with seed 0, of bytes that come piece by piece.
+// What an error says of bytes whose checksum is another: "has checksum 0123..., expected 4567...".
+[[nodiscard]] std::string other_checksum(std::uint64_t found, std::uint64_t expected);
+
+// XXH64, with seed 0, of bytes that come piece by piece.
 class RunningChecksum {
   public:
     RunningChecksum();
     RunningChecksum(const RunningChecksum&) = delete;
     RunningChecksum& operator=(const RunningChecksum&) = delete;
     RunningChecksum(RunningChecksum&&) noexcept;
+    RunningChecksum& operator=(RunningChecksum&&) noexcept;
     ~RunningChecksum();
     void add(std::span<const std::byte> bytes);
     // Of all that was added so far.

@@ -74,6 +74,15 @@ int take_file_name(const std::string& from, const std::string& to, bool overwrit
     return 0;
 }
 
+Result<void> give_name(const std::string& partial, const std::string& to, bool overwrite) {
+    const int why = take_file_name(partial, to, overwrite);
+    if (why == 0) return {};
+    if (why == EEXIST && !overwrite)
+        return fault(to,
+                     "appeared while it was being written, and is left as it is; the new one is " + partial);
+    return fault(to, "cannot be written: " + system_reason(why));
+}
+
 void ignore_size_limit_signal() {
     [[maybe_unused]] static const bool once = [] {
         struct sigaction current {};

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <type_traits>
+#include <vector>
 
 namespace oro {
 
@@ -36,5 +38,51 @@ void to_little_endian(T number, std::byte* bytes) {
     for (std::size_t i = 0; i < sizeof(bits); ++i)
         bytes[i] = static_cast<std::byte>((std::uint64_t{bits} >> (8 * i)) & 0xffU);
 }
+
+// Appends numbers to `bytes`. A function template that shows it a struct's fields, visit(field), can show
+// them to a NumberReader, too: so their order is written down once for both ways.
+class NumberWriter {
+  public:
+    static constexpr bool writes = true;
+    template <class T>
+    void operator()(const T& number) {
+        const std::size_t at = bytes.size();
+        bytes.resize(at + sizeof(T));
+        to_little_endian(number, &bytes[at]);
+    }
+    std::vector<std::byte> bytes;
+};
+
+// Reads numbers one after another out of bytes that it does not own. Beyond their end it gives zeros and
+// remembers that it did.
+class NumberReader {
+  public:
+    static constexpr bool writes = false;
+    explicit NumberReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    template <class T>
+    void operator()(T& number) {
+        if (bytes_.size() < sizeof(T)) {
+            fail();
+            number = T{};
+            return;
+        }
+        number = from_little_endian<T>(bytes_.data());
+        bytes_ = bytes_.subspan(sizeof(T));
+    }
+    // The bytes that are not read yet.
+    [[nodiscard]] std::span<const std::byte> rest() const { return bytes_; }
+    // True where so many things of so many bytes each may follow.
+    [[nodiscard]] bool has(std::uint64_t count, std::size_t each) const {
+        return count <= bytes_.size() / each;
+    }
+    // What was read is not what was meant.
+    void fail() { failed_ = true; }
+    // True unless all bytes were read, and no more than all.
+    [[nodiscard]] bool is_wrong() const { return failed_ || !bytes_.empty(); }
+
+  private:
+    std::span<const std::byte> bytes_;
+    bool failed_{false};
+};
 
 }  // namespace oro

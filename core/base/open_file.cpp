@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -37,18 +36,13 @@ Result<OpenFile> OpenFile::open(const std::string& path, Use use) {
 }
 
 OpenFile::OpenFile(OpenFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      path_(std::move(other.path_)),
-      first_(other.first_),
-      bytes_(other.bytes_) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)) {}
 
 OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {
     if (this == &other) return *this;
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = std::exchange(other.descriptor_, -1);
     path_ = std::move(other.path_);
-    first_ = other.first_;
-    bytes_ = other.bytes_;
     return *this;
 }
 
@@ -61,34 +55,20 @@ Error OpenFile::fault(const std::string& what, int error_number) const {
 }
 
 Error OpenFile::damaged(std::uint64_t offset, const std::string& what) const {
-    return {ErrorKind::failed, path_, "is damaged at byte " + std::to_string(first_ + offset) + ": " + what};
-}
-
-Result<OpenFile> OpenFile::part(std::uint64_t first, std::uint64_t bytes) const {
-    const int again = fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
-    if (again < 0) return fault("cannot be opened: ", errno);
-    OpenFile file(again, path_);
-    file.first_ = first_ + first;
-    file.bytes_ = bytes;
-    return file;
+    return {ErrorKind::failed, path_, "is damaged at byte " + std::to_string(offset) + ": " + what};
 }
 
 Result<std::uint64_t> OpenFile::size() const {
-    if (bytes_) return *bytes_;
     struct stat found {};
     if (fstat(descriptor_, &found) != 0) return fault("cannot be asked for its size: ", errno);
     return static_cast<std::uint64_t>(found.st_size);
 }
 
 Result<void> OpenFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
-    if (bytes_ && (offset > *bytes_ || bytes.size() > *bytes_ - offset))
-        return damaged(std::min(offset, *bytes_), "a part of it ends here, and more was expected");
     while (!bytes.empty()) {
-        const ssize_t count =
-            pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(first_ + offset));
+        const ssize_t count = pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0)
-            return fault("cannot be read at byte " + std::to_string(first_ + offset) + ": ", errno);
+        if (count < 0) return fault("cannot be read at byte " + std::to_string(offset) + ": ", errno);
         if (count == 0)
             return damaged(offset,
                            "it ends here, and " + std::to_string(bytes.size()) + " bytes more were expected");

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -27,10 +26,6 @@ class OpenFile {
     OpenFile& operator=(const OpenFile&) = delete;
     ~OpenFile();
 
-    // So many bytes of it from one byte on, as a file of their own, to be read; offsets in errors are the
-    // whole file's. Errors: those of the system.
-    [[nodiscard]] Result<OpenFile> part(std::uint64_t first, std::uint64_t bytes) const;
-
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] int descriptor() const { return descriptor_; }
     [[nodiscard]] Result<std::uint64_t> size() const;
@@ -51,8 +46,6 @@ class OpenFile {
 
     int descriptor_{-1};
     std::string path_;
-    std::uint64_t first_{0};
-    std::optional<std::uint64_t> bytes_;  // of a part
 };
 
 // The system's words for an error number.

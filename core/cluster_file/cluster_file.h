@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "core/base/open_file.h"
+#include "core/base/container.h"
 #include "core/base/result.h"
 #include "core/cluster_file/group_code.h"
 #include "core/cluster_file/sound_graph.h"
@@ -19,7 +20,7 @@ namespace oro {
 
 // What a file says of the whole graph.
 struct ClusterOutline {
-    // Tells what the graph was built over from anything else (surface_fingerprint()).
+    // That of the region whose posts the graph was built over.
     std::uint64_t fingerprint{};
     PostCounts posts;
     std::uint32_t leaves{};  // clusters of the original; their triangles are the grid's, and not in the file
@@ -56,14 +57,14 @@ struct LeavesOneByOne {
 //     ORO_TRY(const ClusterGraph graph, file.graph(surface, bounds));
 class ClusterFile {
   public:
-    // Errors: no cluster file, one of another version of the format, cut off, unfinished, damaged, or with
-    // counts that no graph has.
+    // Errors: those of Container; damage, and counts that no graph has.
     static Result<ClusterFile> open(const std::string& path);
-    // One that is a part of a file (core/baked/clustered_file.h).
-    static Result<ClusterFile> open(OpenFile file);
+    // The clusters of the grid of that number in a file.
+    static Result<ClusterFile> open(std::shared_ptr<const Container> container, std::uint32_t grid);
 
-    [[nodiscard]] const std::string& path() const { return file_.path(); }
+    [[nodiscard]] const std::string& path() const { return container_->path(); }
     [[nodiscard]] const ClusterOutline& outline() const { return outline_; }
+    // The size that the graph has in a file of its own.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
     // All groups' numbers, without first_member, held against each other, the levels, the header and the
@@ -86,15 +87,18 @@ class ClusterFile {
     [[nodiscard]] Error unsound(std::uint32_t number, const std::string& what) const;
 
   private:
-    ClusterFile(OpenFile file, ClusterOutline outline, std::uint64_t bytes);
+    ClusterFile(std::shared_ptr<const Container> container, ClusterOutline outline);
+    [[nodiscard]] std::uint64_t record_offset(std::uint32_t number) const;
     [[nodiscard]] std::uint32_t level_of(std::uint32_t number) const;
+    [[nodiscard]] Result<void> check_chunks() const;
     // graph: without its counts, which are those of the outline.
     [[nodiscard]] Result<void> check_sound(GraphByGroups graph, const OriginalSurface& surface,
                                            const GroundBounds& bounds, int threads) const;
 
-    OpenFile file_;
+    std::shared_ptr<const Container> container_;
     ClusterOutline outline_;
-    std::uint64_t bytes_;
+    Chunk graph_, groups_, meshes_;
+    std::uint64_t bytes_{};
     std::vector<std::uint32_t> last_groups_;  // one after the last, by level
 };
 

@@ -1,9 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <utility>
 
 #include "core/base/checksum.h"
-#include "core/base/little_endian.h"
 #include "core/base/parallel.h"
 #include "core/cluster_file/cluster_format.h"
 #include "core/cluster_file/sound_graph.h"
@@ -13,57 +13,36 @@ namespace {
 
 using namespace cluster_format;
 
-std::uint64_t record_offset(const ClusterOutline& outline, std::uint32_t number) {
-    return header_bytes + outline.levels.size() * level_bytes + std::uint64_t{number} * record_bytes;
-}
-
-Result<Header> read_header(const OpenFile& file, std::uint64_t bytes) {
-    HeaderBytes front;
-    const auto there = std::span(front).first(std::min<std::uint64_t>(bytes, front.size()));
-    ORO_CHECK(file.read(0, there));
-    const auto begins = std::as_bytes(std::span(magic));
-    if (there.size() < begins.size() || !std::equal(begins.begin(), begins.end(), there.begin()))
-        return fault(file.path(), "is no cluster file");
-    ORO_CHECK(file.read(0, front));
-    const auto found = from_little_endian<std::uint32_t>(&front[8]);
-    if (found != version)
-        return fault(file.path(), "has version " + std::to_string(found) + " of the format, expected " +
-                                      std::to_string(version));
-    if (const auto wrong = wrong_checksum(front, 0)) return file.damaged(0, "the header " + *wrong);
-    const Header header = header_from_bytes(front);
-    if (header.file_bytes == 0) return fault(file.path(), "is unfinished");
-    if (header.file_bytes != bytes)
-        return file.damaged(16, "the header says " + std::to_string(header.file_bytes) +
-                                    " bytes, but the file has " + std::to_string(bytes));
-    if (const auto wrong = implausible(header)) return file.damaged(0, "the header " + *wrong);
-    return header;
-}
-
-Result<StoredGroup> read_record(const OpenFile& file, const ClusterOutline& outline, std::uint64_t bytes,
-                                std::uint32_t number) {
-    const std::uint64_t offset = record_offset(outline, number);
+Result<StoredGroup> read_record(const Container& container, const ClusterOutline& outline,
+                                const Chunk& groups, const Chunk& meshes, std::uint32_t number) {
+    const OpenFile& file = container.file();
+    const std::uint64_t offset = groups.offset + std::uint64_t{number} * record_bytes;
     const std::string name = "the record of group " + std::to_string(number) + " ";
-    RecordBytes stored;
+    std::array<std::byte, record_bytes> stored;
     ORO_CHECK(file.read(offset, stored));
     if (const auto wrong = wrong_checksum(stored, number)) return file.damaged(offset, name + *wrong);
     const StoredGroup record = record_from_bytes(stored);
-    const Header header{bytes, outline, static_cast<std::uint32_t>(outline.levels.size()), 0};
-    if (const auto wrong = implausible(record, header)) return file.damaged(offset, name + *wrong);
+    if (const auto wrong = implausible(record, outline, meshes.bytes))
+        return file.damaged(offset, name + *wrong);
     return record;
 }
 
 }  // namespace
 
 Result<ClusterFile> ClusterFile::open(const std::string& path) {
-    ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
-    return open(std::move(file));
+    ORO_TRY(std::shared_ptr<const Container> container, Container::open(path));
+    return open(std::move(container), 0);
 }
 
-ClusterFile::ClusterFile(OpenFile file, ClusterOutline outline, std::uint64_t bytes)
-    : file_(std::move(file)), outline_(std::move(outline)), bytes_(bytes) {
+ClusterFile::ClusterFile(std::shared_ptr<const Container> container, ClusterOutline outline)
+    : container_(std::move(container)), outline_(std::move(outline)) {
     std::uint32_t last = 0;
     for (const GraphLevel& level : outline_.levels)
         last_groups_.push_back(last += static_cast<std::uint32_t>(level.groups));
+}
+
+std::uint64_t ClusterFile::record_offset(std::uint32_t number) const {
+    return groups_.offset + std::uint64_t{number} * record_bytes;
 }
 
 std::uint32_t ClusterFile::level_of(std::uint32_t number) const {
@@ -71,40 +50,49 @@ std::uint32_t ClusterFile::level_of(std::uint32_t number) const {
                                           last_groups_.begin());
 }
 
-Result<ClusterFile> ClusterFile::open(OpenFile file) {
-    ORO_TRY(const std::uint64_t bytes, file.size());
-    ORO_TRY(const Header header, read_header(file, bytes));
-    std::vector<std::byte> levels(header.levels * level_bytes);
-    ORO_CHECK(file.read(header_bytes, levels));
-    if (const std::uint64_t computed = xxh64(levels); computed != header.levels_checksum)
-        return file.damaged(header_bytes, "the levels have checksum " + std::to_string(computed) +
-                                              ", expected " + std::to_string(header.levels_checksum));
-    ClusterOutline outline = header.outline;
-    outline.levels = levels_from_bytes(levels);
-    if (const auto wrong = implausible(header, outline.levels))
-        return file.damaged(header_bytes, "the levels " + *wrong);
-    return ClusterFile(std::move(file), std::move(outline), bytes);
+Result<ClusterFile> ClusterFile::open(std::shared_ptr<const Container> container, std::uint32_t grid) {
+    const OpenFile& file = container->file();
+    ORO_TRY(const Chunk graph, container->chunk(ChunkType::graph, grid));
+    ORO_TRY(const Chunk groups, container->chunk(ChunkType::groups, grid));
+    ORO_TRY(const Chunk meshes, container->chunk(ChunkType::meshes, grid));
+    if (graph.bytes < outline_bytes || graph.bytes > outline_bytes + most_levels * level_bytes ||
+        (graph.bytes - outline_bytes) % level_bytes != 0)
+        return file.damaged(graph.offset, "the outline of clusters has " + std::to_string(graph.bytes) +
+                                              " bytes, expected " + std::to_string(outline_bytes) + " and " +
+                                              std::to_string(level_bytes) + " for each of at most " +
+                                              std::to_string(most_levels) + " levels");
+    ORO_TRY(const std::vector<std::byte> bytes, container->read(graph));
+    ClusterOutline outline = outline_from_bytes(bytes);
+    if (const auto wrong = implausible(outline, groups.bytes))
+        return file.damaged(graph.offset, "the outline of clusters " + *wrong);
+    ClusterFile clusters(std::move(container), std::move(outline));
+    clusters.graph_ = graph;
+    clusters.groups_ = groups;
+    clusters.meshes_ = meshes;
+    clusters.bytes_ =
+        ChunkTable::header_bytes + 3 * ChunkTable::entry_bytes + graph.bytes + groups.bytes + meshes.bytes;
+    return clusters;
 }
 
 Result<ClusterGroup> ClusterFile::group(std::uint32_t number) const {
     assert(number < outline_.groups);
-    ORO_TRY(StoredGroup stored, read_record(file_, outline_, bytes_, number));
+    ORO_TRY(StoredGroup stored, read_record(*container_, outline_, groups_, meshes_, number));
     stored.group.level = level_of(number);
     return stored.group;
 }
 
 Result<void> ClusterFile::part(std::uint32_t number, GroupPart& part) const {
     assert(number < outline_.groups);
-    ORO_TRY(const StoredGroup stored, read_record(file_, outline_, bytes_, number));
+    ORO_TRY(const StoredGroup stored, read_record(*container_, outline_, groups_, meshes_, number));
     std::vector<std::byte> payload(stored.payload_bytes);
-    ORO_CHECK(file_.read(stored.payload_offset, payload));
+    const OpenFile& file = container_->file();
+    const std::uint64_t offset = meshes_.offset + stored.payload_offset;
+    ORO_CHECK(file.read(offset, payload));
     const auto damaged = [&](const std::string& what) {
-        return file_.damaged(stored.payload_offset,
-                             "the payload of group " + std::to_string(number) + " " + what);
+        return file.damaged(offset, "the payload of group " + std::to_string(number) + " " + what);
     };
     if (const std::uint64_t computed = xxh64(payload, number); computed != stored.payload_checksum)
-        return damaged("has checksum " + std::to_string(computed) + ", expected " +
-                       std::to_string(stored.payload_checksum));
+        return damaged(other_checksum(computed, stored.payload_checksum));
     part.number = number;
     part.group = stored.group;
     const std::uint32_t level = part.group.level = level_of(number);
@@ -200,19 +188,20 @@ void link_leaves(ClusterGraph& graph, std::uint32_t leaves) {
 
 Result<std::vector<ClusterGroup>> ClusterFile::groups() const {
     std::vector<ClusterGroup> groups;
-    std::uint64_t next_payload = record_offset(outline_, outline_.groups);
+    const OpenFile& file = container_->file();
+    std::uint64_t next_payload = 0;
     std::uint64_t next_made = outline_.leaves, members = 0;
     std::uint32_t number = 0;
     const auto differ = [&](const std::string& what, std::uint64_t found, std::uint64_t expected) {
-        return file_.damaged(record_offset(outline_, number),
-                             "the record of group " + std::to_string(number) + " " + what + " " +
-                                 std::to_string(found) + ", expected " + std::to_string(expected));
+        return file.damaged(record_offset(number), "the record of group " + std::to_string(number) + " " +
+                                                       what + " " + std::to_string(found) + ", expected " +
+                                                       std::to_string(expected));
     };
     for (std::size_t level = 0; level < outline_.levels.size(); ++level) {
         std::uint64_t triangles = 0, made = 0;
         double largest_m = 0.0;
         for (; number < last_groups_[level]; ++number) {
-            ORO_TRY(const StoredGroup stored, read_record(file_, outline_, bytes_, number));
+            ORO_TRY(const StoredGroup stored, read_record(*container_, outline_, groups_, meshes_, number));
             if (stored.payload_offset != next_payload)
                 return differ("has its payload at byte", stored.payload_offset, next_payload);
             if (stored.group.first_made != next_made)
@@ -228,24 +217,30 @@ Result<std::vector<ClusterGroup>> ClusterFile::groups() const {
         }
         const GraphLevel& said = outline_.levels[level];
         if (made != said.clusters_out || triangles != said.triangles_out || largest_m != said.largest_error_m)
-            return file_.damaged(
-                header_bytes + level * level_bytes,
+            return file.damaged(
+                graph_.offset + outline_bytes + level * level_bytes,
                 "level " + std::to_string(level + 1) + " says " + std::to_string(said.clusters_out) +
                     " clusters, " + std::to_string(said.triangles_out) + " triangles and " +
                     std::to_string(said.largest_error_m) + " m, but its groups have " + std::to_string(made) +
                     ", " + std::to_string(triangles) + " and " + std::to_string(largest_m));
     }
-    if (next_payload != bytes_)
-        return file_.damaged(next_payload,
-                             "the payloads end here, but the file has " + std::to_string(bytes_) + " bytes");
+    if (next_payload != meshes_.bytes)
+        return file.damaged(meshes_.offset + next_payload, "the payloads end here, but the meshes have " +
+                                                               std::to_string(meshes_.bytes) + " bytes");
     if (members != outline_.members)
-        return file_.damaged(0, "the header says " + std::to_string(outline_.members) +
-                                    " members, but the groups have " + std::to_string(members));
+        return file.damaged(graph_.offset, "the outline of clusters says " +
+                                               std::to_string(outline_.members) +
+                                               " members, but the groups have " + std::to_string(members));
     return groups;
 }
 
 Error ClusterFile::unsound(std::uint32_t number, const std::string& what) const {
-    return file_.damaged(record_offset(outline_, number), "group " + std::to_string(number) + " " + what);
+    return container_->file().damaged(record_offset(number), "group " + std::to_string(number) + " " + what);
+}
+
+Result<void> ClusterFile::check_chunks() const {
+    ORO_CHECK(container_->check(groups_));
+    return container_->check(meshes_);
 }
 
 Result<ClusterGraph> ClusterFile::graph(const OriginalSurface& surface, const GroundBounds& bounds,
@@ -275,6 +270,7 @@ Result<ClusterGraph> ClusterFile::graph(const OriginalSurface& surface, const Gr
                                return {};
                            }},
                           surface, bounds, threads));
+    ORO_CHECK(check_chunks());
     return graph;
 }
 
@@ -295,10 +291,11 @@ Result<void> ClusterFile::check(const OriginalSurface& surface, const GroundBoun
     for (std::uint32_t leaf = 0; leaf < leaves.count; ++leaf) triangles += leaves.triangles(leaf).size();
     ORO_CHECK(check_surface(*this, surface, leaves.count, triangles));
     ORO_CHECK(groups());
-    return check_sound(
+    ORO_CHECK(check_sound(
         {.leaf = leaves.triangles,
          .part = [this](std::uint32_t number, GroupPart& part) { return this->part(number, part); }},
-        surface, bounds, threads);
+        surface, bounds, threads));
+    return check_chunks();
 }
 
 }  // namespace oro

@@ -39,21 +39,18 @@ Result<OpenFile> begin_partial(const std::string& path) {
     ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::write));
     if (flock(file.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         return fault(path, "is being written by another program");
-    ORO_TRY(const std::uint64_t found, file.size());
-    std::array<std::byte, magic.size()> begins{};
-    const auto there = std::span(begins).first(std::min<std::uint64_t>(found, begins.size()));
-    ORO_CHECK(file.read(0, there));
-    if (!std::equal(there.begin(), there.end(), std::as_bytes(std::span(magic)).begin()))
+    ORO_TRY(const FileBeginning begins, file_beginning(file));
+    if (begins == FileBeginning::foreign)
         return fault(path, "is there already, and holds something else; move it away");
     ORO_CHECK(file.resize(0));
     return file;
 }
 
-// Codes and writes all groups; gives where the last ends.
-Result<std::uint64_t> write_groups(OpenFile& file, const GiveGroup& give, const Header& header, int threads) {
-    const ClusterOutline& outline = header.outline;
-    const Offsets offsets = offsets_of(header);
-    std::uint64_t end = offsets.payloads;
+// Codes and writes all groups, and puts sizes and checksums of both chunks into the table.
+Result<void> write_groups(OpenFile& file, const GiveGroup& give, const ClusterOutline& outline,
+                          Chunk& groups_in, Chunk& meshes_in, int threads) {
+    RunningChecksum sum_of_records, sum_of_payloads;
+    std::uint64_t end = 0;
     for (std::uint32_t first = 0; first < outline.groups; first += groups_at_a_time) {
         const std::uint32_t count = std::min(groups_at_a_time, outline.groups - first);
         std::vector<Result<std::vector<std::byte>>> coded(count, std::vector<std::byte>());
@@ -77,15 +74,20 @@ Result<std::uint64_t> write_groups(OpenFile& file, const GiveGroup& give, const 
             stored.payload_offset = end + payloads.size();
             stored.payload_bytes = static_cast<std::uint32_t>(payload.size());
             stored.payload_checksum = xxh64(payload, first + i);
-            const RecordBytes record = record_to_bytes(stored, first + i);
+            const std::vector<std::byte> record = record_to_bytes(stored, first + i);
             records.insert(records.end(), record.begin(), record.end());
             payloads.insert(payloads.end(), payload.begin(), payload.end());
         }
-        ORO_CHECK(file.write(end, payloads));
-        ORO_CHECK(file.write(offsets.records + std::uint64_t{first} * record_bytes, records));
+        ORO_CHECK(file.write(meshes_in.offset + end, payloads));
+        ORO_CHECK(file.write(groups_in.offset + std::uint64_t{first} * record_bytes, records));
+        sum_of_records.add(records);
+        sum_of_payloads.add(payloads);
         end += payloads.size();
     }
-    return end;
+    groups_in.checksum = sum_of_records.sum();
+    meshes_in.checksum = sum_of_payloads.sum();
+    meshes_in.bytes = end;
+    return {};
 }
 
 }  // namespace
@@ -105,22 +107,22 @@ Result<void> write_cluster_groups(const std::string& path, const ClusterOutline&
     ORO_TRY(const unsigned old_mode, check_target(target, overwrite));
     ignore_size_limit_signal();
     ORO_TRY(OpenFile file, begin_partial(target + ".partial"));
-    Header header{0, outline, static_cast<std::uint32_t>(outline.levels.size()),
-                  xxh64(levels_to_bytes(outline.levels))};
-    ORO_CHECK(file.write(0, header_to_bytes(header)));
-    ORO_CHECK(file.write(header_bytes, levels_to_bytes(outline.levels)));
-    ORO_TRY(header.file_bytes, write_groups(file, part, header, threads));
+    const std::vector<std::byte> graph = outline_to_bytes(outline);
+    ChunkTable table{0,
+                     {{ChunkType::graph, 0, 0, graph.size(), xxh64(graph)},
+                      {ChunkType::groups, 0, 0, std::uint64_t{outline.groups} * record_bytes, 0},
+                      {ChunkType::meshes, 0, 0, 0, 0}}};
+    table.place();
+    ORO_CHECK(file.write(0, table.to_bytes()));
+    ORO_CHECK(file.write(table.chunks[0].offset, graph));
+    ORO_CHECK(write_groups(file, part, outline, table.chunks[1], table.chunks[2], threads));
+    table.file_bytes = table.place();
     // A file that its owner had closed to others stays closed to them when it is replaced.
     if (old_mode != 0) (void)fchmod(file.descriptor(), old_mode);
     ORO_CHECK(file.sync());
-    ORO_CHECK(file.write(0, header_to_bytes(header)));
+    ORO_CHECK(file.write(0, table.to_bytes()));
     ORO_CHECK(file.sync());
-    const int why = take_file_name(file.path(), target, overwrite);
-    if (why == EEXIST && !overwrite)
-        return fault(target, "appeared while it was being written, and is left as it is; the new one is " +
-                                 file.path());
-    if (why != 0) return fault(target, "cannot be written: " + system_reason(why));
-    return {};
+    return give_name(file.path(), target, overwrite);
 }
 
 }  // namespace oro

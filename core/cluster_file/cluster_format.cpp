@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/base/checksum.h"
 #include "core/base/little_endian.h"
@@ -10,48 +9,18 @@
 namespace oro::cluster_format {
 namespace {
 
-// Puts or gets numbers one after another; visit() names them once for both ways.
-class Putter {
-  public:
-    explicit Putter(std::byte* at) : at_(at) {}
-    template <class T>
-    void operator()(const T& number) {
-        to_little_endian(number, at_);
-        at_ += sizeof(T);
-    }
-
-  private:
-    std::byte* at_;
-};
-class Getter {
-  public:
-    explicit Getter(const std::byte* at) : at_(at) {}
-    template <class T>
-    void operator()(T& number) {
-        number = from_little_endian<T>(at_);
-        at_ += sizeof(T);
-    }
-
-  private:
-    const std::byte* at_;
-};
-
-template <class Visit, class HeaderOf>
-void visit_header(Visit& visit, HeaderOf& header) {
-    visit(header.file_bytes);
-    visit(header.outline.fingerprint);
-    visit(header.outline.posts.rows);
-    visit(header.outline.posts.columns);
-    visit(header.outline.leaves);
-    visit(header.outline.clusters);
-    visit(header.outline.groups);
-    visit(header.levels);
-    visit(header.outline.members);
-    visit(header.outline.triangles);
-    visit(header.levels_checksum);
+template <class Visit, class Outline>
+void visit_outline(Visit& visit, Outline& outline) {
+    visit(outline.fingerprint);
+    visit(outline.posts.rows);
+    visit(outline.posts.columns);
+    visit(outline.leaves);
+    visit(outline.clusters);
+    visit(outline.groups);
+    visit(outline.members);
+    visit(outline.triangles);
 }
-constexpr std::size_t at_numbers = 16;  // after magic, version and the header's size
-static_assert(header_bytes == at_numbers + 2 * 8 + 6 * 4 + 3 * 8 + 8);
+static_assert(outline_bytes == 3 * 8 + 5 * 4);
 
 // Counts as 64 bits, whatever std::size_t has.
 template <class Visit, class Level>
@@ -97,55 +66,33 @@ std::string differ(const std::string& what, std::uint64_t found, std::uint64_t e
 
 }  // namespace
 
-HeaderBytes header_to_bytes(const Header& header) {
-    HeaderBytes bytes{};
-    std::memcpy(bytes.data(), magic.data(), magic.size());
-    to_little_endian(version, &bytes[8]);
-    to_little_endian(static_cast<std::uint32_t>(header_bytes), &bytes[12]);
-    Putter put(&bytes[at_numbers]);
-    visit_header(put, header);
-    to_little_endian(xxh64(std::span(bytes).first(header_bytes - 8)), &bytes[header_bytes - 8]);
-    return bytes;
+std::vector<std::byte> outline_to_bytes(const ClusterOutline& outline) {
+    NumberWriter put;
+    visit_outline(put, outline);
+    for (const GraphLevel& level : outline.levels) visit_level(put, level);
+    return std::move(put.bytes);
 }
 
-Header header_from_bytes(const HeaderBytes& bytes) {
-    Header header;
-    Getter get(&bytes[at_numbers]);
-    visit_header(get, header);
-    return header;
+ClusterOutline outline_from_bytes(std::span<const std::byte> bytes) {
+    ClusterOutline outline;
+    NumberReader get(bytes);
+    visit_outline(get, outline);
+    outline.levels.resize(get.rest().size() / level_bytes);
+    for (GraphLevel& level : outline.levels) visit_level(get, level);
+    return outline;
 }
 
-std::vector<std::byte> levels_to_bytes(std::span<const GraphLevel> levels) {
-    std::vector<std::byte> bytes(levels.size() * level_bytes);
-    Putter put(bytes.data());
-    for (const GraphLevel& level : levels) visit_level(put, level);
-    return bytes;
-}
-
-std::vector<GraphLevel> levels_from_bytes(std::span<const std::byte> bytes) {
-    std::vector<GraphLevel> levels(bytes.size() / level_bytes);
-    Getter get(bytes.data());
-    for (GraphLevel& level : levels) visit_level(get, level);
-    return levels;
-}
-
-Offsets offsets_of(const Header& header) {
-    const std::uint64_t records = header_bytes + std::uint64_t{header.levels} * level_bytes;
-    return {records, records + std::uint64_t{header.outline.groups} * record_bytes};
-}
-
-RecordBytes record_to_bytes(const StoredGroup& stored, std::uint32_t number) {
-    RecordBytes bytes{};
-    Putter put(bytes.data());
+std::vector<std::byte> record_to_bytes(const StoredGroup& stored, std::uint32_t number) {
+    NumberWriter put;
     std::uint32_t whole = stored.group.whole ? 1 : 0;
     visit_record(put, stored, whole);
-    to_little_endian(xxh64(std::span(bytes).first(record_bytes - 8), number), &bytes[record_bytes - 8]);
-    return bytes;
+    put(xxh64(put.bytes, number));
+    return std::move(put.bytes);
 }
 
-StoredGroup record_from_bytes(const RecordBytes& bytes) {
+StoredGroup record_from_bytes(std::span<const std::byte> bytes) {
     StoredGroup stored;
-    Getter get(bytes.data());
+    NumberReader get(bytes);
     std::uint32_t whole = 0;
     visit_record(get, stored, whole);
     stored.group.whole = whole != 0;
@@ -157,45 +104,19 @@ std::optional<std::string> wrong_checksum(std::span<const std::byte> bytes, std:
     const auto stored = from_little_endian<std::uint64_t>(&bytes[without]);
     const std::uint64_t computed = xxh64(bytes.first(without), seed);
     if (computed == stored) return std::nullopt;
-    return differ("has checksum", computed, stored);
+    return other_checksum(computed, stored);
 }
 
-std::optional<std::string> implausible(const Header& header) {
-    const ClusterOutline& outline = header.outline;
-    const PostCounts& posts = outline.posts;
-    if (posts.rows < 2 || posts.columns < 2 ||
-        static_cast<std::uint64_t>(posts.rows) * static_cast<std::uint64_t>(posts.columns) > no_group)
-        return "says " + std::to_string(posts.rows) + " x " + std::to_string(posts.columns) +
-               " posts, expected 2 x 2 to 2^32 - 1 in all";
-    if (header.levels > most_levels)
-        return "says " + std::to_string(header.levels) + " levels, expected at most " +
-               std::to_string(most_levels);
-    const Offsets offsets = offsets_of(header);
-    if (offsets.payloads > header.file_bytes)
-        return differ("says " + std::to_string(outline.groups) + " groups; their records end at byte",
-                      offsets.payloads, header.file_bytes) +
-               " at most";
-    if (outline.clusters == no_group || outline.leaves > outline.clusters)
-        return "says " + std::to_string(outline.leaves) + " leaves of " + std::to_string(outline.clusters) +
-               " clusters";
-    // All clusters but those of the last level are used, each once.
-    if (outline.members > outline.clusters)
-        return "says " + std::to_string(outline.members) + " members, but has " +
-               std::to_string(outline.clusters) + " clusters";
-    if ((header.levels == 0) != (outline.groups == 0))
-        return "says " + std::to_string(outline.groups) + " groups in " + std::to_string(header.levels) +
-               " levels";
-    return std::nullopt;
-}
+namespace {
 
-std::optional<std::string> implausible(const Header& header, std::span<const GraphLevel> levels) {
-    const ClusterOutline& outline = header.outline;
+// What building did, against the outline.
+std::optional<std::string> implausible_levels(const ClusterOutline& outline) {
     std::uint64_t groups = 0, clusters = outline.leaves, triangles = 0;
     // What is left of the original's triangles: nothing makes more of them.
     std::uint64_t left = 2 * static_cast<std::uint64_t>(outline.posts.rows - 1) *
                          static_cast<std::uint64_t>(outline.posts.columns - 1);
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        const GraphLevel& level = levels[i];
+    for (std::size_t i = 0; i < outline.levels.size(); ++i) {
+        const GraphLevel& level = outline.levels[i];
         const std::string name = "level " + std::to_string(i + 1);
         if (level.triangles_in > left || level.triangles_out > level.triangles_in ||
             (i > 0 && level.triangles_in != left))
@@ -211,13 +132,41 @@ std::optional<std::string> implausible(const Header& header, std::span<const Gra
         clusters += level.clusters_out;
         triangles += level.triangles_out;
     }
-    if (groups != outline.groups) return differ("have groups:", groups, outline.groups);
-    if (clusters != outline.clusters) return differ("have clusters:", clusters, outline.clusters);
-    if (triangles != outline.triangles) return differ("have triangles:", triangles, outline.triangles);
+    if (groups != outline.groups) return differ("its levels have groups:", groups, outline.groups);
+    if (clusters != outline.clusters) return differ("its levels have clusters:", clusters, outline.clusters);
+    if (triangles != outline.triangles)
+        return differ("its levels have triangles:", triangles, outline.triangles);
     return std::nullopt;
 }
 
-std::optional<std::string> implausible(const StoredGroup& stored, const Header& header) {
+}  // namespace
+
+std::optional<std::string> implausible(const ClusterOutline& outline, std::uint64_t groups_bytes) {
+    const PostCounts& posts = outline.posts;
+    const std::size_t levels = outline.levels.size();
+    if (posts.rows < 2 || posts.columns < 2 ||
+        static_cast<std::uint64_t>(posts.rows) * static_cast<std::uint64_t>(posts.columns) > no_group)
+        return "says " + std::to_string(posts.rows) + " x " + std::to_string(posts.columns) +
+               " posts, expected 2 x 2 to 2^32 - 1 in all";
+    if (levels > most_levels)
+        return "has " + std::to_string(levels) + " levels, expected at most " + std::to_string(most_levels);
+    if (const std::uint64_t bytes = std::uint64_t{outline.groups} * record_bytes; bytes != groups_bytes)
+        return differ("says " + std::to_string(outline.groups) + " groups; bytes of their records:",
+                      groups_bytes, bytes);
+    if (outline.clusters == no_group || outline.leaves > outline.clusters)
+        return "says " + std::to_string(outline.leaves) + " leaves of " + std::to_string(outline.clusters) +
+               " clusters";
+    // All clusters but those of the last level are used, each once.
+    if (outline.members > outline.clusters)
+        return "says " + std::to_string(outline.members) + " members, but has " +
+               std::to_string(outline.clusters) + " clusters";
+    if ((levels == 0) != (outline.groups == 0))
+        return "says " + std::to_string(outline.groups) + " groups in " + std::to_string(levels) + " levels";
+    return implausible_levels(outline);
+}
+
+std::optional<std::string> implausible(const StoredGroup& stored, const ClusterOutline& outline,
+                                       std::uint64_t meshes_bytes) {
     const ClusterGroup& group = stored.group;
     for (const double number :
          {group.error_m, group.centre.m.x, group.centre.m.y, group.centre.m.z, group.radius_m}) {
@@ -226,23 +175,20 @@ std::optional<std::string> implausible(const StoredGroup& stored, const Header& 
     if (group.error_m < 0.0 || group.radius_m < 0.0)
         return "has error " + std::to_string(group.error_m) + " m and radius " +
                std::to_string(group.radius_m) + " m, expected none below 0";
-    if (group.members < 1 || group.members > most_group_members || group.members > header.outline.members)
+    if (group.members < 1 || group.members > most_group_members || group.members > outline.members)
         return "says " + std::to_string(group.members) + " members, expected 1 to " +
-               std::to_string(std::min<std::uint64_t>(most_group_members, header.outline.members));
+               std::to_string(std::min<std::uint64_t>(most_group_members, outline.members));
     if (group.made < 1 || group.made > stored.triangles || stored.triangles > most_group_triangles)
         return "says " + std::to_string(stored.triangles) + " triangles in " + std::to_string(group.made) +
                " clusters, expected 1 to " + std::to_string(most_group_triangles);
-    if (group.first_made < header.outline.leaves ||
-        std::uint64_t{group.first_made} + group.made > header.outline.clusters)
+    if (group.first_made < outline.leaves || std::uint64_t{group.first_made} + group.made > outline.clusters)
         return "made clusters " + std::to_string(group.first_made) + " to " +
                std::to_string(std::uint64_t{group.first_made} + group.made - 1) + ", expected some of " +
-               std::to_string(header.outline.leaves) + " to " + std::to_string(header.outline.clusters - 1);
-    const std::uint64_t first = offsets_of(header).payloads;
-    if (stored.payload_offset < first || stored.payload_offset > header.file_bytes ||
-        stored.payload_bytes > header.file_bytes - stored.payload_offset)
-        return "has its payload at byte " + std::to_string(stored.payload_offset) + ", " +
-               std::to_string(stored.payload_bytes) + " bytes long, expected it within bytes " +
-               std::to_string(first) + " to " + std::to_string(header.file_bytes);
+               std::to_string(outline.leaves) + " to " + std::to_string(outline.clusters - 1);
+    if (stored.payload_offset > meshes_bytes || stored.payload_bytes > meshes_bytes - stored.payload_offset)
+        return "has its payload at byte " + std::to_string(stored.payload_offset) + " of the meshes, " +
+               std::to_string(stored.payload_bytes) + " bytes long, but these have " +
+               std::to_string(meshes_bytes);
     return std::nullopt;
 }
 

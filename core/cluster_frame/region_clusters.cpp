@@ -360,7 +360,7 @@ Result<std::unique_ptr<RegionClusters>> clusters_of_file(std::shared_ptr<const C
                                                          std::uint64_t fingerprint, const HeightField& field,
                                                          const HorizonOccluder& occluder) {
     const ClusterOutline& outline = file->outline();
-    if (outline.fingerprint != surface_fingerprint(fingerprint, field.grid.split) ||
+    if (outline.fingerprint != fingerprint ||
         outline.posts.rows != field.grid.rows() || outline.posts.columns != field.grid.columns())
         return Error{ErrorKind::failed, file->path(), "has clusters of another region's posts"};
     ORO_TRY(std::vector<ClusterGroup> groups, file->groups());

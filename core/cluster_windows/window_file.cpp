@@ -1,7 +1,6 @@
 #include "core/cluster_windows/window_file.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "core/base/checksum.h"
@@ -12,49 +11,8 @@
 namespace oro {
 namespace {
 
-// Header: magic, size of the index, its checksum, their own. Then blocks, and the index.
-constexpr std::array<unsigned char, 8> magic = {0x89, 'O', 'R', 'W', '\r', '\n', 0x1a, 4};
-constexpr std::size_t header_bytes = 32;
+// A container (core/base/container.h) of two chunks: the groups' blocks one after another, and the index.
 constexpr std::size_t tile_bytes = 16;
-constexpr std::uint64_t most_index_bytes = std::uint64_t{1} << 32U;
-
-// Numbers one after another, out and in.
-class Putter {
-  public:
-    static constexpr bool writes = true;
-    template <class T>
-    void operator()(const T& number) {
-        const std::size_t at = bytes.size();
-        bytes.resize(at + sizeof(T));
-        to_little_endian(number, &bytes[at]);
-    }
-    std::vector<std::byte> bytes;
-};
-class Getter {
-  public:
-    static constexpr bool writes = false;
-    explicit Getter(std::span<const std::byte> bytes) : bytes_(bytes) {}
-    template <class T>
-    void operator()(T& number) {
-        if (bytes_.size() < sizeof(T)) {
-            ended_ = true;
-            number = T{};
-            return;
-        }
-        number = from_little_endian<T>(bytes_.data());
-        bytes_ = bytes_.subspan(sizeof(T));
-    }
-    // How many there are of something of so many bytes; none more than there is room for.
-    [[nodiscard]] bool has(std::uint64_t count, std::size_t each) const {
-        return count <= bytes_.size() / each;
-    }
-    [[nodiscard]] bool is_wrong() const { return ended_ || !bytes_.empty(); }
-    void fail() { ended_ = true; }
-
-  private:
-    std::span<const std::byte> bytes_;
-    bool ended_{};
-};
 
 template <class Visit, class Each>
 void visit_all(Visit& visit, std::vector<Each>& all, std::size_t bytes, const auto& visit_one) {
@@ -107,37 +65,17 @@ void visit_index(Visit& visit, WindowIndex& index) {
 
 }  // namespace
 
-Result<bool> begins_as_window(const OpenFile& file) {
-    ORO_TRY(const std::uint64_t size, file.size());
-    std::array<std::byte, magic.size()> found{};
-    const auto there =
-        std::span(found).first(static_cast<std::size_t>(std::min<std::uint64_t>(size, found.size())));
-    ORO_CHECK(file.read(0, there));
-    return std::equal(there.begin(), there.end(), std::as_bytes(std::span(magic)).begin());
-}
-
 Result<WindowFile> WindowFile::open(const std::string& path) {
-    ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
-    ORO_TRY(const std::uint64_t size, file.size());
-    std::array<std::byte, header_bytes> header;
-    const auto damaged = [&](const char* what) { return Error{ErrorKind::failed, path, what}; };
-    if (size < header.size()) return damaged("is no window of clusters");
-    ORO_CHECK(file.read(0, header));
-    const auto begins = std::as_bytes(std::span(magic));
-    if (!std::equal(begins.begin(), begins.end(), header.begin()) ||
-        xxh64(std::span<const std::byte>(header).first(24)) != from_little_endian<std::uint64_t>(&header[24]))
-        return damaged("is no window of clusters");
-    const auto bytes = from_little_endian<std::uint64_t>(&header[8]);
-    if (bytes > most_index_bytes || bytes > size - header_bytes) return damaged("is cut off");
-    std::vector<std::byte> stored(static_cast<std::size_t>(bytes));
-    ORO_CHECK(file.read(size - bytes, stored));
-    if (xxh64(stored) != from_little_endian<std::uint64_t>(&header[16]))
-        return damaged("has a damaged index");
+    ORO_TRY(std::shared_ptr<const Container> container, Container::open(path));
+    ORO_TRY(const Chunk chunk, container->chunk(ChunkType::window, 0));
+    ORO_TRY(const Chunk blocks, container->chunk(ChunkType::blocks, 0));
+    ORO_TRY(const std::vector<std::byte> stored, container->read(chunk));
     WindowIndex index;
-    Getter get(stored);
+    NumberReader get(stored);
     visit_index(get, index);
-    if (get.is_wrong()) return damaged("has a damaged index");
-    return WindowFile(std::move(file), std::move(index));
+    if (get.is_wrong())
+        return container->file().damaged(chunk.offset, "the index of a window has other bytes than it says");
+    return WindowFile(std::move(container), std::move(index), blocks.offset);
 }
 
 std::size_t WindowFile::users_bytes(const WindowGroup& group) const {
@@ -147,21 +85,24 @@ std::size_t WindowFile::users_bytes(const WindowGroup& group) const {
 // Read before the checksum is asked for: read() does.
 Result<void> WindowFile::read_users(const WindowGroup& group, std::vector<GroupTile>& users) const {
     std::vector<std::byte> stored(std::min<std::size_t>(group.bytes, users_bytes(group)));
-    ORO_CHECK(file_.read(group.offset, stored));
-    Getter get(stored);
+    ORO_CHECK(container_->file().read(blocks_ + group.offset, stored));
+    NumberReader get(stored);
     users.resize(stored.size() / tile_bytes);
     for (GroupTile& user : users) {
         get(user.row);
         get(user.column);
     }
-    if (get.is_wrong()) return file_.damaged(group.offset, "a group of a window is cut off");
+    if (get.is_wrong())
+        return container_->file().damaged(blocks_ + group.offset, "a group of a window is cut off");
     return {};
 }
 
 Result<void> WindowFile::read(const WindowGroup& group, const PostCounts& posts, GroupPart& part) const {
     std::vector<std::byte> block(group.bytes);
-    ORO_CHECK(file_.read(group.offset, block));
-    const auto damaged = [&](const std::string& what) { return file_.damaged(group.offset, what); };
+    ORO_CHECK(container_->file().read(blocks_ + group.offset, block));
+    const auto damaged = [&](const std::string& what) {
+        return container_->file().damaged(blocks_ + group.offset, what);
+    };
     if (xxh64(block) != group.checksum) return damaged("a group of a window has another checksum");
     const std::size_t first = users_bytes(group);
     if (first > block.size()) return damaged("a group of a window is cut off");
@@ -180,7 +121,7 @@ Result<void> WindowFile::read(const WindowGroup& group, const PostCounts& posts,
 
 std::vector<std::byte> window_block(const GroupPart& part, std::span<const GroupTile> users,
                                     const PostCounts& posts) {
-    Putter put;
+    NumberWriter put;
     for (const GroupTile& user : users) {
         put(user.row);
         put(user.column);
@@ -193,30 +134,29 @@ std::vector<std::byte> window_block(const GroupPart& part, std::span<const Group
 Result<void> write_window(const std::string& path, WindowIndex index,
                           std::span<const std::vector<std::byte>> blocks) {
     ORO_TRY(OpenFile file, OpenFile::open(path + ".partial", OpenFile::Use::write));
-    ORO_CHECK(file.resize(0));
-    ORO_CHECK(file.write(0, std::as_bytes(std::span(magic))));
-    std::uint64_t at = header_bytes;
+    std::uint64_t at = 0;
+    RunningChecksum sum;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         WindowGroup& group = index.groups[i];
         group.offset = at;
         group.bytes = static_cast<std::uint32_t>(blocks[i].size());
         group.checksum = xxh64(blocks[i]);
-        ORO_CHECK(file.write(at, blocks[i]));
+        sum.add(blocks[i]);
         at += blocks[i].size();
     }
-    Putter put;
+    NumberWriter put;
     visit_index(put, index);
-    ORO_CHECK(file.write(at, put.bytes));
-    std::vector<std::byte> header(header_bytes);
-    std::ranges::copy(std::as_bytes(std::span(magic)), header.begin());
-    to_little_endian(std::uint64_t{put.bytes.size()}, &header[8]);
-    to_little_endian(xxh64(put.bytes), &header[16]);
-    to_little_endian(xxh64(std::span<const std::byte>(header).first(24)), &header[24]);
-    ORO_CHECK(file.write(0, header));
+    ChunkTable table{0,
+                     {{ChunkType::blocks, 0, 0, at, sum.sum()},
+                      {ChunkType::window, 0, 0, put.bytes.size(), xxh64(put.bytes)}}};
+    table.file_bytes = table.place();
+    ORO_CHECK(file.resize(0));
+    ORO_CHECK(file.write(0, table.to_bytes()));
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        ORO_CHECK(file.write(table.chunks[0].offset + index.groups[i].offset, blocks[i]));
+    ORO_CHECK(file.write(table.chunks[1].offset, put.bytes));
     ORO_CHECK(file.sync());
-    if (const int why = take_file_name(file.path(), path, true); why != 0)
-        return Error{ErrorKind::failed, path, "cannot be written: " + system_reason(why)};
-    return {};
+    return give_name(file.path(), path, true);
 }
 
 }  // namespace oro

@@ -3,11 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/base/open_file.h"
+#include "core/base/container.h"
 #include "core/base/result.h"
 #include "core/cluster_file/group_code.h"
 #include "core/clusters/group_tiling.h"
@@ -34,7 +35,7 @@ struct WindowGroup {
     PlaneBox extent;  // of all that it covers
     // Of what it made: the tiles of the groups that use them, but at the last level, then the clusters
     // (core/cluster_windows/window_code.h) with the window's own posts.
-    std::uint64_t offset{};
+    std::uint64_t offset{};  // among all groups' bytes
     std::uint32_t bytes{};
     std::uint64_t checksum{};
 };
@@ -57,9 +58,6 @@ struct WindowIndex {
     std::vector<WindowLocks> locks;  // by level
 };
 
-// Whether a file is one of a window, whole or not: it begins as one, or is empty.
-Result<bool> begins_as_window(const OpenFile& file);
-
 // A file of a window, whose groups are read one by one.
 class WindowFile {
   public:
@@ -72,10 +70,12 @@ class WindowFile {
     Result<void> read_users(const WindowGroup& group, std::vector<GroupTile>& users) const;
 
   private:
-    WindowFile(OpenFile file, WindowIndex index) : file_(std::move(file)), index_(std::move(index)) {}
+    WindowFile(std::shared_ptr<const Container> container, WindowIndex index, std::uint64_t blocks)
+        : container_(std::move(container)), index_(std::move(index)), blocks_(blocks) {}
     [[nodiscard]] std::size_t users_bytes(const WindowGroup& group) const;
-    OpenFile file_;
+    std::shared_ptr<const Container> container_;
     WindowIndex index_;
+    std::uint64_t blocks_;  // byte of the file where the groups' bytes begin
 };
 
 // The bytes of what a group made. users: none at the last level.

@@ -224,9 +224,8 @@ DrawnHeights heights_of(const WindowedRegion& region, const RegionWindow& window
         }
     });
     if (!heights.steps.empty()) heights.highest_steps = *std::ranges::max_element(heights.steps);
-    if (region.diagonals)
-        heights.diagonals = region.diagonals->part(window.window.first_row, window.window.first_column,
-                                                   window.rows - 1, window.columns - 1);
+    heights.diagonals = region.diagonals->part(window.window.first_row, window.window.first_column,
+                                               window.rows - 1, window.columns - 1);
     return heights;
 }
 

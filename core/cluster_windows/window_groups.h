@@ -15,7 +15,7 @@ namespace oro {
 // A region whose windows are built.
 struct WindowedRegion {
     const HeightField& field;        // does not go round the Earth; posts on latitudes and longitudes
-    const CellDiagonals* diagonals;  // of all of it; null: all fall
+    const CellDiagonals* diagonals;  // of all of it
     const GroundBounds& bounds;
     WindowSizes sizes;
     int threads{1};

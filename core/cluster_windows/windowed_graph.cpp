@@ -54,8 +54,8 @@ Result<void> check_path_of_window(const std::string& path) {
     for (const std::string& name : {path, path + ".partial"}) {
         const Result<OpenFile> file = OpenFile::open(name, OpenFile::Use::read);
         if (!file.ok()) continue;
-        ORO_TRY(const bool ours, begins_as_window(*file));
-        if (!ours)
+        ORO_TRY(const FileBeginning begins, file_beginning(*file));
+        if (begins == FileBeginning::foreign)
             return Error{ErrorKind::failed, name,
                          "is there already, and no bake has left it behind; move it away, or choose another "
                          "name for the region"};

@@ -14,7 +14,7 @@ namespace oro {
 
 struct WindowedBake {
     std::string path;             // of the cluster file; windows lie beside it until they are put together
-    std::uint64_t fingerprint{};  // surface_fingerprint()
+    std::uint64_t fingerprint{};  // of the region whose posts these are
     bool overwrite{};
     int threads{1};
     // Windows of the first levels, then those of the next over what these have left, and so on: margins are

@@ -70,7 +70,6 @@ void Crossings::walk(const Step& from, const Step& to, int depth) {
         search(piece, {from.column, middle.column, to.column}, 0.0, last_column, always);
         search(piece, {from.row - from.column, middle.row - middle.column, to.row - to.column}, -last_column,
                last_row, [&](double share) { return splits(piece, share, Diagonal::falls); });
-        if (grid_.split == CellSplit::all_fall) return;
         search(piece, {from.row + from.column, middle.row + middle.column, to.row + to.column}, 0.0,
                last_row + last_column, [&](double share) { return splits(piece, share, Diagonal::rises); });
         return;
@@ -85,7 +84,6 @@ void Crossings::walk(const Step& from, const Step& to, int depth) {
 
 // Whether the cell there is split so. On the rim of cells it does not matter: rows and columns are edges.
 bool Crossings::splits(const std::array<Step, 3>& piece, double share, Diagonal diagonal) const {
-    if (grid_.split == CellSplit::all_fall) return diagonal == Diagonal::falls;
     if (grid_.rows() < 2 || grid_.columns() < 2) return false;
     const auto at = [&](double a, double b, double c) {
         return a + share * (-3.0 * a + 4.0 * b - c + share * 2.0 * (a - 2.0 * b + c));

@@ -79,7 +79,7 @@ void EyePlane::place_row(const TrueSurface& surface, int row) {
         posts_[static_cast<std::size_t>(number(row, column))] = {enu.x, enu.y, seen_m, distance_m,
                                                                  seen_m / distance_m};
     }
-    if (grid.split == CellSplit::all_fall || row + 1 >= window_.rows) return;
+    if (row + 1 >= window_.rows) return;
     for (int column = 0; column + 1 < window_.columns; ++column) {
         const Diagonal diagonal = surface.diagonal_of_many(window_.first_row + row,
                                                            grid_column(grid, window_.first_column + column));

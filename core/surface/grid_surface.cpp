@@ -7,7 +7,6 @@
 #include <span>
 #include <utility>
 
-#include "core/base/checksum.h"
 #include "shaders/shared.h"
 
 namespace oro {
@@ -18,12 +17,6 @@ constexpr double on_edge_posts = 1.0e-7;
 constexpr int node_side = static_cast<int>(gpu::meshlet_quads);
 
 }  // namespace
-
-// Graphs of before there was a choice have that of their posts.
-std::uint64_t surface_fingerprint(std::uint64_t posts, CellSplit split) {
-    constexpr std::uint64_t seed = 1;
-    return split == CellSplit::all_fall ? posts : xxh64(std::as_bytes(std::span(&posts, 1)), seed);
-}
 
 GridSurface::GridSurface(const DrawnHeights& heights, const GridWindow& window)
     : heights_(heights), window_(window), rises_(heights.steps.size(), 0) {

@@ -19,10 +19,6 @@ struct GridWindow {
     bool goes_round{};
 };
 
-// What tells the surface of some posts from any other: `posts` is their own fingerprint. The same posts make
-// another surface where their cells are split otherwise.
-[[nodiscard]] std::uint64_t surface_fingerprint(std::uint64_t posts, CellSplit split);
-
 // Vertex number row * columns + column, counted within the heights; places are those in the region. A cell is
 // two triangles (core/terrain/cell_diagonal.h); a triangle with a void post is not there,
 // so that cells with void posts are holes. Leaves are the nodes of level 0: 8 x 8 quads. Reads `heights`

@@ -61,7 +61,6 @@ std::int32_t decisive_steps_at(const HeightField& field, int row, int column,
 }
 
 Diagonal cell_diagonal(const HeightField& field, int row, int column, const std::vector<char>* left_out) {
-    if (field.grid.split == CellSplit::all_fall) return Diagonal::falls;
     return diagonal_of([&](int r, int c) { return decisive_steps_at(field, r, c, left_out); }, row, column);
 }
 
@@ -147,7 +146,6 @@ std::shared_ptr<const CellDiagonals> CellDiagonals::part(int first_row, int firs
 }
 
 std::shared_ptr<const CellDiagonals> CellDiagonals::of(const HeightField& field, int threads) {
-    if (field.grid.split == CellSplit::all_fall) return nullptr;
     auto all = std::make_shared<CellDiagonals>();
     // As far as there is a coarser one, whatever levels are drawn.
     do all->levels_.push_back(level_of(field, static_cast<int>(all->levels_.size()), threads));

@@ -16,7 +16,7 @@ namespace oro {
 // own posts, every 2^k-th of the region's and the last.
 class CellDiagonals {
   public:
-    // Nothing where all fall. Reads every post; the work is shared between `threads`, with one result for any
+    // Never null. Reads every post; the work is shared between `threads`, with one result for any
     // number: some 5 ns a post.
     static std::shared_ptr<const CellDiagonals> of(const HeightField& field, int threads);
 

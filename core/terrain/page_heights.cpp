@@ -39,7 +39,6 @@ PageDiagonals diagonals_of(const CellDiagonals& all, PageIndex index) {
 // Decided by the page's own posts: the same, for these go as far as those that decide.
 PageDiagonals diagonals_of(const PostGrid& grid, const PageElevations& elevations, PageIndex index) {
     PageDiagonals rises{};
-    if (grid.split == CellSplit::all_fall) return rises;
     const LevelGrid level = level_grid(grid, index.level);
     const int cells = std::min(quads, level.column.quads - index.column * quads);
     DiagonalRows rows(cells);
@@ -160,7 +159,7 @@ PageElevations page_elevations(const HeightField& field, PageIndex index) {
     // The post after a last column that is the first one.
     const LevelGrid level = level_grid(field.grid, index.level);
     const int after = level.column.quads + 1 - index.column * quads;
-    if (field.grid.split == CellSplit::all_fall || !field.grid.goes_round() || after >= posts) return page;
+    if (!field.grid.goes_round() || after >= posts) return page;
     const int column = level.column.region_post(1);
     for (int i = -1; i <= posts; ++i) {
         const int level_row = index.row * quads + i;

@@ -11,8 +11,6 @@
 
 namespace oro {
 
-const CellSplit usual_split = CellSplit::by_posts;
-
 namespace {
 
 // Rounding of an angle may put a place on the edge this many posts beyond it (some 0.1 mm).

@@ -33,13 +33,6 @@ struct GridAxis {
     }
 };
 
-// What splits the cells of a region, on all levels, into two triangles each: one diagonal for all, from the
-// north-west to the south-east post, as older region files have it; or for each cell the one that its posts
-// decide for (core/terrain/cell_diagonal.h).
-enum class CellSplit : unsigned char { all_fall, by_posts };
-// How regions are split that do not say otherwise.
-extern const CellSplit usual_split;
-
 // Rows run from north to south, columns from west to east. Longitudes may run past 180 where a region crosses
 // the antimeridian (first column in [-180, 180)); a region is at most 360 degrees wide, and one that wide has
 // the same meridian in its first and last column.
@@ -49,7 +42,6 @@ struct PostGrid {
     GridAxis lat;
     GridAxis lon;
     std::shared_ptr<const GridNet> net{};  // null: posts lie on latitudes and longitudes
-    CellSplit split{usual_split};
 
     [[nodiscard]] int rows() const { return lat.count; }
     [[nodiscard]] int columns() const { return lon.count; }

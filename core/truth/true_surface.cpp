@@ -37,7 +37,7 @@ struct TrueSurface::Chunk {
         float highest{-std::numeric_limits<float>::infinity()};
     };
     std::array<std::vector<FloatLayer>, chunk_level + 1> levels;
-    std::vector<std::uint8_t> rises;  // of its cells, row by row, eight a byte; empty where all fall
+    std::vector<std::uint8_t> rises;  // of its cells, row by row, eight a byte
 
     // By the grid's row and column.
     [[nodiscard]] Diagonal diagonal_at(int row, int column) const {
@@ -273,7 +273,6 @@ TrueSurface::Chunk* TrueSurface::new_chunk(int chunk_row, int chunk_column) cons
 // Of the chunk's cells, by the posts around them.
 void TrueSurface::decide_diagonals(int chunk_row, int chunk_column, Chunk& chunk) const {
     const PostGrid& grid = field_.grid;
-    if (grid.split == CellSplit::all_fall) return;
     const int first_row = chunk_row * chunk_cells, first_column = chunk_column * chunk_cells;
     constexpr std::size_t row_bytes = chunk_cells / 8;
     chunk.rises.assign(chunk_cells * row_bytes, 0);
@@ -296,7 +295,6 @@ std::atomic<TrueSurface::Chunk*>& TrueSurface::slot_of(int row, int column) cons
 }
 
 Diagonal TrueSurface::diagonal_at(int row, int column) const {
-    if (field_.grid.split == CellSplit::all_fall) return Diagonal::falls;
     // As the chunk knows it, where one looked at it before.
     const Chunk* const known =
         slot_of(row / chunk_cells, column / chunk_cells).load(std::memory_order_acquire);
@@ -304,7 +302,6 @@ Diagonal TrueSurface::diagonal_at(int row, int column) const {
 }
 
 Diagonal TrueSurface::diagonal_of_many(int row, int column) const {
-    if (field_.grid.split == CellSplit::all_fall) return Diagonal::falls;
     return chunk(row / chunk_cells, column / chunk_cells).diagonal_at(row, column);
 }
 

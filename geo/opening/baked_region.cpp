@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/baked/clustered_file.h"
+#include "core/baked/baked_file.h"
 #include "core/baked/file_pages.h"
-#include "core/baked/grids_file.h"
+#include "core/base/container.h"
 #include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
 #include "geo/posts/holes.h"
@@ -227,10 +227,8 @@ Result<void> cut_out(Region& region, const RegionFile& file, const BoundingBox& 
 std::optional<std::string> baked_path(const std::vector<std::string>& paths) {
     for (const std::string& path : paths) {
         std::error_code ignored;
-        const bool named =
-            lower_case(path).ends_with(".oro") && !std::filesystem::is_directory(path, ignored);
-        if (named || looks_like_region_file(path) || looks_like_grids_file(path) ||
-            looks_like_clustered_file(path))
+        if ((lower_case(path).ends_with(".oro") && !std::filesystem::is_directory(path, ignored)) ||
+            looks_baked(path))
             return path;
     }
     return std::nullopt;
@@ -267,26 +265,26 @@ Result<Region> region_in(std::shared_ptr<const RegionFile> file, const RegionReq
     return region;
 }
 
-// All grids of a file that holds several; of a box those that it meets.
-Result<Region> regions_in(const std::string& path, const RegionRequest& request, const Progress& progress) {
-    ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
-    ORO_TRY(const std::vector<GridInFile> grids, grids_in(file));
-    if (!request.grids_apart)
+}  // namespace
+
+Result<Region> open_baked_region(const std::string& path, const RegionRequest& request,
+                                 const Progress& progress) {
+    ORO_CHECK(check_request(request, path));
+    ORO_TRY(const std::vector<BakedGrid> grids, open_baked_file(path));
+    if (grids.size() > 1 && !request.grids_apart)
         return Error{ErrorKind::usage, path,
                      "holds " + std::to_string(grids.size()) +
                          " grids of posts, and this takes one: bake the files with --resample"};
     std::vector<Region> regions;
     std::optional<Error> none;
-    for (const GridInFile& grid : grids) {
-        ORO_TRY(OpenFile part, file.part(grid.offset, grid.bytes));
-        ORO_TRY(RegionFile opened, RegionFile::open(std::move(part)));
-        Result<Region> region =
-            region_in(std::make_shared<const RegionFile>(std::move(opened)), request, progress);
+    for (const BakedGrid& grid : grids) {
+        Result<Region> region = region_in(grid.region, request, progress);
         if (!region && region.error().kind == ErrorKind::no_data && request.box) {
             if (!none) none = region.error();
             continue;
         }
         if (!region) return region.error();
+        if (region->file) region->clusters = grid.clusters;
         region->rank = static_cast<int>(grid.rank);
         regions.push_back(std::move(*region));
     }
@@ -294,24 +292,8 @@ Result<Region> regions_in(const std::string& path, const RegionRequest& request,
     Region first = std::move(regions.front());
     regions.erase(regions.begin());
     first.beside = std::move(regions);
+    if (progress) progress(1.0, "region read");
     return first;
-}
-
-}  // namespace
-
-Result<Region> open_baked_region(const RegionRequest& request, const Progress& progress) {
-    const std::string path = baked_path(request.paths).value_or("");
-    ORO_CHECK(check_request(request, path));
-    Result<Region> region = Region{};
-    if (looks_like_grids_file(path)) {
-        region = regions_in(path, request, progress);
-    } else {
-        ORO_TRY(const BakedFile opened, open_baked_file(path));
-        region = region_in(opened.region, request, progress);
-        if (region.ok() && region->file) region->clusters = opened.clusters;
-    }
-    if (region.ok() && progress) progress(1.0, "region read");
-    return region;
 }
 
 }  // namespace oro

@@ -259,13 +259,13 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
 }
 
 // Of a box without data: whether its numbers, taken as latitude first, are one with data. Then that is said.
-Error with_order_of_box(Error fault, const RegionRequest& request, bool is_baked) {
+Error with_order_of_box(Error fault, const RegionRequest& request, const std::optional<std::string>& baked) {
     if (fault.kind != ErrorKind::no_data || !request.box) return fault;
     RegionRequest other = request;
     other.box = with_latitude_first(*request.box);
     if (!other.box) return fault;
-    if (is_baked) {
-        if (!open_baked_region(other, {}).ok()) return fault;
+    if (baked) {
+        if (!open_baked_region(*baked, other, {}).ok()) return fault;
     } else {
         auto found = look_at_sources(other, {});
         if (!found.ok() || found->sources.empty() || !choose_extent(found->sources, other.box)) return fault;
@@ -279,14 +279,14 @@ Error with_order_of_box(Error fault, const RegionRequest& request, bool is_baked
 
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
     try {
-        const bool is_baked = baked_path(request.paths).has_value();
-        if (!is_baked) start_gdal();
+        const std::optional<std::string> baked = baked_path(request.paths);
+        if (!baked) start_gdal();
         Result<Region> region =
-            is_baked ? open_baked_region(request, progress) : read_region(request, progress);
+            baked ? open_baked_region(*baked, request, progress) : read_region(request, progress);
         if (region.ok()) ORO_CHECK(libraries_are_sound());
         // Also where it could not be read: a file that is being rewritten is not damaged.
         ORO_CHECK(check_files_unchanged());
-        if (!region.ok()) return with_order_of_box(region.error(), request, is_baked);
+        if (!region.ok()) return with_order_of_box(region.error(), request, baked);
         return region;
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::failed, "region too large",

@@ -115,7 +115,6 @@ bool ResamplingError::in_region(const LatLon& place) const {
 
 // Of a cell; nothing while posts that decide may still come.
 std::optional<Diagonal> ResamplingError::diagonal_at(int row, int column, bool is_whole) const {
-    if (grid_->split == CellSplit::all_fall) return Diagonal::falls;
     const int rows = grid_->rows(), columns = grid_->columns(), turn = grid_->goes_round() ? columns - 1 : 0;
     bool may_come = false;
     const Diagonal diagonal = diagonal_of(

@@ -22,8 +22,6 @@ constexpr std::array datums{
     Words<DatumFrom>{DatumFrom::dted_egm96, "EGM96 height (DTED metadata: E96)"},
     Words<DatumFrom>{DatumFrom::dted_egm2008, "EGM2008 height (DTED metadata: E08)"},
     Words<DatumFrom>{DatumFrom::hgt_format, "EGM96 height (by definition of .hgt, SRTM's format)"},
-    // What regions hold that were baked before.
-    Words<DatumFrom>{DatumFrom::hgt_format, "EGM96 height (assumed: .hgt states none)"},
     Words<DatumFrom>{DatumFrom::assumed_unstated, "EGM96 height (assumed: the file states none)"},
     Words<DatumFrom>{DatumFrom::assumed_unreadable,
                      "EGM96 height (assumed: PROJ cannot read what the CRS states of heights)"}};

@@ -12,7 +12,7 @@ namespace oro {
 
 std::string format_words(const SourceReport& source);  // "SRTM1 .hgt", "GTiff"
 std::string posts_words(PostsAre posts);               // "points", "cell centres (area)"
-std::string datum_words(const HeightDatum& datum);     // "EGM96 height (assumed: .hgt states none)"
+std::string datum_words(const HeightDatum& datum);     // "EGM96 height (assumed: the file states none)"
 // "within 10 m of WGS84 by NAD27 to WGS 84 (4); within 5 m with us_noaa_conus.tif, which PROJ lacks"; "" for
 // WGS84. There is no way back.
 std::string horizontal_words(const HorizontalDatum& datum);

@@ -57,7 +57,7 @@ std::optional<double> diagonals_apart_m(const HeightField& field, int row, int c
 
 std::optional<RimDiagonals> rim_diagonals(const HeightField& field, const CutOut& cut) {
     const PostGrid& grid = field.grid;
-    if (cut.left_out.empty() || grid.split == CellSplit::all_fall) return std::nullopt;
+    if (cut.left_out.empty()) return std::nullopt;
     const CutPosts left_out(grid, cut.left_out);
     std::vector<char> rows(static_cast<std::size_t>(grid.rows()) + 3);
     for (int row = 0; row < grid.rows(); ++row)

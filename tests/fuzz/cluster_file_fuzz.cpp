@@ -1,6 +1,6 @@
 // Any bytes as a cluster file over a small grid with a hole. The first byte says how they are taken: as the
-// whole file; as header, levels, records and payloads whose magic, size, places and checksums are then made
-// right; as the payload of a group; as changes of a true file, made right in the same way. What is read as a
+// whole file; as chunks whose table, places and checksums are then made right; as the payload of a group; as
+// changes of a true file's chunks, made right in the same way. What is read as a
 // graph must be sound, and every cut of it must be as many triangles as the original at most. The same is
 // asked without the graph in memory, and what draws such a file reads it, too: sound ones are drawn.
 #include <unistd.h>
@@ -27,6 +27,7 @@
 #include "core/clusters/graph_builder.h"
 #include "core/surface/grid_surface.h"
 #include "core/terrain/drawn_heights.h"
+#include "tests/support/mended_container.h"
 
 namespace {
 
@@ -41,8 +42,9 @@ struct Ground {
     GridSurface surface;
     GridBounds bounds;
     HorizonOccluder occluder;
-    std::uint64_t fingerprint = surface_fingerprint(0, CellSplit::by_posts);
-    std::vector<std::byte> file;
+    std::uint64_t fingerprint = 0;
+    ChunkTable table;               // of a true file
+    std::vector<std::byte> chunks;  // of it
 
     static HeightField made() {
         HeightField field;
@@ -65,8 +67,9 @@ struct Ground {
             std::abort();
         std::ifstream in(path, std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(in), {}};
-        const auto bytes = std::as_bytes(std::span(text));
-        file.assign(bytes.begin(), bytes.end());
+        table = (*Container::open(path))->table();
+        const auto bytes = std::as_bytes(std::span(text)).subspan(table.bytes());
+        chunks.assign(bytes.begin(), bytes.end());
         std::filesystem::remove(path);
     }
     static std::string name() {
@@ -81,34 +84,41 @@ void check_line(const Error& error) {
         if (static_cast<unsigned char>(c) < 0x20) std::abort();
 }
 
+// A table for bytes: of a graph with up to three levels, its groups, and what is left.
+ChunkTable table_for(std::vector<std::byte>& bytes) {
+    if (bytes.size() < outline_bytes) bytes.resize(outline_bytes);
+    const ClusterOutline outline = outline_from_bytes(bytes);
+    const std::uint64_t graph = std::min<std::uint64_t>(bytes.size(),
+                                                        outline_bytes + outline.clusters % 4 * level_bytes),
+                        groups = std::min<std::uint64_t>(bytes.size() - graph,
+                                                         std::uint64_t{outline.groups} * record_bytes);
+    ChunkTable table{0,
+                     {{ChunkType::graph, 0, 0, graph, 0},
+                      {ChunkType::groups, 0, 0, groups, 0},
+                      {ChunkType::meshes, 0, 0, bytes.size() - graph - groups, 0}}};
+    table.file_bytes = table.place();
+    return table;
+}
+
 // Makes right what a fuzzer cannot guess, so that the numbers behind it are looked at.
-void mend(std::vector<std::byte>& bytes) {
-    if (bytes.size() < header_bytes) bytes.resize(header_bytes);
-    std::memcpy(bytes.data(), magic.data(), magic.size());
-    to_little_endian(version, &bytes[8]);
-    to_little_endian(std::uint32_t{header_bytes}, &bytes[12]);
-    to_little_endian(std::uint64_t{bytes.size()}, &bytes[16]);
-    HeaderBytes front;
-    std::copy_n(bytes.begin(), header_bytes, front.begin());
-    const Header header = header_from_bytes(front);
+std::string mend(std::vector<std::byte> bytes, const ChunkTable& table) {
     const std::span<std::byte> all(bytes);
-    if (!implausible(header)) {  // then the sizes fit the file
-        const Offsets places = offsets_of(header);
-        to_little_endian(xxh64(all.subspan(header_bytes, places.records - header_bytes)),
-                         &bytes[header_bytes - 16]);
-        std::uint64_t next = places.payloads;
-        for (std::uint32_t i = 0; i < header.outline.groups; ++i) {
-            const std::uint64_t at = places.records + std::uint64_t{i} * record_bytes;
-            to_little_endian(next, &bytes[at + 40]);
-            const std::uint64_t length = std::min<std::uint64_t>(
-                from_little_endian<std::uint32_t>(&bytes[at + 56]), bytes.size() - next);
-            to_little_endian(static_cast<std::uint32_t>(length), &bytes[at + 56]);
-            to_little_endian(xxh64(all.subspan(next, length), i), &bytes[at + 48]);
-            to_little_endian(xxh64(all.subspan(at, record_bytes - 8), i), &bytes[at + record_bytes - 8]);
-            next += length;
-        }
+    const std::uint64_t groups = table.chunks[1].offset - table.bytes(),
+                        meshes = table.chunks[2].offset - table.bytes();
+    std::uint64_t next = 0;
+    for (std::uint32_t i = 0; i < table.chunks[1].bytes / record_bytes; ++i) {
+        const std::uint64_t at = groups + std::uint64_t{i} * record_bytes;
+        to_little_endian(next, &bytes[at + 40]);
+        const std::uint64_t length = std::min<std::uint64_t>(
+            from_little_endian<std::uint32_t>(&bytes[at + 56]), table.chunks[2].bytes - next);
+        to_little_endian(static_cast<std::uint32_t>(length), &bytes[at + 56]);
+        to_little_endian(xxh64(all.subspan(meshes + next, length), i), &bytes[at + 48]);
+        to_little_endian(xxh64(all.subspan(at, record_bytes - 8), i), &bytes[at + record_bytes - 8]);
+        next += length;
     }
-    to_little_endian(xxh64(all.first(header_bytes - 8)), &bytes[header_bytes - 8]);
+    const std::vector<std::byte> front = table.to_bytes();
+    return test::mended(std::string(reinterpret_cast<const char*>(front.data()), front.size()) +
+                        std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 // Pairs of a place and a byte.
@@ -195,22 +205,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const Ground ground;
     const auto* const from = reinterpret_cast<const std::byte*>(data);
     std::vector<std::byte> bytes(from + 1, from + size);
-    switch (data[0] % 4) {
-        case 0:
-            break;
-        case 1:
-            mend(bytes);
-            break;
-        case 2:
-            check_payload(bytes);
-            return 0;
-        default:
-            bytes = changed(ground.file, bytes);
-            mend(bytes);
+    std::string file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (data[0] % 4 == 1) {
+        const ChunkTable table = table_for(bytes);
+        file = mend(std::move(bytes), table);
+    } else if (data[0] % 4 == 2) {
+        check_payload(bytes);
+        return 0;
+    } else if (data[0] % 4 == 3) {
+        file = mend(changed(ground.chunks, bytes), ground.table);
     }
     const std::string path = Ground::name();
-    std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(path, std::ios::binary) << file;
     read_all(ground, path);
     std::filesystem::remove(path);
     return 0;

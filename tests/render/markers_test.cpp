@@ -31,7 +31,6 @@ HeightField marked_plain(double lat_deg, double lon_deg, double post_m) {
     HeightField field;
     const double half = posts / 2;
     const double north = std::min(std::round(lat_deg * rows_per_deg + half), 90.0 * rows_per_deg);
-    field.grid.split = CellSplit::all_fall;  // so that six triangles are around each post
     field.grid.lat = {rows_per_deg, north / rows_per_deg, 0, -1, posts};
     field.grid.lon = {columns_per_deg, std::round(lon_deg * columns_per_deg - half) / columns_per_deg, 0, +1,
                       posts};
@@ -164,7 +163,7 @@ class Markers : public test::GpuTest {
         return (ndc + 1.0) * 0.5 * to.size_px;
     }
 
-    // Where a marker's centre of white truly is on the picture: of the six triangles around its post, in
+    // Where a marker's centre of white truly is on the picture: of the eight triangles around its post, in
     // small pieces, each by its area and its height over the plain.
     struct SeenMarker {
         glm::dvec2 centre_px;
@@ -178,9 +177,9 @@ class Markers : public test::GpuTest {
                                  static_cast<double>(plain_m) + over_m};
             return to.view_from_ecef * sight.refraction.apparent_m(ecef_from_geodetic(place).m - sight.eye.m);
         };
-        // North-west to south-east is the edge of each cell's two triangles.
-        constexpr std::array<std::pair<int, int>, 6> around{
-            {{-1, -1}, {-1, 0}, {0, 1}, {1, 1}, {1, 0}, {0, -1}}};
+        // The four cells around it are split by the diagonals that go through the post.
+        constexpr std::array<std::pair<int, int>, 8> around{
+            {{-1, -1}, {-1, 0}, {-1, 1}, {0, 1}, {1, 1}, {1, 0}, {1, -1}, {0, -1}}};
         const glm::dvec3 top = view_m(0, 0, 1.0);
         glm::dvec2 sum(0.0);
         glm::dvec3 squares(0.0);

@@ -47,8 +47,7 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         cuts_ = std::move(cuts).value();
         seam_ = seam_between(region_, cuts_, 1.0);
         for (const Region* const grid : all_grids(region_)) {
-            falling_.push_back(grid->field);
-            falling_.back().grid.split = CellSplit::all_fall;
+            none_decide_.emplace_back(grid->field.grid.post_count(), char{1});
         }
         scene_.emplace(test::scene_of_grids(*gpu_, region_, cuts_, seam_));
     }
@@ -82,10 +81,12 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
                      lon_deg = at.lon_deg + between(-0.002, 0.002);
         // Whichever diagonal is drawn: cells beside what is cut out fall.
         double ground_m = -1000.0;
-        for (const HeightField& field : falling_)
-            ground_m = std::max(ground_m, ground_h_m(field, lat_deg, lon_deg).value_or(-1000.0));
-        for (const Region* grid : all_grids(region_))
-            ground_m = std::max(ground_m, ground_h_m(grid->field, lat_deg, lon_deg).value_or(-1000.0));
+        for (std::size_t i = 0; i < none_decide_.size(); ++i) {
+            const HeightField& field = all_grids(region_)[i]->field;
+            ground_m = std::max({ground_m, ground_h_m(field, lat_deg, lon_deg).value_or(-1000.0),
+                                 field.surface_H_m(lat_deg, lon_deg, &none_decide_[i]).value_or(-1000.0) +
+                                     field.undulation.at_m(lat_deg, lon_deg)});
+        }
         camera.eye = {lat_deg, lon_deg, ground_m + std::exp(between(std::log(3.0), std::log(highest_m)))};
         camera.attitude = {between(0, 360), between(-90, -45), between(-180, 180)};
         camera.vertical_fov_deg = 35.0;
@@ -94,7 +95,7 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
     }
 
     Region region_;
-    std::vector<HeightField> falling_;  // the grids, with all cells split as if they fell
+    std::vector<std::vector<char>> none_decide_;  // of each grid's posts: left out, so that all cells fall
     RegionCuts cuts_;
     Seam seam_;
     std::optional<Scene> scene_;

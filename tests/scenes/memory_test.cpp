@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "core/baked/bake.h"
-#include "core/baked/clustered_file.h"
+#include "core/baked/baked_file.h"
 #include "core/baked/file_pages.h"
 #include "core/cluster_frame/region_clusters.h"
 #include "core/terrain/ground.h"
@@ -120,17 +120,18 @@ void fly_on(test::DrawnScene& flown, const Camera& camera, const std::vector<std
 TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
     const char* const path = std::getenv("OROGRAPH_TEST_CLUSTERS");
     if (!path) GTEST_SKIP() << "needs a baked file with clusters";
-    const auto opened = open_baked_file(path);
-    ASSERT_TRUE(opened.ok()) << opened.error().line();
-    ASSERT_TRUE(opened->clusters);
-    const auto field = field_in_memory(*opened->region);
+    const auto grids = open_baked_file(path);
+    ASSERT_TRUE(grids.ok()) << grids.error().line();
+    const BakedGrid& opened = grids->front();
+    ASSERT_TRUE(opened.clusters);
+    const auto field = field_in_memory(*opened.region);
     ASSERT_TRUE(field.ok()) << field.error().line();
     constexpr int width_px = 640, height_px = 360;
     constexpr std::uint64_t budget = 64'000'000;
     const auto scene_of = [&](std::uint64_t bytes) {
-        auto drawn = std::make_unique<test::DrawnScene>(*gpu_, pages_of_file(opened->region),
+        auto drawn = std::make_unique<test::DrawnScene>(*gpu_, pages_of_file(opened.region),
                                                         RasterPath::compute, width_px, height_px, bytes / 2);
-        auto graph = clusters_of_file(opened->clusters, opened->region->fingerprint(), *field,
+        auto graph = clusters_of_file(opened.clusters, opened.region->fingerprint(), *field,
                                       drawn->scene().pages().facts().shape.occluder);
         EXPECT_TRUE(graph.ok()) << graph.error().line();
         auto made = ClusterScene::create(*gpu_, std::move(graph).value(), bytes / 2);

@@ -16,7 +16,6 @@ namespace oro::test {
 // 2^-11 m. Of regions without a pole, whose first and last column have the same heights where they are one
 // meridian.
 inline bool rises_by_rule(const HeightField& field, int row, int column, int level = 0) {
-    if (field.grid.split == CellSplit::all_fall) return false;
     const LevelGrid grid = level_grid(field.grid, level);
     const auto H = [&](int r, int c) -> std::optional<double> {
         if (field.grid.goes_round() && c == -1) c = grid.column.quads - 1;

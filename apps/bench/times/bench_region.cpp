@@ -16,7 +16,10 @@ Result<BenchRegion> open_bench_region(const BenchOptions& options) {
         region.pages = pages_in_memory(region.made, 1.0, thread_count());
         return region;
     }
-    ORO_TRY(region.file, open_baked_file(options.region));
+    ORO_TRY(const std::vector<BakedGrid> grids, open_baked_file(options.region));
+    if (grids.size() > 1)
+        return Error{ErrorKind::usage, options.region, "has several grids of posts; one is needed"};
+    region.file = grids.front();
     region.pages = pages_of_file(region.file.region);
     return region;
 }

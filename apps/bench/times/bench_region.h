@@ -6,7 +6,7 @@
 
 #include "apps/bench/bench_path.h"
 #include "apps/bench/times/bench_options.h"
-#include "core/baked/clustered_file.h"
+#include "core/baked/baked_file.h"
 #include "core/frame/region_pages.h"
 #include "core/terrain/post_grid.h"
 #include "render/scene/scene.h"
@@ -16,7 +16,7 @@ namespace oro {
 // A region file, or one that is made.
 struct BenchRegion {
     HeightField made;
-    BakedFile file;
+    BakedGrid file;
     std::unique_ptr<RegionPages> pages;
 };
 Result<BenchRegion> open_bench_region(const BenchOptions& options);

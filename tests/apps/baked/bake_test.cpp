@@ -71,7 +71,7 @@ TEST_F(Bake, InfoTellsTheSameAsOfItsSources) {
     EXPECT_EQ(baked_one["region"], tiles["region"]);
     EXPECT_EQ(baked_one["file"]["bytes"], fs::file_size(file));
     EXPECT_EQ(baked_one["file"]["levels"], 3);
-    EXPECT_EQ(baked_one["file"]["version"], 3);
+    EXPECT_EQ(baked_one["file"]["version"], 1);
     EXPECT_EQ(baked_one["checked"], false);
     EXPECT_TRUE(tiles["file"].is_null());
     EXPECT_EQ(tiles["checked"], true);
@@ -247,6 +247,10 @@ TEST_F(Bake, FilesThatAreNoBakedRegions) {
     const std::vector<Bad> all{
         {file("empty.oro", ""), {"empty.oro", "empty"}},
         {file("text.oro", "a shopping list\n"), {"text.oro", "byte 0"}},
+        {file("older.oro", "\x89ORO\r\n\x1a\n" + bytes.substr(8)),
+         {"older.oro", "was baked by an older Orograph: bake it again"}},
+        {file("older.dat", "OROGRIDS" + bytes.substr(8)),
+         {"older.dat", "was baked by an older Orograph: bake it again"}},
         {file("header.oro", bytes.substr(0, 100)), {"header.oro", "cut off at byte 100"}},
         {file("half.oro", bytes.substr(0, bytes.size() / 2)),
          {"half.oro", "cut off at byte " + std::to_string(bytes.size() / 2)}},

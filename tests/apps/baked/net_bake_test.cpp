@@ -49,7 +49,7 @@ TEST_F(NetBake, InfoTellsTheSameAsOfItsSources) {
                of_source = object_said_by({"info", utm, "--json"});
     EXPECT_EQ(of_file["region"], of_source["region"]);
     EXPECT_EQ(of_file["sources"], of_source["sources"]);
-    EXPECT_EQ(of_file["file"]["version"], 4);
+    EXPECT_EQ(of_file["file"]["version"], 1);
     expect_refusal(run_orograph({"info", oro, "--resample"}), 2, {"bake the files with --resample"});
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,8 +12,8 @@
 #include "core/baked/bake.h"
 #include "core/baked/file_pages.h"
 #include "core/cluster_windows/windowed_graph.h"
-#include "geo/clusters/clustered_region.h"
 #include "geo/region/region_description.h"
+#include "geo/together/baked_parts.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -37,11 +38,11 @@ Result<void> bake_in_small_windows(const fs::path& path) {
     ORO_CHECK(bake_region(region.field, grid));
     WindowedBake clusters;
     clusters.path = folder / "grid.oroc";
-    clusters.fingerprint = surface_fingerprint(grid.fingerprint, region.field.grid.split);
+    clusters.fingerprint = grid.fingerprint;
     clusters.threads = 2;
     clusters.stages = {{3, 70'000}};
     ORO_CHECK(bake_in_windows(region.field, clusters));
-    return join_clusters(path, grid.path, clusters.path, false);
+    return join_parts(path, false, std::array<ContainerPart, 2>{{{grid.path, 0}, {clusters.path, 0}}});
 }
 
 View towards_the_fault() {

@@ -8,7 +8,6 @@
 #include "core/baked/bake.h"
 #include "core/baked/file_pages.h"
 #include "core/baked/net_bytes.h"
-#include "core/base/checksum.h"
 #include "core/base/little_endian.h"
 #include "tests/core/baked/made_region_file.h"
 #include "tests/support/net_terrain.h"
@@ -42,7 +41,6 @@ TEST(CorrectedNetFile, BringsBackPostsPagesAndPlaces) {
     const fs::path path = scratch_folder() / "net.oro";
     const HeightField field = made_field();
     bake_kinked(field, path);
-    EXPECT_EQ(content(path)[8], 6) << "the version, which those who know no corrections refuse";
     auto opened = RegionFile::open(path);
     ASSERT_TRUE(opened.ok()) << opened.error().line();
     ASSERT_TRUE(opened->verify().ok());
@@ -73,18 +71,10 @@ TEST(CorrectedNetFile, BringsBackPostsPagesAndPlaces) {
     }
 }
 
-// Nets without corrections are stored as they were before there were any.
-TEST(CorrectedNetFile, ChangesNoOther) {
+TEST(CorrectedNetFile, NetsWithoutCorrectionsTakeNoBytesForThem) {
     const auto net = net_of(kinked.plane);
     EXPECT_FALSE(net->is_corrected());
-    const auto stored = net->stored();
-    const auto bytes = region_format::net_to_bytes(*net);
-    EXPECT_EQ(bytes.size(), 40 + stored.coefficients.size() * 24);
-    HeightField field = made_field();
-    field.grid = grid_on_net(net);
-    const fs::path path = scratch_folder() / "net.oro";
-    bake_kinked(field, path);
-    EXPECT_EQ(content(path)[8], 4);
+    EXPECT_EQ(region_format::net_to_bytes(*net).size(), 40 + net->stored().coefficients.size() * 24);
 }
 
 // Where the corrections begin in the bytes of a net, and how many there are.
@@ -167,25 +157,6 @@ TEST(CorrectedNetFile, RefusesCorrectionsThatAreNone) {
     EXPECT_TRUE(
         says(refusal_with([](GridNet::Stored& net) { net.corrections.erase(net.corrections.begin()); }),
              "do not meet"));
-}
-
-// A version that the net is not of.
-TEST(CorrectedNetFile, RefusesAnotherVersion) {
-    const fs::path path = scratch_folder() / "net.oro";
-    bake_kinked(made_field(), path);
-    std::string bytes = content(path);
-    const auto refusal_of_version = [&](char version) {
-        bytes[8] = version;
-        std::vector<std::byte> header(256);
-        std::memcpy(header.data(), bytes.data(), header.size());
-        to_little_endian(xxh64(std::span(header).first(248)), &header[248]);
-        std::memcpy(bytes.data(), header.data(), header.size());
-        put(path, bytes);
-        return refusal(path);
-    };
-    EXPECT_EQ(refusal_of_version(6), "");
-    EXPECT_TRUE(says(refusal_of_version(4), "net bytes")) << refusal_of_version(4);
-    EXPECT_TRUE(says(refusal_of_version(7), "this program reads versions 1 to 6"));
 }
 
 // Any numbers at all: a net or a refusal, and no place that is no number.

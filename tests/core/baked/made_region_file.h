@@ -50,6 +50,12 @@ inline RegionOutline made_outline() {
     return outline;
 }
 inline constexpr std::uint64_t made_pages = 14;
+// Where its chunks begin.
+inline constexpr std::size_t made_outline_at = ChunkTable::header_bytes + 5 * ChunkTable::entry_bytes,
+                             made_description_at = made_outline_at + region_format::outline_bytes,
+                             made_undulation_at = made_description_at + 17,
+                             made_records_at = made_undulation_at + 24,
+                             made_heights_at = made_records_at + made_pages * region_format::record_bytes;
 inline constexpr std::uint64_t made_fingerprint = 0x0123456789abcdefU;
 
 struct MadePage {

@@ -8,9 +8,9 @@
 #include "core/baked/bake.h"
 #include "core/baked/file_pages.h"
 #include "core/baked/net_bytes.h"
-#include "core/base/checksum.h"
 #include "core/base/little_endian.h"
 #include "tests/core/baked/made_region_file.h"
+#include "tests/support/mended_container.h"
 #include "tests/support/net_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -158,8 +158,8 @@ TEST(NetFile, RefusesEveryFlippedBitOfTheNet) {
     const HeightField field = made_net();
     bake(field, path);
     const std::string whole = content(path);
-    const std::size_t begin = 256 + 2 + 4 * 14 * 28;
-    const std::size_t end = begin + region_format::net_to_bytes(*field.grid.net).size();
+    const Chunk net = chunk_of(path, ChunkType::net);
+    const std::size_t begin = net.offset, end = net.offset + net.bytes;
     constexpr unsigned seed = 77;
     std::printf("seed %u, net of %zu bytes\n", seed, end - begin);
     std::mt19937_64 random(seed);
@@ -178,40 +178,27 @@ TEST(NetFile, RefusesEveryFlippedBitOfTheNet) {
     }
 }
 
-// The file with a number changed and all checksums right again.
-template <class Number>
-std::string refusal_with(const fs::path& path, const std::string& whole, std::size_t net_begin,
-                         std::size_t net_bytes, std::size_t byte, Number number) {
-    std::vector<std::byte> bytes(whole.size());
-    std::memcpy(bytes.data(), whole.data(), whole.size());
-    to_little_endian(number, &bytes[byte]);
-    if (byte >= net_begin)
-        to_little_endian(xxh64(std::span(bytes).subspan(net_begin, net_bytes)), &bytes[80]);
-    to_little_endian(xxh64(std::span(bytes).first(248)), &bytes[248]);
-    put(path, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-    return refusal(path);
-}
-
 TEST(NetFile, RefusesNetsThatAreNone) {
     const fs::path path = scratch_folder() / "net.oro";
     const HeightField field = made_net();
     bake(field, path);
     const std::string whole = content(path);
-    const std::size_t begin = 256 + 2 + 4 * 14 * 28,
-                      bytes = region_format::net_to_bytes(*field.grid.net).size();
+    const std::size_t begin = chunk_of(path, ChunkType::net).offset,
+                      lat = chunk_of(path, ChunkType::outline).offset + 8;
     const auto with = [&](std::size_t byte, auto number) {
-        return refusal_with(path, whole, begin, bytes, byte, number);
+        std::string changed = whole;
+        set_number(changed, byte, number);
+        put(path, mended(changed));
+        return refusal(path);
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto at = [](std::size_t byte) { return "is damaged at byte " + std::to_string(byte) + ": "; };
-    EXPECT_EQ(with(24, std::uint64_t{5}), "");  // another fingerprint
-    EXPECT_TRUE(says(with(32, 1200.0), at(32)));
-    EXPECT_TRUE(says(with(40, nan), at(40)));
-    EXPECT_TRUE(says(with(48, std::uint64_t{40}), at(48)));
-    EXPECT_TRUE(says(with(48, ~std::uint64_t{0}), at(48)));
-    EXPECT_TRUE(says(with(48, bytes + region_format::patch_bytes), "has checksum"));
-    EXPECT_TRUE(says(with(60, 1), at(60)));
-    EXPECT_TRUE(says(with(60, 301), "none: it has 300 x 420 posts, expected 301 x 420"));
+    EXPECT_EQ(with(lat - 8, std::uint64_t{5}), "");  // another fingerprint
+    EXPECT_TRUE(says(with(lat, 1200.0), at(lat)));
+    EXPECT_TRUE(says(with(lat + 8, nan), at(lat + 8)));
+    EXPECT_TRUE(says(with(lat + 16, std::int64_t{40}), at(lat + 16)));
+    EXPECT_TRUE(says(with(lat + 28, 1), at(lat + 28)));
+    EXPECT_TRUE(says(with(lat + 28, 301), "none: it has 300 x 420 posts, expected 301 x 420"));
     const auto none = at(begin) + "the net of its posts is none: ";
     const std::size_t first_coefficient = begin + region_format::net_front_bytes;
     EXPECT_TRUE(says(with(begin, -1), none + "its posts and patches do not fit each other"));

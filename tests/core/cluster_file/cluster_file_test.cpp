@@ -131,7 +131,7 @@ TEST(ClusterFile, IsWrittenWholeOrNotAtAll) {
     EXPECT_NE(theirs.error().line().find("holds something else"), std::string::npos);
     EXPECT_EQ(bytes_of(partial), "a letter");
     EXPECT_EQ(bytes_of(path), "old");
-    put_bytes(partial, "\x89ORC");  // as broken off
+    put_bytes(partial, "\x89ORO");  // as broken off
     EXPECT_TRUE(write_cluster_graph(path, terrain.graph, posts_of(terrain), 0, true).ok());
     EXPECT_FALSE(fs::exists(partial));
     EXPECT_EQ(refusal_of(path, terrain), "");

