@@ -108,7 +108,7 @@ namespace {
 Result<void> add_clusters(const Gpu& gpu, const Region& region, std::uint64_t bytes, std::uint64_t main_bytes,
                           const std::optional<int>& level, Scene& scene) {
     ORO_TRY(std::unique_ptr<RegionClusters> clusters,
-            clusters_of_region(region, scene.pages().facts().shape.occluder));
+            clusters_of_region(region, scene.grids().front().pages().facts().shape.occluder));
     ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(clusters), bytes, main_bytes));
     if (level) made.keep_to_level(static_cast<std::uint32_t>(*level));
     scene.draw_clusters(std::move(made));
@@ -125,7 +125,7 @@ Result<std::uint64_t> draw_between(const Gpu& gpu, const Region& region, const R
     const std::uint64_t triangles = pages->facts().triangles;
     // Small beside the rest, which it takes nothing from.
     ORO_TRY(Scene between, create_scene(gpu, std::move(pages), MemoryOptions{}));
-    scene.draw_beside(std::move(between));
+    scene.add(std::move(between));
     return triangles;
 }
 
@@ -146,7 +146,7 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
         triangles += one->facts().triangles;
         ORO_TRY(Scene made, Scene::create(gpu, std::move(one), memory, request.heights, request.means));
         if (scene)
-            scene->draw_beside(std::move(made));
+            scene->add(std::move(made));
         else
             scene.emplace(std::move(made));
     }
@@ -171,22 +171,29 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     return scene_of_region(gpu, region, cuts, std::move(all), request);
 }
 
-Error lacks_gpu_memory(Scene& scene, const std::string& what) {
-    const auto& clusters = scene.clusters();
+Error lacks_gpu_memory(const Scene& scene, const std::string& what) {
+    const GridScene& largest = *std::ranges::max_element(
+        scene.grids(), {}, [](const GridScene& grid) { return grid.store().capacity(); });
+    const auto& clusters = largest.clusters();
     const bool of_clusters = clusters && clusters->most_without_room() > 0;
     return {ErrorKind::failed, "--gpu-memory",
             "the GPU may hold " +
                 (of_clusters ? std::to_string(clusters->store().capacity()) + " clusters"
-                             : std::to_string(scene.store().capacity()) + " pages of terrain") +
+                             : std::to_string(largest.store().capacity()) + " pages of terrain") +
                 "; " + what + " needs more (a larger --tau needs fewer" +
                 (clusters ? "; --mesh grid leaves all of the memory to blocks" : "") + ")"};
 }
 
-std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages) {
-    if (!asks_for_means(style) || pages.knows_means()) return "";
-    return "note: the region has " + grouped(pages.facts().grid.post_count()) +
-           " posts, too many to colour pixels by the mean of the ground that they cover: each has the colour "
-           "of the ground in its middle";
+std::string note_of_means(const gpu::FrameStyle& style, const PagesOfGrids& grids) {
+    if (!asks_for_means(style)) return "";
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        if (grids[i].is_seam() || grids[i].knows_means()) continue;
+        return std::string("note: ") + (grids.size() == 1 ? "the region" : "a grid of the region") + " has " +
+               grouped(grids[i].facts().grid.post_count()) +
+               " posts, too many to colour pixels by the mean of the ground that they cover: each has the "
+               "colour of the ground in its middle";
+    }
+    return "";
 }
 
 }  // namespace oro

@@ -53,11 +53,11 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
                                     std::unique_ptr<RegionPages> pages, const SceneRequest& request);
 
 // What is said where a scene's GPU memory is too small for what a picture shows. what: "this view".
-Error lacks_gpu_memory(Scene& scene, const std::string& what);
+Error lacks_gpu_memory(const Scene& scene, const std::string& what);
 
-// What to tell of a style that asks for means of the ground over pages that have none, being of too many
-// posts: each pixel then has the colour of the ground in its middle. "" where nothing of that is so.
-std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages);
+// What to tell of a style that asks for means of the ground over grids of which one has none, being of too
+// many posts: each of its pixels then has the colour of the ground in its middle. "" where all have them.
+std::string note_of_means(const gpu::FrameStyle& style, const PagesOfGrids& grids);
 
 // Builds the levels of a region and makes it ready for a GPU. Errors: nothing to draw in it (no_data), out of
 // device memory. heights: how they are kept on the GPU.

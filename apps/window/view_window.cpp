@@ -53,9 +53,8 @@ struct Viewer {
     bool asking_place{false};
     std::string place_text{};
     std::string shown_title{};
-    std::string message{};             // shown in the title until the eye moves
-    std::vector<PageIndex> missing{};  // what the last frame should have had, of the region's own grid
-    bool is_missing{};                 // ... or of any
+    std::string message{};                         // shown in the title until the eye moves
+    bool is_missing{};                             // something that the last frame should have had
     std::unique_ptr<const RegionGround> ground{};  // made when it is first asked, for all questions after
     std::unique_ptr<FinerLevels> finer{};          // the levels that the view asks for, until they are here
     std::unique_ptr<Scene> coming{};               // of them, until what a picture needs is on the GPU
@@ -201,7 +200,6 @@ Result<void> begin_finer_scene(Viewer& viewer) {
 
 void show_finer_scene(Viewer& viewer) {
     viewer.scene = std::move(viewer.coming);
-    viewer.missing.clear();
     viewer.is_missing = false;
 }
 
@@ -217,11 +215,12 @@ Result<bool> bring_finer_scene(Viewer& viewer) {
     Scene& scene = *viewer.coming;
     const Camera& camera = viewer.view.camera;
     scene.hold_for(viewer.style.frame);
-    ORO_TRY(const FramePlan plan, scene.plan(camera, whole_of(camera),
-                                             std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
+    ORO_TRY(const FramePlan plan,
+            scene.plan(
+                {camera, whole_of(camera), std::max(first_tau_px, viewer.view.tau_px), viewer.view.model}));
     // Where the GPU has no room for all of it, it never is whole.
     if (!plan.is_settled() && seconds_since(viewer.coming_since) < longest_s) {
-        const Result<bool> advanced = scene.advance(plan.missing);
+        const Result<bool> advanced = scene.advance();
         return advanced.ok() ? Result<bool>(false) : advanced;
     }
     show_finer_scene(viewer);
@@ -352,15 +351,15 @@ Result<void> write_over(Viewer& viewer, const FrameReport& drawn) {
 }
 
 bool has_ground(const FramePlan& plan) {
-    return !plan.pages.empty() || std::ranges::any_of(plan.beside, has_ground);
+    return std::ranges::any_of(plan.grids, [](const GridPlan& grid) { return !grid.pages.empty(); });
 }
 
 // Whether ground is in view of which nothing is there yet. A grid beside others that have some is waited for
 // a little while: nothing says then that its ground is not void.
 bool lacks_ground(Viewer& viewer, const FramePlan& plan) {
     constexpr double longest_s = 2.0;
-    const auto lacks = [](const FramePlan& one) { return one.pages_wanted > 0 && one.pages.empty(); };
-    if (!lacks(plan) && std::ranges::none_of(plan.beside, lacks)) return false;
+    const auto lacks = [](const GridPlan& grid) { return grid.pages_wanted > 0 && grid.pages.empty(); };
+    if (std::ranges::none_of(plan.grids, lacks)) return false;
     if (!viewer.waits_for_ground) viewer.waiting_since = Clock::now();
     return !has_ground(plan) || seconds_since(viewer.waiting_since) < longest_s;
 }
@@ -410,8 +409,7 @@ Result<FramePlan> plan_now(Viewer& viewer) {
     const Camera& camera = viewer.view.camera;
     viewer.scene->hold_for(viewer.style.frame);
     ORO_TRY(FramePlan plan,
-            viewer.scene->plan(camera, whole_of(camera), viewer.view.tau_px, viewer.view.model));
-    viewer.missing = plan.missing;
+            viewer.scene->plan({camera, whole_of(camera), viewer.view.tau_px, viewer.view.model}));
     viewer.is_missing = !plan.is_settled();
     viewer.waits_for_ground = lacks_ground(viewer, plan);
     if (viewer.is_shown || plan.wants_pages()) return plan;
@@ -429,7 +427,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     if (extent.width == 0 || extent.height == 0) return {};
     ORO_CHECK(take_size(viewer, extent, changed));
     if (viewer.is_missing) {
-        ORO_TRY(const bool better, viewer.scene->advance(viewer.missing));
+        ORO_TRY(const bool better, viewer.scene->advance());
         changed = changed || better;
     }
     changed = comes_to_rest(viewer) || changed;

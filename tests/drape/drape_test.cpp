@@ -135,7 +135,7 @@ class Drape : public test::GpuTest {
     }
 
     Picture draw(test::DrawnScene& drawn, const Camera& camera, const gpu::FrameStyle& style) {
-        auto plan = drawn.scene().settled_plan(camera, test::whole_picture(camera), 1.0);
+        auto plan = drawn.scene().settled_plan({camera, test::whole_picture(camera), 1.0});
         EXPECT_TRUE(plan.ok());
         auto report = drawn.renderer().draw(std::move(plan).value(), style, 0, 1, drawn.scene().drapes());
         EXPECT_TRUE(report.ok()) << report.error().line();
@@ -376,8 +376,8 @@ TEST_F(Drape, KeepsToItsMemoryAndSaysWhereThatIsTooLittle) {
         const Picture free = draw(all, camera, flat_style()), bound = draw(few, camera, flat_style());
         EXPECT_TRUE(bound.report.images_settled) << view;
         EXPECT_EQ(free.rgba, bound.rgba) << view;
-        EXPECT_LE(few.scene().drape()->bytes(), 40 * tile_bytes);
-        most = std::max(most, all.scene().drape()->size());
+        EXPECT_LE(few.scene().grids()[0].drape()->bytes(), 40 * tile_bytes);
+        most = std::max(most, all.scene().grids()[0].drape()->size());
         EXPECT_FALSE(draw(one, camera, flat_style()).report.images_settled) << view;
     }
     EXPECT_GT(most, 40U) << "nothing had to make room";

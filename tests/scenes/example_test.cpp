@@ -37,7 +37,7 @@ Result<Seen> example(const std::string& path) {
     options.keep_depths = true;
     ORO_TRY(options.path, raster_path_for("auto", gpu->report()));
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, options));
-    ORO_TRY(FramePlan plan, scene.settled_plan(camera, {0, 0, 320, 240, {0.5, 0.5}}, 1.0));
+    ORO_TRY(FramePlan plan, scene.settled_plan({camera, {0, 0, 320, 240, {0.5, 0.5}}, 1.0}));
     ORO_TRY(const FrameReport report, renderer.draw(std::move(plan), {}));
     EXPECT_GT(report.counts.triangles_drawn, 0U);
     ORO_TRY(const std::vector<float> depths, renderer.read_depths(320, 240));

@@ -63,9 +63,9 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
             renderer_.emplace(test::made_renderer(*gpu_, options));
         }
         const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-        auto plan = scene_->settled_plan(camera, tile, tau_px);
+        auto plan = scene_->settled_plan({camera, tile, tau_px});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
-        near_m_ = static_cast<double>(plan->constants.near_m);
+        near_m_ = static_cast<double>(plan->grids[0].constants.near_m);
         auto report = renderer_->draw(std::move(*plan), plain_style(), 0, 1);
         EXPECT_TRUE(report.ok()) << report.error().line();
         return *renderer_->read_depths(width, height);

@@ -67,7 +67,7 @@ class SmoothEdges : public test::GpuTest {
         }
         for (int i = 0; i < count; ++i) {
             auto plan =
-                scene_->settled_plan(camera, {0, 0, width_px, height_px, sample_place(i, count)}, 1.0);
+                scene_->settled_plan({camera, {0, 0, width_px, height_px, sample_place(i, count)}, 1.0});
             EXPECT_TRUE(plan.ok()) << plan.error().line();
             const auto drawn = renderer->draw(std::move(*plan), style_, static_cast<std::uint32_t>(i),
                                               static_cast<std::uint32_t>(count));

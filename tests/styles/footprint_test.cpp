@@ -66,7 +66,7 @@ class Footprint : public test::GpuTest {
         FrameRenderer& renderer = count == 1 ? *single_ : *renderer_;
         for (int i = 0; i < count; ++i) {
             auto plan = scene_->settled_plan(
-                camera, {0, 0, camera.width_px, camera.height_px, sample_place(i, count)}, tau_px);
+                {camera, {0, 0, camera.width_px, camera.height_px, sample_place(i, count)}, tau_px});
             EXPECT_TRUE(plan.ok()) << plan.error().line();
             const auto drawn = renderer.draw(std::move(*plan), style, static_cast<std::uint32_t>(i),
                                              static_cast<std::uint32_t>(count));
@@ -192,10 +192,10 @@ TEST_F(Footprint, SlopesTakeLargerSquaresWhereMemoryIsShort) {
         auto scene = create_scene(*gpu_, region_, 1.0, memory, {}, HeightStorage::f32, true);
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         scene->hold_means(spacing_px);
-        const auto plan = scene->settled_plan(down, test::whole_picture(down), 1.0);
+        const auto plan = scene->settled_plan({down, test::whole_picture(down), 1.0});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
-        EXPECT_TRUE(plan->missing.empty()) << memory_mb << " MB, squares of " << spacing_px << " px";
-        return plan->pages.size();
+        EXPECT_TRUE(plan->grids[0].missing.empty()) << memory_mb << " MB, squares of " << spacing_px << " px";
+        return plan->grids[0].pages.size();
     };
     const std::size_t coarse = pages(200, gpu::means_spacing_px), fine = pages(200, fine_px);
     std::printf("%zu pages, %zu for slopes\n", coarse, fine);

@@ -24,7 +24,7 @@ class ShownLegend : public test::StyleTest {
         options.show = gpu::show_triangles;
         auto renderer = FrameRenderer::create(*gpu_, options);
         EXPECT_TRUE(scene.ok() && renderer.ok());
-        auto plan = scene->settled_plan(view_.camera, {0, 0, width, height, {0.5, 0.5}}, 1.0);
+        auto plan = scene->settled_plan({view_.camera, {0, 0, width, height, {0.5, 0.5}}, 1.0});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         EXPECT_TRUE(renderer->draw(std::move(*plan), {}).ok());
         const auto done = legend.lay_over(view_, region_, Style{}, 1, *renderer);

@@ -53,7 +53,7 @@ class WrittenFrame : public test::StyleTest {
         auto renderer = FrameRenderer::create(*gpu_, options);
         EXPECT_TRUE(renderer.ok()) << renderer.error().line();
         const Tile tile{0, 0, view.camera.width_px, view.camera.height_px, {0.5, 0.5}};
-        auto plan = scene.settled_plan(view.camera, tile, view.tau_px, view.model);
+        auto plan = scene.settled_plan({view.camera, tile, view.tau_px, view.model});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         EXPECT_TRUE(renderer->draw(std::move(*plan), style.frame).ok());
         if (written) {

@@ -168,9 +168,10 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
     const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
     if (!shot.view.map) {
-        ORO_TRY(const FramePlan first,
-                scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, shot.view.tau_px,
-                           shot.view.model));
+        ORO_TRY(const FramePlan first, scene.plan({camera,
+                                                   {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+                                                   shot.view.tau_px,
+                                                   shot.view.model}));
         if (!first.wants_pages() && !nothing.ok()) return nothing.error();
     }
     ORO_TRY(shot.middle, place_in_middle(shot.view, ground));
@@ -192,11 +193,13 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     shot.times.draw_s = seconds_since(drawing);
     if (shot.picture.ground_px == 0)
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
-    shot.pages_on_gpu = scene.store().size();
-    shot.page_bytes = scene.store().bytes();
-    if (const auto& drawn = scene.clusters())
-        shot.clusters = ClustersHeld{drawn->store().size(), drawn->store().bytes(), drawn->groups().size(),
-                                     drawn->groups().bytes()};
+    for (const GridScene& grid : scene.grids()) {
+        shot.pages_on_gpu += grid.store().size();
+        shot.page_bytes += grid.store().bytes();
+        if (const auto& drawn = grid.clusters())
+            shot.clusters = ClustersHeld{drawn->store().size(), drawn->store().bytes(),
+                                         drawn->groups().size(), drawn->groups().bytes()};
+    }
     shot.height_step_m = scene.height_step_m();
     return picture;
 }
@@ -264,12 +267,12 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
                         {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
                          shot.view.heights, asks_for_means(style.frame), clusters, shot.view.mesh_level}));
     Scene& scene = whole.scene;
-    if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
-        say(options.quiet, note);
-    shot.has_means = asks_for_means(style.frame) && scene.pages().knows_means();
+    const std::string note = note_of_means(style.frame, scene.pages());
+    if (!note.empty()) say(options.quiet, note);
+    shot.has_means = asks_for_means(style.frame) && note.empty();
     ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
-    const PageLayout finest = scene.pages().layout(0);
-    shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
+    for (const GridScene& grid : scene.grids())
+        if (!grid.pages().is_seam()) shot.pages += grid.pages().layout(0).count();
     shot.triangles_at_full_resolution = whole.triangles;
     shot.times.pages_s = seconds_since(start);
     return std::move(whole.scene);
