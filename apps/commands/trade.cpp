@@ -185,7 +185,7 @@ Result<void> run_trade(const TradeOptions& options) {
     if (!view.has_geoid)
         return refused("--view", options.view_file,
                        "was drawn with --geoid none; trade needs one that was not");
-    ORO_TRY(const Style style, load_style(view, region.field));
+    ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     Trade trade(view, region, *gpu, path, style.frame, options.repeats, options.memory);

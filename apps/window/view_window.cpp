@@ -83,7 +83,7 @@ void say_waited(const Viewer& viewer, const char* what) {
 // The finest grid below the eye.
 const HeightField& field_below(const Viewer& viewer) {
     const Geodetic& eye = viewer.view.camera.eye;
-    return region_at(viewer.region, eye.lat_deg, eye.lon_deg).field;
+    return grid_at(viewer.region, eye.lat_deg, eye.lon_deg).field;
 }
 
 Result<const RegionGround*> ground_of(Viewer& viewer) {
@@ -187,13 +187,16 @@ bool is_coarse(const Viewer& viewer) {
 
 // The measured levels become a scene that is not shown yet; waits for them where they are not ready.
 Result<void> begin_finer_scene(Viewer& viewer) {
-    ORO_TRY(std::unique_ptr<RegionPages> pages, viewer.finer->wait());
+    GridPages pages(1);
+    ORO_TRY(pages.front(), viewer.finer->wait());
     viewer.finer.reset();
-    ORO_TRY(Scene scene,
-            create_scene(viewer.gpu, std::move(pages), memory_of_pages(viewer.view, viewer.options.memory),
-                         viewer.view.heights, asks_for_means(viewer.style.frame)));
-    ORO_CHECK(lay_images(viewer.view, viewer.options.memory, viewer.gpu, scene, true));
-    viewer.coming = std::make_unique<Scene>(std::move(scene));
+    const View& view = viewer.view;
+    ORO_TRY(RegionScene whole,
+            scene_of_region(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
+                            {view.exaggeration, memory_of_pages(view, viewer.options.memory), view.heights,
+                             asks_for_means(viewer.style.frame)}));
+    ORO_CHECK(lay_images(view, viewer.options.memory, viewer.gpu, whole.scene, true));
+    viewer.coming = std::make_unique<Scene>(std::move(whole.scene));
     viewer.coming_since = Clock::now();
     return {};
 }
@@ -261,7 +264,7 @@ Result<void> take_picture(Viewer& viewer) {
     const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
     const Camera& camera = viewer.view.camera;
     ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
-    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field));
+    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.grids.front().field));
     ORO_TRY(const RegionGround* const ground, ground_of(viewer));
     viewer.view.legend = has_own_legend(viewer.view);
     ORO_TRY(const auto strip, strip_of(viewer.view, viewer.region, viewer.style, middle));
@@ -442,13 +445,13 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         return show_again(viewer);
     }
     const bool is_settled = plan.is_settled();
-    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field,
+    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.grids.front().field,
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     ORO_TRY(const FrameReport drawn,
             viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
     viewer.scene->saw(drawn.sights);
     ORO_CHECK(write_over(viewer, drawn));
-    const int every = is_coarse(viewer) ? coarse_step(viewer.region.field) : 1;
+    const int every = is_coarse(viewer) ? coarse_step(viewer.region.grids.front().field) : 1;
     ORO_CHECK(viewer.legend.lay_over(viewer.view, viewer.region, viewer.style, every, viewer.renderer));
     viewer.has_picture = true;
     viewer.loading_px = {};
@@ -521,14 +524,14 @@ Result<void> run_view(const WindowOptions& options) {
         options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
         region));
     ORO_TRY(RegionCuts cuts, cut_regions(region));
-    ORO_TRY(const Style style, load_style(view, region.field));
+    ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     GpuOptions gpu_options = gpu_options_from_environment();
     gpu_options.instance_extensions = extensions;
     gpu_options.presents = true;
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
     ORO_CHECK(check_window_size(view.camera, gpu->report()));
     const bool coarse_first = measures_long(region);
-    ORO_TRY(std::unique_ptr<RegionPages> pages,
+    ORO_TRY(GridPages pages,
             first_pages(region, cuts, view, [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(const bool clusters, draws_clusters(region, view));
     ORO_TRY(RegionScene whole,

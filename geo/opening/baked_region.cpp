@@ -189,7 +189,7 @@ bool touches(const std::string& cell, const PostGrid& grid) {
     return meets(source, {grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()});
 }
 
-Result<void> cut_out(Region& region, const RegionFile& file, const BoundingBox& box,
+Result<void> cut_out(RegionGrid& region, const RegionFile& file, const BoundingBox& box,
                      const Progress& progress) {
     ORO_TRY(const Cut part, cut_of(file, box));
     const PostGrid& cut = part.grid;
@@ -238,11 +238,11 @@ std::optional<std::string> baked_path(const std::vector<std::string>& paths) {
 
 namespace {
 
-// The region that one region file holds, whole or cut to the request's box.
-Result<Region> region_in(std::shared_ptr<const RegionFile> file, const RegionRequest& request,
-                         const Progress& progress) {
+// The grid that one region file holds, whole or cut to the request's box.
+Result<RegionGrid> grid_in(std::shared_ptr<const RegionFile> file, const RegionRequest& request,
+                           const Progress& progress) {
     const std::string path = file->path();
-    ORO_TRY(Region region, region_from_description(file->outline().description, path));
+    ORO_TRY(RegionGrid region, region_from_description(file->outline().description, path));
     if (region.voids != file->outline().voids)
         return Error{ErrorKind::failed, path,
                      "its description tells of " + std::to_string(region.voids) +
@@ -268,33 +268,30 @@ Result<Region> region_in(std::shared_ptr<const RegionFile> file, const RegionReq
 }
 
 // All grids of a file that holds several; of a box those that it meets.
-Result<Region> regions_in(const std::string& path, const RegionRequest& request, const Progress& progress) {
+Result<Region> grids_in(const std::string& path, const RegionRequest& request, const Progress& progress) {
     ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
     ORO_TRY(const std::vector<GridInFile> grids, grids_in(file));
     if (!request.grids_apart)
         return Error{ErrorKind::usage, path,
                      "holds " + std::to_string(grids.size()) +
                          " grids of posts, and this takes one: bake the files with --resample"};
-    std::vector<Region> regions;
+    Region region;
     std::optional<Error> none;
     for (const GridInFile& grid : grids) {
         ORO_TRY(OpenFile part, file.part(grid.offset, grid.bytes));
         ORO_TRY(RegionFile opened, RegionFile::open(std::move(part)));
-        Result<Region> region =
-            region_in(std::make_shared<const RegionFile>(std::move(opened)), request, progress);
-        if (!region && region.error().kind == ErrorKind::no_data && request.box) {
-            if (!none) none = region.error();
+        Result<RegionGrid> made =
+            grid_in(std::make_shared<const RegionFile>(std::move(opened)), request, progress);
+        if (!made && made.error().kind == ErrorKind::no_data && request.box) {
+            if (!none) none = made.error();
             continue;
         }
-        if (!region) return region.error();
-        region->rank = static_cast<int>(grid.rank);
-        regions.push_back(std::move(*region));
+        if (!made) return made.error();
+        made->rank = static_cast<int>(grid.rank);
+        region.grids.push_back(std::move(*made));
     }
-    if (regions.empty()) return *none;
-    Region first = std::move(regions.front());
-    regions.erase(regions.begin());
-    first.beside = std::move(regions);
-    return first;
+    if (region.grids.empty()) return *none;
+    return region;
 }
 
 }  // namespace
@@ -302,15 +299,16 @@ Result<Region> regions_in(const std::string& path, const RegionRequest& request,
 Result<Region> open_baked_region(const RegionRequest& request, const Progress& progress) {
     const std::string path = baked_path(request.paths).value_or("");
     ORO_CHECK(check_request(request, path));
-    Result<Region> region = Region{};
+    Region region;
     if (looks_like_grids_file(path)) {
-        region = regions_in(path, request, progress);
+        ORO_TRY(region, grids_in(path, request, progress));
     } else {
         ORO_TRY(const BakedFile opened, open_baked_file(path));
-        region = region_in(opened.region, request, progress);
-        if (region.ok() && region->file) region->clusters = opened.clusters;
+        ORO_TRY(RegionGrid grid, grid_in(opened.region, request, progress));
+        if (grid.file) grid.clusters = opened.clusters;
+        region.grids.push_back(std::move(grid));
     }
-    if (region.ok() && progress) progress(1.0, "region read");
+    if (progress) progress(1.0, "region read");
     return region;
 }
 

@@ -23,7 +23,7 @@ bool is_baked_grid(const std::string& grid_path, std::uint64_t fingerprint, cons
                    CellSplit split);
 
 // Puts the grids' files together as `path`, which appears whole or not at all, and removes them: also
-// where another file took the name meanwhile and stays. ranks: as Region::rank, of each. Errors: those of
+// where another file took the name meanwhile and stays. ranks: as RegionGrid::rank, of each. Errors: those of
 // reading and writing.
 Result<void> join_grids(const std::string& path, bool overwrite, const std::vector<std::uint32_t>& ranks);
 

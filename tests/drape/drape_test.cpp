@@ -130,7 +130,7 @@ class Drape : public test::GpuTest {
         EXPECT_TRUE(over.ok() && beside.empty());
         auto store = DrapeStore::create(*gpu_, std::move(over).value(), {opacity, 1.0F}, bytes);
         EXPECT_TRUE(store.ok()) << store.error().line();
-        drawn.scene().set_drape(std::make_unique<DrapeStore>(std::move(store).value()));
+        drawn.scene().set_drape(std::make_unique<DrapeStore>(std::move(store).value()), 0);
         return drawn;
     }
 

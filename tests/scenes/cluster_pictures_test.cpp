@@ -34,7 +34,7 @@ class ClusterPictures : public test::GpuTest {
         request.box = BoundingBox{8.25, 46.25, 8.75, 46.75};
         auto region = open_region(request);
         EXPECT_TRUE(region.ok()) << region.error().line();
-        return std::move(region->field);
+        return std::move(region->grids[0].field);
     }
 
     void fly(const test::ClusterTerrain& terrain, RasterPath path, std::uint64_t bytes, int cameras,

@@ -36,7 +36,7 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForSixtyEightTiles) {
     options.path = file.string();
     options.overwrite = true;
     options.threads = 2;
-    const auto baked = bake_region(region->field, options);
+    const auto baked = bake_region(region->grids[0].field, options);
     ASSERT_TRUE(baked.ok()) << baked.error().line();
     auto opened = RegionFile::open(file.string());
     ASSERT_TRUE(opened.ok()) << opened.error().line();
@@ -55,7 +55,7 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForSixtyEightTiles) {
         camera.height_px = height_px;
         camera.eye = {51.2 + 2.6 * i / steps, 13.5 + 8.5 * i / steps, 0.0};
         const double ground_m =
-            ground_h_m(region->field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
+            ground_h_m(region->grids[0].field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
         camera.eye.h_m = ground_m + 2.0 * std::pow(1.5e5, share);
         camera.attitude = {15.0 * i, -2.0 - 50.0 * share, 0.0};
         const test::DrawnFrame free = all.draw(camera, 1.0), bound = few.draw(camera, 1.0);

@@ -14,6 +14,7 @@
 #include "tests/styles/region_with_means.h"
 #include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/drawn/made_renderer.h"
+#include "tests/support/drawn/region_scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -54,7 +55,7 @@ class Footprint : public test::GpuTest {
         View view;
         view.style = name;
         view.sun = SunDirection{azimuth_deg, elevation_deg};
-        auto style = load_style(view, region_.field);
+        auto style = load_style(view, region_.grids[0].field);
         EXPECT_TRUE(style.ok()) << style.error().line();
         return style->frame;
     }
@@ -130,7 +131,7 @@ class Footprint : public test::GpuTest {
         return camera;
     }
 
-    Region region_;
+    Region region_{std::vector<RegionGrid>(1)};
     std::optional<Scene> scene_;
     std::optional<FrameRenderer> renderer_;
     std::optional<FrameRenderer> single_;
@@ -189,7 +190,7 @@ TEST_F(Footprint, SlopesTakeLargerSquaresWhereMemoryIsShort) {
     const auto pages = [&](int memory_mb, double spacing_px) {
         MemoryOptions memory;
         memory.gpu_memory_mb = memory_mb;
-        auto scene = create_scene(*gpu_, region_, 1.0, memory, {}, HeightStorage::f32, true);
+        auto scene = test::create_scene(*gpu_, region_, {.memory = memory, .means = true});
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         scene->hold_means(spacing_px);
         const auto plan = scene->settled_plan({down, test::whole_picture(down), 1.0});

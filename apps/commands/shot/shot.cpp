@@ -48,7 +48,7 @@ Result<void> say_notes(const ShotOptions& options, const ShotResult& shot) {
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
     if (shot.view.vectors_read) say_vectors(*shot.view.vectors_read, shot.view.vectors, options.quiet);
     const Geodetic& eye = shot.view.camera.eye;
-    const auto ground = ground_h_m(region_at(shot.region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg,
+    const auto ground = ground_h_m(grid_at(shot.region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg,
                                    eye.lon_deg, shot.view.exaggeration);
     if (ground && eye.h_m < *ground) {
         char text[80];
@@ -60,9 +60,9 @@ Result<void> say_notes(const ShotOptions& options, const ShotResult& shot) {
 
 // Where finer ground changes what coarser ground is beside it.
 void say_rims(const Region& region, const RegionCuts& cuts, bool quiet) {
-    const std::vector<const Region*> grids = all_grids(region);
+    const std::vector<RegionGrid>& grids = region.grids;
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        const auto found = rim_diagonals(grids[i]->field, cuts.grids[i]);
+        const auto found = rim_diagonals(grids[i].field, cuts.grids[i]);
         if (!found) continue;
         char text[200];
         std::snprintf(
@@ -71,7 +71,7 @@ void say_rims(const Region& region, const RegionCuts& cuts, bool quiet) {
             "to %.1f m apart (at %.6f %.6f)",
             counted(found->cells, "cell", "cells").c_str(), found->most_m, found->place.lat_deg,
             found->place.lon_deg);
-        const auto& sources = grids[i]->sources;
+        const auto& sources = grids[i].sources;
         say(quiet, "note: the ground of " +
                        (sources.empty() ? std::string("a grid")
                                         : std::filesystem::path(sources.front().path).filename().string()) +
@@ -247,7 +247,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
     shot.times.read_s = seconds_since(reading);
     ORO_CHECK(spare_files_of(options, files, shot));
     if (options.layers) ORO_CHECK(check_layers(shot.view.camera));
-    return load_style(shot.view, shot.region.field);
+    return load_style(shot.view, shot.region.grids.front().field);
 }
 
 // The region, ready to be drawn; what --tolerance chooses is chosen.

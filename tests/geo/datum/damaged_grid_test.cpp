@@ -63,8 +63,8 @@ class DamagedGeoid : public testing::Test {
         for (const bool strict : {false, true}) {
             request_.strict_datum = strict;
             const auto region = open_region(request_);
-            ASSERT_FALSE(region.ok())
-                << what << ": N = " << region->field.undulation.at_m(46.5, 8.0) << ", " << region->geoid;
+            ASSERT_FALSE(region.ok()) << what << ": N = " << region->grids[0].field.undulation.at_m(46.5, 8.0)
+                                      << ", " << region->grids[0].geoid;
             EXPECT_EQ(region.error().kind, ErrorKind::failed);
             EXPECT_NE(region.error().line().find(grid_.string()), std::string::npos) << region.error().line();
             EXPECT_NE(region.error().line().find("damaged"), std::string::npos) << region.error().line();
@@ -151,7 +151,7 @@ TEST_F(DamagedGeoid, AWholeCopyIsTakenAndTellsTheSameNEverywhere) {
     const ProjFolder only(folder_.string());
     const auto region = opened(request_);
     ASSERT_TRUE(region);
-    EXPECT_NEAR(region->field.undulation.at_m(46.5, 8.0), 50.68, 0.02);
+    EXPECT_NEAR(region->grids[0].field.undulation.at_m(46.5, 8.0), 50.68, 0.02);
     const auto geoid = GeoidOfRegion::open(true);
     ASSERT_TRUE(geoid.ok());
     const auto world = geoid->undulation({-180, -90, 180, 90});
@@ -195,15 +195,15 @@ TEST_F(DamagedGeoid, GridsOfOtherDatumsAreHeldToTheSame) {
     std::string reason;
     const auto region = opened(request_, &reason);
     ASSERT_TRUE(region) << reason;
-    EXPECT_EQ(region->notes, std::vector<std::string>());
-    EXPECT_NEAR(static_cast<double>(region->field.H_at_m(46.5, 8.5)),
-                1060.0 - region->field.undulation.at_m(46.5, 8.5), 1e-3);
+    EXPECT_EQ(region->grids[0].notes, std::vector<std::string>());
+    EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_m(46.5, 8.5)),
+                1060.0 - region->grids[0].field.undulation.at_m(46.5, 8.5), 1e-3);
     for (const std::size_t bytes : {std::size_t{0}, gtx_header, std::size_t{5000}, whole.size() - 1}) {
         write_text(other, whole.substr(0, bytes));
         for (const bool strict : {false, true}) {
             request_.strict_datum = strict;
             const auto refused = open_region(request_);
-            ASSERT_FALSE(refused.ok()) << bytes << ": H " << refused->field.H_at_m(46.5, 8.5);
+            ASSERT_FALSE(refused.ok()) << bytes << ": H " << refused->grids[0].field.H_at_m(46.5, 8.5);
             EXPECT_NE(refused.error().line().find(other.string()), std::string::npos)
                 << refused.error().line();
         }
@@ -213,9 +213,10 @@ TEST_F(DamagedGeoid, GridsOfOtherDatumsAreHeldToTheSame) {
     write_text(other, gtx_bytes(40.0, 0.0, 0.25, 61, 34, 60.0F));  // ends at 8.25 E
     const auto beyond = opened(request_, &reason);
     ASSERT_TRUE(beyond) << reason;
-    EXPECT_EQ(beyond->field.H_at_m(46.5, 8.5), 1000.0F);
-    ASSERT_EQ(beyond->notes.size(), 1U);
-    EXPECT_NE(beyond->notes[0].find("outside the grid"), std::string::npos) << beyond->notes[0];
+    EXPECT_EQ(beyond->grids[0].field.H_at_m(46.5, 8.5), 1000.0F);
+    ASSERT_EQ(beyond->grids[0].notes.size(), 1U);
+    EXPECT_NE(beyond->grids[0].notes[0].find("outside the grid"), std::string::npos)
+        << beyond->grids[0].notes[0];
 }
 
 TEST(ShiftGridTest, GoesRoundAndEndsWhereItEnds) {

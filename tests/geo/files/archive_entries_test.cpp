@@ -64,7 +64,7 @@ class DamagedArchive : public testing::Test {
         std::string reason;
         const auto whole = opened(request_for({folder.string()}), &reason);
         ASSERT_TRUE(whole) << reason;
-        EXPECT_EQ(whole->sources.size(), 2U) << name;
+        EXPECT_EQ(whole->grids[0].sources.size(), 2U) << name;
         for (const std::string& content : damaged) {
             put(archive, content);
             for (const std::string& path : {archive.string(), folder.string()}) {
@@ -168,8 +168,8 @@ TEST_F(DamagedArchive, TooManyOpenFiles) {
         const auto region = open_region(request_for({folder.string()}));
         setrlimit(RLIMIT_NOFILE, &before);
         if (region.ok()) {
-            EXPECT_EQ(region->sources.size(), 2U) << more;
-            EXPECT_NE(region->geoid.find("EGM96"), std::string::npos) << region->geoid;
+            EXPECT_EQ(region->grids[0].sources.size(), 2U) << more;
+            EXPECT_NE(region->grids[0].geoid.find("EGM96"), std::string::npos) << region->grids[0].geoid;
             continue;
         }
         ++refused;

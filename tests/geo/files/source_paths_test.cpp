@@ -91,9 +91,9 @@ TEST(SourcePaths, OtherThingsWithEndingsOfRasters) {
         std::ofstream(folder / name) << "something else\n";
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->notes.size(), 3U);
+    EXPECT_EQ(region->grids[0].notes.size(), 3U);
     for (const char* name : {"signature.asc", "disk.img", "cdl.nc"}) {
-        EXPECT_TRUE(std::ranges::any_of(region->notes, [&](const std::string& note) {
+        EXPECT_TRUE(std::ranges::any_of(region->grids[0].notes, [&](const std::string& note) {
             return note.find(name) != std::string::npos;
         })) << name;
         expect_error((folder / name).string(), ErrorKind::failed, "trusted");
@@ -153,7 +153,7 @@ TEST(SourcePaths, OneTileOfThousandsOpensWithoutReadingTheOthers) {
     std::string reason;
     const auto region = opened(request, &reason);
     ASSERT_TRUE(region) << reason;
-    EXPECT_EQ(region->sources.size(), 1U);
+    EXPECT_EQ(region->grids[0].sources.size(), 1U);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ void expect_back(const std::filesystem::path& source, double most_bits,
     request.box = box;
     const auto region = open_region(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
-    const HeightField& field = region->field;
+    const HeightField& field = region->grids[0].field;
     const DrawnHeights heights = drawn_heights(field, 1.0, 2);
     const GridSurface surface(heights);
     const GridBounds bounds(field.grid, heights.highest_steps);

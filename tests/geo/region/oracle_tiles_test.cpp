@@ -24,7 +24,7 @@ TEST(OracleOverTiles, EveryPixelOfAPictureOverNineTiles) {
     request.box = *parse_tile_range("N46E006:N47E010");
     const auto region = open_region(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
-    const HeightField& field = region->field;
+    const HeightField& field = region->grids[0].field;
     const auto start = std::chrono::steady_clock::now();
     const TrueSurface surface(field, 1.0, thread_count());
     struct Eye {

@@ -43,7 +43,7 @@ std::optional<Count> count_of(const char* name, double exaggeration = 1.0) {
     request.paths = {data->string()};
     const Result<Region> region = open_region(request);
     EXPECT_TRUE(region.ok()) << region.error().line();
-    const HeightField& field = region->field;
+    const HeightField& field = region->grids[0].field;
     Count count;
     for (int level = 0; level < level_count(field.grid); ++level) {
         const PageLayout layout = level_grid(field.grid, level).pages();

@@ -259,7 +259,7 @@ void compare(const std::string& file, const std::string& path, double reach_m,
     ASSERT_TRUE(copy.made()) << file;
     const auto region = test::opened(test::request_for({path}));
     ASSERT_TRUE(region);
-    const TrueSurface surface(region->field, 1.0, thread_count());
+    const TrueSurface surface(region->grids[0].field, 1.0, thread_count());
     for (const Observer& observer : observers) {
         const auto at_m = copy.middle_m(observer.lat_deg, observer.lon_deg);
         std::vector<double> lon_deg{at_m[0]}, lat_deg{at_m[1]};
@@ -282,14 +282,14 @@ void compare(const std::string& file, const std::string& path, double reach_m,
         const Geodetic eye{lat_deg[0], lon_deg[0], *ground_m + observer_above_m};
         ViewshedRequest request{eye, matched_air(eye), target_above_m, reach_m + 2.0 * cell_m, 1};
         const auto one_begin = Clock::now();
-        (void)viewshed(surface, request);
+        (void)viewshed(surface, 0, request);
         const double one_s = seconds_since(one_begin);
         request.threads = 2;
         const auto two_begin = Clock::now();
-        const Viewshed shed = viewshed(surface, request);
+        const Viewshed shed = viewshed(surface, 0, request);
         const double two_s = seconds_since(two_begin);
         const Agreement posts =
-            agreement(cells, gdal, seen_by_viewshed(region->field.grid, shed, cells, gdal));
+            agreement(cells, gdal, seen_by_viewshed(region->grids[0].field.grid, shed, cells, gdal));
         print("    its nearest posts", posts);
         std::printf("    GDAL %.3f s, viewshed %.3f s on 1 core, %.3f s on 2\n", gdal_s, one_s, two_s);
         EXPECT_GE(posts.share(), least_agreement) << observer.name;

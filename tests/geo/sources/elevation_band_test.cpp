@@ -73,13 +73,13 @@ TEST(ElevationBand, IsTakenBesideMasksAndCodes) {
         std::string reason;
         const auto region = opened(request_for({file}), &reason);
         ASSERT_TRUE(region) << one.name << ": " << reason;
-        EXPECT_EQ(region->field.H_at_post_m(7, 9), static_cast<float>(one.value(one.heights, 7, 9)))
+        EXPECT_EQ(region->grids[0].field.H_at_post_m(7, 9), static_cast<float>(one.value(one.heights, 7, 9)))
             << one.name;
-        ASSERT_EQ(region->notes.size(), 1U) << one.name;
-        EXPECT_NE(
-            region->notes[0].find("has 2 bands; heights are taken from band " + std::to_string(one.heights)),
-            std::string::npos)
-            << region->notes[0];
+        ASSERT_EQ(region->grids[0].notes.size(), 1U) << one.name;
+        EXPECT_NE(region->grids[0].notes[0].find("has 2 bands; heights are taken from band " +
+                                                 std::to_string(one.heights)),
+                  std::string::npos)
+            << region->grids[0].notes[0];
     }
 }
 
@@ -135,8 +135,8 @@ TEST(ElevationBand, SignedBytesAreNegative) {
         std::string reason;
         const auto region = opened(request_for({(folder / name).string()}), &reason);
         ASSERT_TRUE(region) << name << ": " << reason;
-        EXPECT_EQ(region->field.H_at_post_m(5, 5), -5.0F) << name;
-        EXPECT_EQ(region->field.H_at_post_m(30, 5), 100.0F) << name;
+        EXPECT_EQ(region->grids[0].field.H_at_post_m(5, 5), -5.0F) << name;
+        EXPECT_EQ(region->grids[0].field.H_at_post_m(30, 5), 100.0F) << name;
     }
 }
 

@@ -103,10 +103,10 @@ TEST(HeightUnit, GeoKey4099InEveryKindOfTiff) {
                 std::string reason;
                 const auto region = opened(request_for({file}), &reason);
                 ASSERT_TRUE(region) << c.unit << big << little << reason;
-                EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(0, 0)), c.H_m, 1e-4)
+                EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(0, 0)), c.H_m, 1e-4)
                     << c.unit << big << little;
-                EXPECT_EQ(unit_words(region->sources[0].height_unit), c.words);
-                for (const std::string& note : region->notes)
+                EXPECT_EQ(unit_words(region->grids[0].sources[0].height_unit), c.words);
+                for (const std::string& note : region->grids[0].notes)
                     EXPECT_EQ(note.find("--height-unit"), std::string::npos) << note;
             }
         }
@@ -126,7 +126,7 @@ TEST(HeightUnit, GeoKey4099InEveryKindOfTiff) {
         std::string reason;
         const auto region = opened(request_for({(folder / name).string()}), &reason);
         ASSERT_TRUE(region) << name << ": " << reason;
-        EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(0, 0)), 304.8006096, 1e-4) << name;
+        EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(0, 0)), 304.8006096, 1e-4) << name;
     }
 }
 
@@ -206,8 +206,8 @@ TEST(HeightUnit, ZunitsOfOldPrjFiles) {
         std::string reason;
         const auto region = opened(request_for({(folder / "grid.asc").string()}), &reason);
         ASSERT_TRUE(region) << reason;
-        EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(5, 5)), c.H_m, 1e-4) << c.zunits;
-        EXPECT_EQ(unit_words(region->sources[0].height_unit), c.words) << c.zunits;
+        EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(5, 5)), c.H_m, 1e-4) << c.zunits;
+        EXPECT_EQ(unit_words(region->grids[0].sources[0].height_unit), c.words) << c.zunits;
     }
 }
 
@@ -223,7 +223,7 @@ TEST(HeightUnit, AssumedMetresBesideACrsInFeetAreTold) {
     }
     const auto about_unit = [](const Region& region) {
         std::vector<std::string> found;
-        for (const std::string& note : region.notes)
+        for (const std::string& note : region.grids[0].notes)
             if (note.find("--height-unit") != std::string::npos) found.push_back(note);
         return found;
     };
@@ -239,7 +239,7 @@ TEST(HeightUnit, AssumedMetresBesideACrsInFeetAreTold) {
     const auto told = opened(request);
     ASSERT_TRUE(told);
     EXPECT_TRUE(about_unit(*told).empty());
-    EXPECT_NEAR(static_cast<double>(told->field.H_at_post_m(0, 0)), 304.8006096, 1e-4);
+    EXPECT_NEAR(static_cast<double>(told->grids[0].field.H_at_post_m(0, 0)), 304.8006096, 1e-4);
     request.height_unit = "";
     raster.unit = "US survey foot";
     request.paths = {write_raster(folder / "c.tif", raster, slope_m)};
@@ -254,9 +254,10 @@ TEST(HeightUnit, ABandAndACrsThatContradictEachOtherAreTold) {
     raster.unit = "ft";
     const auto region = opened(request_for({write_raster(folder / "a.tif", raster, slope_m)}));
     ASSERT_TRUE(region);
-    EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(0, 0)), 304.8, 2.0);  // NAVD88 to EGM96
+    EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(0, 0)), 304.8,
+                2.0);  // NAVD88 to EGM96
     std::size_t told = 0;
-    for (const std::string& note : region->notes)
+    for (const std::string& note : region->grids[0].notes)
         told += note.find("its band gives heights in ft") != std::string::npos &&
                 note.find("ft is taken (--height-unit tells it otherwise)") != std::string::npos;
     EXPECT_EQ(told, 1U);

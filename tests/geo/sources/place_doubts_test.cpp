@@ -68,7 +68,7 @@ TEST(PlaceDoubts, NeighbouringZonesAndSiteGridsAreFine) {
                                              [](int r, int c) { return 500.0 + 0.01 * (r + c); })}),
                    &reason);
         ASSERT_TRUE(region) << raster.crs << ": " << reason;
-        for (const std::string& note : region->notes)
+        for (const std::string& note : region->grids[0].notes)
             EXPECT_EQ(note.find("outside the area"), std::string::npos) << note;
     }
 }
@@ -80,7 +80,7 @@ TEST(PlaceDoubts, SystemsThatStateNoAreaAreLookedUp) {
         write_raster(folder / "lv03.tif", forty("EPSG:2056+5728", 600000.0, 200000.0, 30.0), relief_m);
     const auto region = opened(request_for({file}));
     ASSERT_TRUE(region);
-    EXPECT_TRUE(std::ranges::any_of(region->notes, [](const std::string& note) {
+    EXPECT_TRUE(std::ranges::any_of(region->grids[0].notes, [](const std::string& note) {
         return note.find("lv03.tif: its posts lie ") != std::string::npos &&
                note.find("degrees outside the area") != std::string::npos;
     }));
@@ -107,12 +107,12 @@ TEST(PlaceDoubts, FarOutsideTheAreaOfUseIsTold) {
     const auto region = opened(request_for({file}));
     ASSERT_TRUE(region);
     std::size_t told = 0;
-    for (const std::string& note : region->notes)
+    for (const std::string& note : region->grids[0].notes)
         told += note.find("swapped.tif: its posts lie ") != std::string::npos &&
                 note.find(
                     "degrees outside the area that its coordinate reference system is made for (0 N to 84 N, "
                     "6 E to 12 E)") != std::string::npos;
-    EXPECT_EQ(told, 1U) << (region->notes.empty() ? "" : region->notes[0]);
+    EXPECT_EQ(told, 1U) << (region->grids[0].notes.empty() ? "" : region->grids[0].notes[0]);
 }
 
 }  // namespace

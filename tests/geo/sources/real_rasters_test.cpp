@@ -46,11 +46,12 @@ TEST(Raster, RealCollection) {
         std::string reason;
         const auto region = opened(request, &reason);
         ASSERT_TRUE(region) << c.file << ": " << reason;
-        const HeightRange range = height_range(region->field);
+        const HeightRange range = height_range(region->grids[0].field);
         EXPECT_NEAR(static_cast<double>(range.lowest_m), c.lowest, c.tolerance + 0.05) << c.file;
         EXPECT_NEAR(static_cast<double>(range.highest_m), c.highest, c.tolerance + 0.05) << c.file;
-        std::printf("%-50s %5d x %-5d %s\n", c.file, region->field.grid.rows(), region->field.grid.columns(),
-                    placement_words(region->sources[0]).c_str());
+        std::printf("%-50s %5d x %-5d %s\n", c.file, region->grids[0].field.grid.rows(),
+                    region->grids[0].field.grid.columns(),
+                    placement_words(region->grids[0].sources[0]).c_str());
     }
     const auto swiss = open_region(request_for({(*folder / "dhm25_25_matrix.bt").string()}));
     ASSERT_FALSE(swiss.ok());

@@ -76,18 +76,18 @@ std::set<std::size_t> cuts_of(std::size_t size) {
 // True when a region is told apart from the whole one: by failing, by a note, or not at all because it is the
 // same.
 bool is_no_lie(const Result<Region>& region, const Region& whole) {
-    if (!region.ok() || region->notes != whole.notes) return true;
-    const PostGrid &grid = region->field.grid, &of_whole = whole.field.grid;
+    if (!region.ok() || region->grids[0].notes != whole.grids[0].notes) return true;
+    const PostGrid &grid = region->grids[0].field.grid, &of_whole = whole.grids[0].field.grid;
     return grid.north_deg() == of_whole.north_deg() && grid.west_deg() == of_whole.west_deg() &&
            grid.rows() == of_whole.rows() && grid.columns() == of_whole.columns() &&
-           region->field.H_m == whole.field.H_m;
+           region->grids[0].field.H_m == whole.grids[0].field.H_m;
 }
 
 void expect_no_lies(const fs::path& folder, const fs::path& raster) {
     std::string reason;
     const auto whole = opened(request_for({raster.string()}), &reason);
     ASSERT_TRUE(whole) << reason;
-    EXPECT_NEAR(static_cast<double>(whole->field.H_at_post_m(60, 60)), hilly(60, 60), 1.0);
+    EXPECT_NEAR(static_cast<double>(whole->grids[0].field.H_at_post_m(60, 60)), hilly(60, 60), 1.0);
     int told = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const fs::path file = entry.path();
@@ -150,7 +150,7 @@ TEST(TrustedFormat, MasksAndSourcesTellWhenTheyAreCut) {
     ASSERT_TRUE(fs::exists(folder / "a.tif.msk"));
     const auto masked = opened(request_for({(folder / "a.tif").string()}));
     ASSERT_TRUE(masked);
-    EXPECT_EQ(masked->voids, 40U * side);
+    EXPECT_EQ(masked->grids[0].voids, 40U * side);
     expect_no_lies(folder, folder / "a.tif");
     fs::remove(folder / "a.tif.msk");
     ASSERT_TRUE(write({"VRT", "b.vrt", {}}, folder / "c.vrt"));

@@ -80,7 +80,7 @@ TEST_P(OccludedClusters, WindowsAreThoseWithout) {
     for (int i = 0; i < 4; ++i) {
         const auto [one, other] = test::eyes_in_motion(where(), random, width_px, height_px);
         for (const Camera& camera : {one, other}) {
-            auto plan = drawn.plan(camera, tile, 1.0);
+            auto plan = drawn.plan({camera, tile, 1.0});
             for (int turn = 0; turn < 2000 && plan.ok() && !plan->is_settled(); ++turn) {
                 ASSERT_EQ(renderers.differing(*plan), 0U) << "seed 181, eye " << i;
                 for (int news = 0; news < 100; ++news) {
@@ -89,7 +89,7 @@ TEST_P(OccludedClusters, WindowsAreThoseWithout) {
                     if (*better) break;
                     std::this_thread::sleep_for(std::chrono::milliseconds(2));
                 }
-                plan = drawn.plan(camera, tile, 1.0);
+                plan = drawn.plan({camera, tile, 1.0});
             }
             ASSERT_TRUE(plan.ok()) << plan.error().line();
             EXPECT_TRUE(plan->is_settled());
