@@ -47,7 +47,7 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     json["pixels"] = nullptr;
     if (pixels) json["pixels"] = pixels_json(*pixels);
     json["error"] = verification_json(verification);
-    json["error"]["resampling"] = resampling_json(region_resampling(region));
+    json["error"]["resampling"] = resampling_json(region_resampling(region.grids.front()));
     json["unseen"] = unseen_json(unseen);
     json["light"] = light_json(view.model.air, true_camera(view, region).eye.h_m);
     json["notes"] = all_notes(region);
@@ -144,7 +144,7 @@ Result<void> run_compare(const CompareOptions& options) {
     if (pixels && !options.quiet && is_drawn_one(*pixels)) std::fputs(pixels_text(*pixels).c_str(), stderr);
     // What was asked for: as a table, or with -q as JSON alone.
     if (!options.quiet || !options.json)
-        std::fputs((verification_text(verification, view, unseen) + resampling_line(region) +
+        std::fputs((verification_text(verification, view, unseen) + resampling_line(region.grids.front()) +
                     light_line(view, region))
                        .c_str(),
                    stderr);

@@ -124,7 +124,7 @@ class RandomViews : public test::GpuTest {
         if (!geoid) leave_geoid_out(opened->region);
         if (random() % 8 == 0) opened->exaggeration = static_cast<double>(1 + random() % 16) / 4.0;
         opened->highest_H_m =
-            std::max(0.0, opened->exaggeration * height_range(opened->region.field).highest_m);
+            std::max(0.0, opened->exaggeration * height_range(opened->region.grids[0].field).highest_m);
         View view;
         view.exaggeration = opened->exaggeration;
         ORO_TRY(opened->truth, TrueScene::of(view, opened->region));
@@ -273,7 +273,7 @@ class RandomViews : public test::GpuTest {
     }
 
     void look(Opened& opened, Random random, Tally& tally) {
-        const bool geoid = opened.region.geoid_left_out.N_m.empty();
+        const bool geoid = opened.region.grids[0].geoid_left_out.N_m.empty();
         const RandomView one = test::random_view(
             random, {opened.region, opened.exaggeration, geoid, opened.highest_H_m}, opened.surface());
         const auto view = view_of(opened, one.drawing);

@@ -152,7 +152,7 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
         // What was asked for: as a table, or with -q as JSON alone.
         if (!options.quiet || !options.json)
             std::fputs((verification_text(*shot.verification, shot.view, shot.unseen) +
-                        resampling_line(shot.region) + light_line(shot.view, shot.region))
+                        resampling_line(shot.region.grids.front()) + light_line(shot.view, shot.region))
                            .c_str(),
                        stderr);
     }
