@@ -107,7 +107,7 @@ class ReadData : public ExtremeData {
             std::string reason;
             const auto region = opened(request, &reason);
             ASSERT_TRUE(region) << reason;
-            const std::vector<float>& H_m = region->grids[0].field.H_m;
+            const std::vector<float>& H_m = region->field.H_m;
             ASSERT_EQ(H_m.size(), good.size());
             std::uint64_t wrong = 0;
             for (std::size_t i = 0; i < good.size(); ++i) {
@@ -115,7 +115,7 @@ class ReadData : public ExtremeData {
                 wrong += (good[i] || filled) ? (fine ? 0U : 1U) : (is_void(H_m[i]) ? 0U : 1U);
             }
             measured(group, row, static_cast<double>(wrong), good.size());
-            expect_surface(region->grids[0].field, 300.0, "", seen_row);
+            expect_surface(region->field, 300.0, "", seen_row);
         }
     }
 };

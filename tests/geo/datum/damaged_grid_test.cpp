@@ -9,6 +9,7 @@
 #include "geo/datum/vertical_datum.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -62,14 +63,14 @@ class DamagedGeoid : public testing::Test {
         const ProjFolder only(folder_.string());
         for (const bool strict : {false, true}) {
             request_.strict_datum = strict;
-            const auto region = open_region(request_);
-            ASSERT_FALSE(region.ok()) << what << ": N = " << region->grids[0].field.undulation.at_m(46.5, 8.0)
-                                      << ", " << region->grids[0].geoid;
+            const auto region = test::open_grid(request_);
+            ASSERT_FALSE(region.ok())
+                << what << ": N = " << region->field.undulation.at_m(46.5, 8.0) << ", " << region->geoid;
             EXPECT_EQ(region.error().kind, ErrorKind::failed);
             EXPECT_NE(region.error().line().find(grid_.string()), std::string::npos) << region.error().line();
             EXPECT_NE(region.error().line().find("damaged"), std::string::npos) << region.error().line();
         }
-        std::printf("%s: %s\n", what, open_region(request_).error().line().c_str());
+        std::printf("%s: %s\n", what, test::open_grid(request_).error().line().c_str());
         const std::string damage = grid_state("EPSG:4326+5773").damage;
         EXPECT_NE(damage.find(grid_.string()), std::string::npos) << what << ": " << damage;
     }
@@ -140,7 +141,7 @@ TEST_F(DamagedGeoid, ProjsDatabaseThatIsThereAndCannotBeReadIsAnError) {
     for (const std::string& content : {std::string(), std::string("not a database")}) {
         write_text(folder_ / "proj.db", content);
         const ProjFolder only(folder_.string());
-        const auto region = open_region(request_);
+        const auto region = test::open_grid(request_);
         ASSERT_FALSE(region.ok()) << content;
         EXPECT_NE(region.error().line().find("proj.db"), std::string::npos) << region.error().line();
     }
@@ -151,7 +152,7 @@ TEST_F(DamagedGeoid, AWholeCopyIsTakenAndTellsTheSameNEverywhere) {
     const ProjFolder only(folder_.string());
     const auto region = opened(request_);
     ASSERT_TRUE(region);
-    EXPECT_NEAR(region->grids[0].field.undulation.at_m(46.5, 8.0), 50.68, 0.02);
+    EXPECT_NEAR(region->field.undulation.at_m(46.5, 8.0), 50.68, 0.02);
     const auto geoid = GeoidOfRegion::open(true);
     ASSERT_TRUE(geoid.ok());
     const auto world = geoid->undulation({-180, -90, 180, 90});
@@ -195,15 +196,15 @@ TEST_F(DamagedGeoid, GridsOfOtherDatumsAreHeldToTheSame) {
     std::string reason;
     const auto region = opened(request_, &reason);
     ASSERT_TRUE(region) << reason;
-    EXPECT_EQ(region->grids[0].notes, std::vector<std::string>());
-    EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_m(46.5, 8.5)),
-                1060.0 - region->grids[0].field.undulation.at_m(46.5, 8.5), 1e-3);
+    EXPECT_EQ(region->notes, std::vector<std::string>());
+    EXPECT_NEAR(static_cast<double>(region->field.H_at_m(46.5, 8.5)),
+                1060.0 - region->field.undulation.at_m(46.5, 8.5), 1e-3);
     for (const std::size_t bytes : {std::size_t{0}, gtx_header, std::size_t{5000}, whole.size() - 1}) {
         write_text(other, whole.substr(0, bytes));
         for (const bool strict : {false, true}) {
             request_.strict_datum = strict;
-            const auto refused = open_region(request_);
-            ASSERT_FALSE(refused.ok()) << bytes << ": H " << refused->grids[0].field.H_at_m(46.5, 8.5);
+            const auto refused = test::open_grid(request_);
+            ASSERT_FALSE(refused.ok()) << bytes << ": H " << refused->field.H_at_m(46.5, 8.5);
             EXPECT_NE(refused.error().line().find(other.string()), std::string::npos)
                 << refused.error().line();
         }
@@ -213,10 +214,9 @@ TEST_F(DamagedGeoid, GridsOfOtherDatumsAreHeldToTheSame) {
     write_text(other, gtx_bytes(40.0, 0.0, 0.25, 61, 34, 60.0F));  // ends at 8.25 E
     const auto beyond = opened(request_, &reason);
     ASSERT_TRUE(beyond) << reason;
-    EXPECT_EQ(beyond->grids[0].field.H_at_m(46.5, 8.5), 1000.0F);
-    ASSERT_EQ(beyond->grids[0].notes.size(), 1U);
-    EXPECT_NE(beyond->grids[0].notes[0].find("outside the grid"), std::string::npos)
-        << beyond->grids[0].notes[0];
+    EXPECT_EQ(beyond->field.H_at_m(46.5, 8.5), 1000.0F);
+    ASSERT_EQ(beyond->notes.size(), 1U);
+    EXPECT_NE(beyond->notes[0].find("outside the grid"), std::string::npos) << beyond->notes[0];
 }
 
 TEST(ShiftGridTest, GoesRoundAndEndsWhereItEnds) {

@@ -11,6 +11,7 @@
 #include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -51,8 +52,8 @@ std::string write_flat(const fs::path& folder, const std::string& crs, double he
     return write_raster(folder / "flat.tif", raster, [=](int, int) { return height; });
 }
 
-double H_at_centre(const Region& region) {
-    return static_cast<double>(region.grids[0].field.H_at_m(46.5, 8.0));
+double H_at_centre(const RegionGrid& region) {
+    return static_cast<double>(region.field.H_at_m(46.5, 8.0));
 }
 
 TEST(Geoid, Egm96LiftsSrtmHeights) {
@@ -61,11 +62,11 @@ TEST(Geoid, Egm96LiftsSrtmHeights) {
         opened(request_for({write_hgt(folder / "N46E008.hgt", 1201, [](int, int) { return 1000; })}));
     ASSERT_TRUE(region);
     // EPSG:4326+5773 to 4979 at 46.5 N 8 E with egm96_15.gtx (PROJ 9.1).
-    EXPECT_NEAR(region->grids[0].field.undulation.at_m(46.5, 8.0), 50.68, 0.02);
-    EXPECT_NEAR(region->grids[0].field.h_at_post_m(600, 0), 1050.68, 0.02);
-    EXPECT_NE(region->grids[0].geoid.find("EGM96"), std::string::npos);
-    EXPECT_NE(region->grids[0].geoid.find("egm96_15"), std::string::npos) << region->grids[0].geoid;
-    EXPECT_TRUE(region->grids[0].notes.empty());
+    EXPECT_NEAR(region->field.undulation.at_m(46.5, 8.0), 50.68, 0.02);
+    EXPECT_NEAR(region->field.h_at_post_m(600, 0), 1050.68, 0.02);
+    EXPECT_NE(region->geoid.find("EGM96"), std::string::npos);
+    EXPECT_NE(region->geoid.find("egm96_15"), std::string::npos) << region->geoid;
+    EXPECT_TRUE(region->notes.empty());
 }
 
 TEST(Geoid, UndulationIsExactlyWhatProjGives) {
@@ -113,9 +114,9 @@ TEST(VerticalDatum, StatedEgm96IsTakenAsItIs) {
     const auto region = opened(request, &reason);
     ASSERT_TRUE(region) << reason;
     EXPECT_EQ(H_at_centre(*region), 1000.0);
-    EXPECT_EQ(datum_words(region->grids[0].sources[0].vertical_datum), "EPSG:5773 EGM96 height");
-    EXPECT_EQ(placement_words(region->grids[0].sources[0]), "posts copied");
-    EXPECT_TRUE(region->grids[0].notes.empty());
+    EXPECT_EQ(datum_words(region->sources[0].vertical_datum), "EPSG:5773 EGM96 height");
+    EXPECT_EQ(placement_words(region->sources[0]), "posts copied");
+    EXPECT_TRUE(region->notes.empty());
 }
 
 TEST(VerticalDatum, EllipsoidalHeightsLoseTheUndulation) {
@@ -127,8 +128,7 @@ TEST(VerticalDatum, EllipsoidalHeightsLoseTheUndulation) {
         const auto region = opened(request, &reason);
         ASSERT_TRUE(region) << crs << ": " << reason;
         EXPECT_NEAR(H_at_centre(*region), 1000.0, 0.02) << crs;
-        EXPECT_NE(datum_words(region->grids[0].sources[0].vertical_datum).find("ellipsoidal"),
-                  std::string::npos);
+        EXPECT_NE(datum_words(region->sources[0].vertical_datum).find("ellipsoidal"), std::string::npos);
         fs::remove(folder / "flat.tif");
     }
 }
@@ -193,12 +193,11 @@ TEST(VerticalDatum, HeightsInFeetOfThreeAxesAreConvertedOnce) {
                 std::string reason;
                 const auto region = opened(request, &reason);
                 ASSERT_TRUE(region) << projected << unit << stored << ": " << reason;
-                EXPECT_EQ(region->grids[0].sources[0].implausible, 0U) << projected << unit << stored;
-                EXPECT_NEAR(H_at_centre(*region), h_m - region->grids[0].field.undulation.at_m(46.5, 8.0),
-                            0.01)
+                EXPECT_EQ(region->sources[0].implausible, 0U) << projected << unit << stored;
+                EXPECT_NEAR(H_at_centre(*region), h_m - region->field.undulation.at_m(46.5, 8.0), 0.01)
                     << projected << " '" << unit << "' " << stored << ", "
-                    << unit_words(region->grids[0].sources[0].height_unit);
-                EXPECT_NE(datum_words(region->grids[0].sources[0].vertical_datum).find("ellipsoidal"),
+                    << unit_words(region->sources[0].height_unit);
+                EXPECT_NE(datum_words(region->sources[0].vertical_datum).find("ellipsoidal"),
                           std::string::npos);
                 fs::remove(file);
             }
@@ -226,15 +225,15 @@ TEST(VerticalDatum, AGridThatProjLacksIsNamedAndStrictRefuses) {
             request_for({write_flat(folder, c.crs, 1000.0, c.lon_deg - 0.05, c.lat_deg + 0.05)});
         const auto region = opened(request);
         ASSERT_TRUE(region) << c.crs;
-        EXPECT_EQ(region->grids[0].field.H_at_m(c.lat_deg, c.lon_deg), 1000.0F)
+        EXPECT_EQ(region->field.H_at_m(c.lat_deg, c.lon_deg), 1000.0F)
             << "EGM96 stands in: heights stay, lifted by its N";
-        ASSERT_EQ(region->grids[0].notes.size(), c.notes);
-        const std::string& note = region->grids[0].notes.back();
+        ASSERT_EQ(region->notes.size(), c.notes);
+        const std::string& note = region->notes.back();
         for (const char* said : {c.grid, c.datum, "EGM96 stands in", c.off_by})
             EXPECT_NE(note.find(said), std::string::npos) << note;
-        EXPECT_NE(datum_words(region->grids[0].sources[0].vertical_datum).find(c.datum), std::string::npos);
+        EXPECT_NE(datum_words(region->sources[0].vertical_datum).find(c.datum), std::string::npos);
         request.strict_datum = true;
-        const auto strict = open_region(request);
+        const auto strict = test::open_grid(request);
         ASSERT_FALSE(strict.ok()) << c.crs;
         EXPECT_NE(strict.error().line().find("flat.tif"), std::string::npos) << strict.error().line();
         EXPECT_NE(strict.error().line().find(c.grid), std::string::npos) << strict.error().line();
@@ -250,12 +249,12 @@ TEST(VerticalDatum, WithoutEgm96NothingIsHidden) {
     const ProjFolder only(folder.string());
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].field.undulation.at_m(46.5, 8.5), 0.0);
-    EXPECT_NE(region->grids[0].geoid.find("N = 0"), std::string::npos) << region->grids[0].geoid;
-    ASSERT_EQ(region->grids[0].notes.size(), 1U);
-    EXPECT_NE(region->grids[0].notes[0].find("egm96_15"), std::string::npos) << region->grids[0].notes[0];
+    EXPECT_EQ(region->field.undulation.at_m(46.5, 8.5), 0.0);
+    EXPECT_NE(region->geoid.find("N = 0"), std::string::npos) << region->geoid;
+    ASSERT_EQ(region->notes.size(), 1U);
+    EXPECT_NE(region->notes[0].find("egm96_15"), std::string::npos) << region->notes[0];
     request.strict_datum = true;
-    const auto strict = open_region(request);
+    const auto strict = test::open_grid(request);
     ASSERT_FALSE(strict.ok());
     EXPECT_NE(strict.error().line().find("egm96_15"), std::string::npos) << strict.error().line();
 }
@@ -269,8 +268,8 @@ TEST(VerticalDatum, WithoutProjsDatabaseThereIsANoteAndNoChatter) {
     const auto region = opened(request);
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     ASSERT_TRUE(region);
-    ASSERT_EQ(region->grids[0].notes.size(), 1U);
-    EXPECT_NE(region->grids[0].notes[0].find("proj-data"), std::string::npos) << region->grids[0].notes[0];
+    ASSERT_EQ(region->notes.size(), 1U);
+    EXPECT_NE(region->notes[0].find("proj-data"), std::string::npos) << region->notes[0];
 }
 
 TEST(VerticalDatum, DepthsAndForeignUnits) {
@@ -301,13 +300,12 @@ TEST(VerticalDatum, RealEgm2008GridIsUsedWhereItIsThere) {
     std::string reason;
     const auto region = opened(request, &reason);
     ASSERT_TRUE(region) << reason;
-    EXPECT_TRUE(region->grids[0].notes.empty());
+    EXPECT_TRUE(region->notes.empty());
     const double N2008 = PlainProj("EPSG:4326+3855", "EPSG:4979").height_m(46.5, 8.0, 0.0);
     EXPECT_GT(N2008, 45.0);
-    EXPECT_NEAR(H_at_centre(*region), 1000.0 + N2008 - region->grids[0].field.undulation.at_m(46.5, 8.0),
-                1e-3);
+    EXPECT_NEAR(H_at_centre(*region), 1000.0 + N2008 - region->field.undulation.at_m(46.5, 8.0), 1e-3);
     std::printf("EGM2008 %.3f m, EGM96 %.3f m at 46.5 N 8 E\n", N2008,
-                region->grids[0].field.undulation.at_m(46.5, 8.0));
+                region->field.undulation.at_m(46.5, 8.0));
 }
 
 TEST(VerticalDatum, RealDtedMetadataIsHonoured) {
@@ -315,12 +313,12 @@ TEST(VerticalDatum, RealDtedMetadataIsHonoured) {
     if (!copernicus) GTEST_SKIP() << "needs geotiff";
     const auto region = opened(request_for({copernicus->string()}));
     ASSERT_TRUE(region);
-    EXPECT_NE(datum_words(region->grids[0].sources[0].vertical_datum).find("EGM2008"), std::string::npos);
+    EXPECT_NE(datum_words(region->sources[0].vertical_datum).find("EGM2008"), std::string::npos);
     const auto nfong = opened(request_for({real_data("geotiff/nfong_N46E008.tif")->string()}));
     ASSERT_TRUE(nfong);
-    EXPECT_NE(datum_words(nfong->grids[0].sources[0].vertical_datum).find("EGM96"), std::string::npos);
-    EXPECT_EQ(datum_words(nfong->grids[0].sources[0].vertical_datum).find("assumed"), std::string::npos);
-    EXPECT_TRUE(nfong->grids[0].notes.empty());
+    EXPECT_NE(datum_words(nfong->sources[0].vertical_datum).find("EGM96"), std::string::npos);
+    EXPECT_EQ(datum_words(nfong->sources[0].vertical_datum).find("assumed"), std::string::npos);
+    EXPECT_TRUE(nfong->notes.empty());
 }
 
 }  // namespace

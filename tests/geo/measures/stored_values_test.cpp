@@ -63,18 +63,18 @@ TEST(StoredValues, OfAllRealFilesAreThoseOfGdal) {
             std::string reason;
             const auto region = opened(request, &reason);
             ASSERT_TRUE(region) << reason;
-            ASSERT_EQ(region->grids[0].sources.size(), 1U);
-            const auto& stored = region->grids[0].sources[0].stored;
+            ASSERT_EQ(region->sources.size(), 1U);
+            const auto& stored = region->sources[0].stored;
             ASSERT_TRUE(stored);
             EXPECT_TRUE(stored->whole);
-            const double metres = metres_in(region->grids[0].sources[0].height_unit.name).value_or(1.0);
+            const double metres = metres_in(region->sources[0].height_unit.name).value_or(1.0);
             const auto gdal = by_gdal(path, metres);
             ASSERT_TRUE(gdal) << "gdalinfo says nothing of it";
             EXPECT_NEAR(stored->lowest_m, gdal->first, 1e-9 * std::abs(gdal->first));
             EXPECT_NEAR(stored->highest_m, gdal->second, 1e-9 * std::abs(gdal->second));
             std::printf("%-52s %9.1f .. %-9.1f H in the region %9.1f .. %.1f\n", path.name.c_str(),
-                        stored->lowest_m, stored->highest_m, region->grids[0].sources[0].lowest_m,
-                        region->grids[0].sources[0].highest_m);
+                        stored->lowest_m, stored->highest_m, region->sources[0].lowest_m,
+                        region->sources[0].highest_m);
             ++files;
         }
     }
@@ -94,9 +94,9 @@ TEST(StoredValues, ScaleOffsetAndUnitCountAndNoDataDoesNot) {
                                    [](int r, int c) { return r == 0 ? -9999.0 : 10.0 * c + r; });
     const auto region = opened(request_for({file}));
     ASSERT_TRUE(region);
-    EXPECT_NEAR(region->grids[0].sources[0].stored->lowest_m, (0.1 * 1.0 + 100.0) * 0.3048, 1e-9);
-    EXPECT_NEAR(region->grids[0].sources[0].stored->highest_m, (0.1 * 121.0 + 100.0) * 0.3048, 1e-9);
-    EXPECT_TRUE(region->grids[0].sources[0].stored->whole);
+    EXPECT_NEAR(region->sources[0].stored->lowest_m, (0.1 * 1.0 + 100.0) * 0.3048, 1e-9);
+    EXPECT_NEAR(region->sources[0].stored->highest_m, (0.1 * 121.0 + 100.0) * 0.3048, 1e-9);
+    EXPECT_TRUE(region->sources[0].stored->whole);
 }
 
 // A value that no terrain has is stored all the same.
@@ -108,9 +108,9 @@ TEST(StoredValues, ImplausibleOnesAreTold) {
                                    [](int r, int c) { return r == 3 && c == 3 ? -32678.0 : 500.0 + r; });
     const auto region = opened(request_for({file}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].sources[0].stored->lowest_m, -32678.0);
-    EXPECT_EQ(region->grids[0].sources[0].lowest_m, 500.0);
-    EXPECT_EQ(region->grids[0].sources[0].implausible, 1U);
+    EXPECT_EQ(region->sources[0].stored->lowest_m, -32678.0);
+    EXPECT_EQ(region->sources[0].lowest_m, 500.0);
+    EXPECT_EQ(region->sources[0].implausible, 1U);
 }
 
 // Posts in windows by chance, counted one by one.

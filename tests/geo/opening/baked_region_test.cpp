@@ -10,6 +10,7 @@
 #include "core/baked/bake.h"
 #include "geo/region/region_description.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -19,12 +20,12 @@ using namespace test;
 namespace fs = std::filesystem;
 
 // Bakes what the paths hold; gives the file.
-std::string baked(const Region& region, const fs::path& file) {
+std::string baked(const RegionGrid& region, const fs::path& file) {
     BakeOptions how;
     how.path = file.string();
-    how.description = region_description(region.grids[0]);
+    how.description = region_description(region);
     how.threads = 2;
-    const auto done = bake_region(region.grids[0].field, how);
+    const auto done = bake_region(region.field, how);
     EXPECT_TRUE(done.ok()) << done.error().line();
     return file.string();
 }
@@ -39,8 +40,8 @@ std::vector<std::string> three_tiles(const fs::path& folder) {
             write_hgt(folder / "N10E023.hgt", 1201, hills)};
 }
 
-void expect_same_surface(const Region& is, const Region& was) {
-    const PostGrid &a = is.grids[0].field.grid, &b = was.grids[0].field.grid;
+void expect_same_surface(const RegionGrid& is, const RegionGrid& was) {
+    const PostGrid &a = is.field.grid, &b = was.field.grid;
     ASSERT_EQ(a.rows(), b.rows());
     ASSERT_EQ(a.columns(), b.columns());
     EXPECT_EQ(a.lat.first, b.lat.first);
@@ -51,36 +52,33 @@ void expect_same_surface(const Region& is, const Region& was) {
     std::size_t differing = 0;
     for (int row = 0; row < a.rows(); ++row) {
         for (int column = 0; column < a.columns(); ++column)
-            differing +=
-                is.grids[0].field.H_at_post_m(row, column) != was.grids[0].field.H_at_post_m(row, column)
-                    ? 1U
-                    : 0U;
+            differing += is.field.H_at_post_m(row, column) != was.field.H_at_post_m(row, column) ? 1U : 0U;
     }
     EXPECT_EQ(differing, 0U);
     for (int row = 0; row < a.rows(); row += 97) {
         for (int column = 0; column < a.columns(); column += 89)
-            ASSERT_EQ(is.grids[0].field.undulation.at_m(a.lat.at_deg(row), a.lon.at_deg(column)),
-                      was.grids[0].field.undulation.at_m(b.lat.at_deg(row), b.lon.at_deg(column)));
+            ASSERT_EQ(is.field.undulation.at_m(a.lat.at_deg(row), a.lon.at_deg(column)),
+                      was.field.undulation.at_m(b.lat.at_deg(row), b.lon.at_deg(column)));
     }
-    EXPECT_EQ(is.grids[0].voids, was.grids[0].voids);
-    EXPECT_EQ(is.grids[0].geoid, was.grids[0].geoid);
-    EXPECT_EQ(is.grids[0].missing_cells, was.grids[0].missing_cells);
-    EXPECT_EQ(height_range(is.grids[0].field).lowest_m, height_range(was.grids[0].field).lowest_m);
-    EXPECT_EQ(height_range(is.grids[0].field).highest_m, height_range(was.grids[0].field).highest_m);
+    EXPECT_EQ(is.voids, was.voids);
+    EXPECT_EQ(is.geoid, was.geoid);
+    EXPECT_EQ(is.missing_cells, was.missing_cells);
+    EXPECT_EQ(height_range(is.field).lowest_m, height_range(was.field).lowest_m);
+    EXPECT_EQ(height_range(is.field).highest_m, height_range(was.field).highest_m);
 }
 
 TEST(BakedRegion, IsTheSurfaceOfItsSources) {
     const fs::path folder = scratch_folder();
     const auto tiles = opened(request_for(three_tiles(folder)));
     ASSERT_TRUE(tiles);
-    EXPECT_FALSE(tiles->grids[0].file);
-    EXPECT_EQ(tiles->grids[0].missing_cells, std::vector<std::string>{"N10E022"});
+    EXPECT_FALSE(tiles->file);
+    EXPECT_EQ(tiles->missing_cells, std::vector<std::string>{"N10E022"});
     const auto region = opened(request_for({baked(*tiles, folder / "region.oro")}));
     ASSERT_TRUE(region);
-    ASSERT_TRUE(region->grids[0].file);
-    EXPECT_TRUE(region->grids[0].field.H_m.empty()) << "no post is read before it is asked for";
+    ASSERT_TRUE(region->file);
+    EXPECT_TRUE(region->field.H_m.empty()) << "no post is read before it is asked for";
     expect_same_surface(*region, *tiles);
-    EXPECT_EQ(region_description(region->grids[0]), region_description(tiles->grids[0]));
+    EXPECT_EQ(region_description(*region), region_description(*tiles));
 }
 
 // Boxes inside, across a tile's edge, beyond the region, smaller than a cell: the same posts as from the
@@ -132,18 +130,17 @@ TEST(BakedRegion, ABoxThatEndsBetweenSourcesHasVoidPostsThere) {
     of_tiles.box = of_file.box = BoundingBox{21.5, 10.25, 22.5, 10.75};
     const auto expected = opened(of_tiles), cut = opened(of_file);
     ASSERT_TRUE(expected && cut);
-    ASSERT_EQ(expected->grids[0].field.grid.columns(), 601);
+    ASSERT_EQ(expected->field.grid.columns(), 601);
     ASSERT_EQ(cut->field.grid.columns(), 1201);
-    ASSERT_EQ(cut->field.grid.rows(), expected->grids[0].field.grid.rows());
-    EXPECT_EQ(cut->field.grid.lon.first, expected->grids[0].field.grid.lon.first);
-    EXPECT_EQ(cut->voids, expected->grids[0].voids + 601U * 600U);
+    ASSERT_EQ(cut->field.grid.rows(), expected->field.grid.rows());
+    EXPECT_EQ(cut->field.grid.lon.first, expected->field.grid.lon.first);
+    EXPECT_EQ(cut->voids, expected->voids + 601U * 600U);
     std::size_t differing = 0;
     for (int row = 0; row < 601; ++row) {
         for (int column = 0; column < 1201; ++column) {
             const float is = cut->field.H_at_post_m(row, column);
             differing +=
-                is != (column < 601 ? expected->grids[0].field.H_at_post_m(row, column) : void_height_m) ? 1U
-                                                                                                         : 0U;
+                is != (column < 601 ? expected->field.H_at_post_m(row, column) : void_height_m) ? 1U : 0U;
         }
     }
     EXPECT_EQ(differing, 0U);
@@ -181,7 +178,7 @@ TEST(BakedRegion, BoxesOutOfARegionRoundTheEarth) {
                                           [](int r, int c) { return 10.0 * r + 5.0 * std::abs(c - 180); });
     const auto whole = opened(request_for({path}));
     ASSERT_TRUE(whole);
-    ASSERT_TRUE(whole->grids[0].field.grid.goes_round());
+    ASSERT_TRUE(whole->field.grid.goes_round());
     const std::string file = baked(*whole, folder / "region.oro");
     for (const BoundingBox& box :
          {BoundingBox{-10.0, -10.0, 10.0, 10.0}, {170.0, -20.0, -170.0, 20.0}, {-180.0, 60.0, 180.0, 90.0}}) {
@@ -204,13 +201,13 @@ TEST(BakedRegion, OfPostsInTheirOwnCrsIsThatOfItsSource) {
     raster.cell_corners = {600000.0, 25.0, -6.0, 5300000.0, 6.0, 25.0};
     const auto hills = [](int r, int c) { return 800.0 + 300.0 * std::sin(0.03 * r) * std::cos(0.05 * c); };
     const auto source = opened(request_for({write_raster(folder / "own.tif", raster, hills)}));
-    ASSERT_TRUE(source && source->grids[0].field.grid.net && source->grids[0].posts_crs);
+    ASSERT_TRUE(source && source->field.grid.net && source->posts_crs);
     const auto whole = opened(request_for({baked(*source, folder / "own.oro")}));
-    ASSERT_TRUE(whole && whole->grids[0].field.grid.net);
-    EXPECT_EQ(whole->grids[0].posts_crs->wkt, source->grids[0].posts_crs->wkt);
-    EXPECT_EQ(whole->grids[0].posts_crs->crs_from_post, source->grids[0].posts_crs->crs_from_post);
-    EXPECT_EQ(whole->grids[0].posts_print, source->grids[0].posts_print);
-    const PostPlace middle = source->grids[0].field.grid.place_at(250, 200);
+    ASSERT_TRUE(whole && whole->field.grid.net);
+    EXPECT_EQ(whole->posts_crs->wkt, source->posts_crs->wkt);
+    EXPECT_EQ(whole->posts_crs->crs_from_post, source->posts_crs->crs_from_post);
+    EXPECT_EQ(whole->posts_print, source->posts_print);
+    const PostPlace middle = source->field.grid.place_at(250, 200);
     RegionRequest of_source = request_for({(folder / "own.tif").string()}),
                   of_file = request_for({(folder / "own.oro").string()});
     of_source.box = of_file.box = BoundingBox{middle.lon_deg - 0.02, middle.lat_deg - 0.015,
@@ -219,35 +216,32 @@ TEST(BakedRegion, OfPostsInTheirOwnCrsIsThatOfItsSource) {
     ASSERT_TRUE(expected && cut && cut->field.grid.net);
     const auto again = opened(request_for({baked(*cut, folder / "cut.oro")}));
     ASSERT_TRUE(again);
-    const PostGrid& grid = expected->grids[0].field.grid;
+    const PostGrid& grid = expected->field.grid;
     EXPECT_LT(grid.rows(), 250);
     for (const auto& one : {cut, again}) {
         ASSERT_EQ(one->field.grid.rows(), grid.rows());
         ASSERT_EQ(one->field.grid.columns(), grid.columns());
         for (std::size_t i = 0; i < 6; ++i)
-            EXPECT_NEAR(one->posts_crs->crs_from_post[i], expected->grids[0].posts_crs->crs_from_post[i],
-                        1e-8);
+            EXPECT_NEAR(one->posts_crs->crs_from_post[i], expected->posts_crs->crs_from_post[i], 1e-8);
         for (int row = 0; row < grid.rows(); ++row) {
             for (int column = 0; column < grid.columns(); ++column) {
-                ASSERT_EQ(one->field.H_at_post_m(row, column),
-                          expected->grids[0].field.H_at_post_m(row, column));
-                ASSERT_EQ(one->field.N_at_post_m(row, column),
-                          expected->grids[0].field.N_at_post_m(row, column));
+                ASSERT_EQ(one->field.H_at_post_m(row, column), expected->field.H_at_post_m(row, column));
+                ASSERT_EQ(one->field.N_at_post_m(row, column), expected->field.N_at_post_m(row, column));
                 ASSERT_EQ(one->field.grid.place_at(row, column).lat_deg, grid.place_at(row, column).lat_deg);
                 ASSERT_EQ(one->field.grid.place_at(row, column).lon_deg, grid.place_at(row, column).lon_deg);
             }
         }
-        EXPECT_EQ(one->posts_print.value_or(1), expected->grids[0].posts_print.value_or(2));
+        EXPECT_EQ(one->posts_print.value_or(1), expected->posts_print.value_or(2));
     }
     RegionRequest resampled = request_for({(folder / "own.oro").string()});
     resampled.resample = true;
-    const auto refused = open_region(resampled);
+    const auto refused = test::open_grid(resampled);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().kind, ErrorKind::usage);
     // One whose description does not tell it.
-    Region without = *source;
-    without.grids[0].posts_crs.reset();
-    const auto damaged = open_region(request_for({baked(without, folder / "without.oro")}));
+    RegionGrid without = *source;
+    without.posts_crs.reset();
+    const auto damaged = test::open_grid(request_for({baked(without, folder / "without.oro")}));
     ASSERT_FALSE(damaged.ok());
     EXPECT_NE(damaged.error().what.find("does not tell the CRS"), std::string::npos);
 }
@@ -261,7 +255,7 @@ class BakedRegionErrors : public testing::Test {
         file_ = baked(*tiles, folder_ / "region.oro");
     }
     Error error_of(const RegionRequest& request) const {
-        const auto region = open_region(request);
+        const auto region = test::open_grid(request);
         EXPECT_FALSE(region.ok());
         return region.ok() ? Error{} : region.error();
     }
@@ -311,15 +305,15 @@ TEST_F(BakedRegionErrors, DescriptionsThatDoNotFit) {
     BakeOptions how;
     how.path = (folder_ / "other.oro").string();
     how.description = "no description";
-    ASSERT_TRUE(bake_region(tiles->grids[0].field, how).ok());
+    ASSERT_TRUE(bake_region(tiles->field, how).ok());
     EXPECT_NE(error_of(request_for({how.path})).line().find("its description cannot be read"),
               std::string::npos);
-    Region told = *tiles;
-    ASSERT_GT(told.grids[0].voids, 0U);
-    told.grids[0].voids = 0;
+    RegionGrid told = *tiles;
+    ASSERT_GT(told.voids, 0U);
+    told.voids = 0;
     how.path = (folder_ / "another.oro").string();
-    how.description = region_description(told.grids[0]);
-    ASSERT_TRUE(bake_region(tiles->grids[0].field, how).ok());
+    how.description = region_description(told);
+    ASSERT_TRUE(bake_region(tiles->field, how).ok());
     EXPECT_NE(error_of(request_for({how.path})).line().find("void posts"), std::string::npos);
 }
 

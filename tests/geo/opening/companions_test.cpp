@@ -11,6 +11,7 @@
 #include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -44,13 +45,13 @@ HeightRange range_of_folder(const fs::path& folder, std::vector<std::string>& no
     const auto region = opened(request_for({folder.string()}), &reason);
     EXPECT_TRUE(region) << reason;
     if (!region) return {};
-    notes = region->grids[0].notes;
-    EXPECT_EQ(region->grids[0].sources.size(), 1U);
-    return height_range(region->grids[0].field);
+    notes = region->notes;
+    EXPECT_EQ(region->sources.size(), 1U);
+    return height_range(region->field);
 }
 
 std::string refusal_of(const std::vector<std::string>& paths) {
-    const auto region = open_region(request_for(paths));
+    const auto region = test::open_grid(request_for(paths));
     return region.ok() ? "" : region.error().line();
 }
 
@@ -93,9 +94,8 @@ TEST(Companions, DoNotFillVoids) {
         write_raster(folder / name, on_degrees_near(11.0, 48.0, GDT_Byte), [](int r, int) { return r; });
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].void_posts(), 200U);
-    EXPECT_EQ(datum_words(region->grids[0].sources[0].vertical_datum),
-              "EGM96 height, of AW3D30 (by its name)");
+    EXPECT_EQ(region->void_posts(), 200U);
+    EXPECT_EQ(datum_words(region->sources[0].vertical_datum), "EGM96 height, of AW3D30 (by its name)");
 }
 
 // Found: errors and masks that a browser or file manager had copied were the ground.
@@ -109,15 +109,15 @@ TEST(Companions, AreKnownByTheNamesOfTheirCopies) {
     write_raster(folder / "survey_error - Copy (2).tif", on_degrees_near(12.0, 48.0), low);
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].sources.size(), 2U);
-    EXPECT_EQ(notes_with(region->grids[0].notes, "HEM (1).tif (holds height error of Copernicus DEM)"), 1U);
-    EXPECT_EQ(notes_with(region->grids[0].notes, "survey_error - Copy (2).tif (lies beside survey.tif"), 1U);
+    EXPECT_EQ(region->sources.size(), 2U);
+    EXPECT_EQ(notes_with(region->notes, "HEM (1).tif (holds height error of Copernicus DEM)"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "survey_error - Copy (2).tif (lies beside survey.tif"), 1U);
     // A name of heights says nothing of bytes.
     const auto bytes = opened(
         request_for({write_raster(scratch_folder() / (stem + "x.tif"), on_degrees_near(11.0, 48.0, GDT_Byte),
                                   [](int r, int) { return r; })}));
     ASSERT_TRUE(bytes);
-    EXPECT_EQ(notes_with(bytes->grids[0].notes, "whole numbers of 0 to 255"), 1U);
+    EXPECT_EQ(notes_with(bytes->notes, "whole numbers of 0 to 255"), 1U);
 }
 
 // Found: days since 2000 of REMA 1 were heights beside its own.
@@ -210,8 +210,8 @@ TEST(Companions, AreRefusedByThemselvesWithAReason) {
         write_raster(folder / "TDM1_DEM__30_N47E011_DEM.tif", on_degrees_near(11.0, 48.0), hills_m);
     const auto all = opened(request_for({amplitude, dem, slope}));
     ASSERT_TRUE(all);
-    EXPECT_EQ(all->grids[0].sources.size(), 1U);
-    EXPECT_EQ(notes_with(all->grids[0].notes, "left out"), 1U);
+    EXPECT_EQ(all->sources.size(), 1U);
+    EXPECT_EQ(notes_with(all->notes, "left out"), 1U);
     // A folder of companions alone says what they are.
     fs::remove(dem);
     EXPECT_NE(refusal_of({folder.string()}).find("no elevation"), std::string::npos);
@@ -231,13 +231,13 @@ TEST(Companions, HeightsAreNotTakenForOthers) {
         opened(request_for({write_raster(low / "polder.tif", on_degrees_near(5.0, 53.0, GDT_Byte),
                                          [](int r, int c) { return (r + c) % 30; })}));
     ASSERT_TRUE(flat);
-    EXPECT_EQ(notes_with(flat->grids[0].notes, "whole numbers of 0 to 255"), 1U);
-    EXPECT_EQ(height_range(flat->grids[0].field).highest_m, 29.0F);
+    EXPECT_EQ(notes_with(flat->notes, "whole numbers of 0 to 255"), 1U);
+    EXPECT_EQ(height_range(flat->field).highest_m, 29.0F);
     // Tiles side by side, one of them low enough for bytes.
     write_raster(low / "hill.tif", on_degrees_near(5.6, 53.0), [](int r, int) { return 300 + r; });
     const auto tiles = opened(request_for({low.string()}));
     ASSERT_TRUE(tiles);
-    EXPECT_EQ(tiles->grids[0].sources.size(), 2U);
+    EXPECT_EQ(tiles->sources.size(), 2U);
     // Two surveys of one ground are both heights.
     const fs::path twice = scratch_folder();
     write_raster(twice / "a.tif", on_degrees_near(8.0, 47.0), hills_m);
@@ -245,8 +245,8 @@ TEST(Companions, HeightsAreNotTakenForOthers) {
                  [](int r, int c) { return hills_m(r, c) + 2.0; });
     const auto both = opened(request_for({twice.string()}));
     ASSERT_TRUE(both);
-    EXPECT_EQ(both->grids[0].sources.size(), 2U);
-    EXPECT_EQ(notes_with(both->grids[0].notes, "contradict"), 0U) << "2 m";
+    EXPECT_EQ(both->sources.size(), 2U);
+    EXPECT_EQ(notes_with(both->notes, "contradict"), 0U) << "2 m";
 }
 
 TEST(Companions, BytesOverHeightsAndWordsBesideThemAreLeftOut) {
@@ -272,9 +272,8 @@ TEST(Companions, ContradictionsAreNotesOfTheRegion) {
     write_raster(folder / "q.tif", on_degrees_near(8.0, 47.0, GDT_UInt16), some);
     auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    ASSERT_EQ(notes_with(region->grids[0].notes, "contradict each other by more than 16 m"), 1U);
-    EXPECT_EQ(notes_with(region->grids[0].notes, "q.tif (3600 of 3600 shared posts)"), 1U)
-        << region->grids[0].notes[0];
+    ASSERT_EQ(notes_with(region->notes, "contradict each other by more than 16 m"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "q.tif (3600 of 3600 shared posts)"), 1U) << region->notes[0];
     // On other posts of one grid, and on posts in metres, which are a grid of their own.
     for (const bool metres : {false, true}) {
         const fs::path other = scratch_folder();
@@ -287,11 +286,10 @@ TEST(Companions, ContradictionsAreNotesOfTheRegion) {
         write_raster(other / "q.tif", finer, some);
         RegionRequest request = request_for({other.string()});
         request.grids_apart = true;
-        region = opened(request);
-        ASSERT_TRUE(region);
-        EXPECT_EQ(region->grids.size(), metres ? 2U : 1U);
-        EXPECT_EQ(notes_with(region->grids[0].notes, "contradict each other by more than 16 m"), 1U)
-            << metres;
+        const auto grids = open_region(request);
+        ASSERT_TRUE(grids.ok()) << grids.error().line();
+        EXPECT_EQ(grids->grids.size(), metres ? 2U : 1U);
+        EXPECT_EQ(notes_with(grids->grids[0].notes, "contradict each other by more than 16 m"), 1U) << metres;
     }
 }
 
@@ -303,14 +301,14 @@ TEST(ProductHeights, AreAboveWhatTheProductSaysUnlessTheFileOrTheUserSaysElse) {
         write_raster(folder / "TDM1_DEM__30_N47E011_DEM.tif", on_degrees_near(11.0, 48.0), flat);
     const auto H_m = [](const RegionRequest& request) {
         const auto region = opened(request);
-        return region ? static_cast<double>(region->grids[0].field.H_at_m(47.7, 11.2)) : 0.0;
+        return region ? static_cast<double>(region->field.H_at_m(47.7, 11.2)) : 0.0;
     };
     RegionRequest request = request_for({file});
     const auto region = opened(request);
     ASSERT_TRUE(region);
     // N of EGM96 by PROJ 9.1 with egm96_15.gtx.
     EXPECT_NEAR(H_m(request), 1000.0 - 46.5, 0.1);
-    EXPECT_EQ(datum_words(region->grids[0].sources[0].vertical_datum),
+    EXPECT_EQ(datum_words(region->sources[0].vertical_datum),
               "ellipsoidal height (EPSG:4979 WGS 84), of TanDEM-X DEM (by its name)");
     request.source_vertical = "EPSG:5773";
     EXPECT_EQ(H_m(request), 1000.0);
@@ -326,9 +324,9 @@ TEST(ProductHeights, AreAboveWhatTheProductSaysUnlessTheFileOrTheUserSaysElse) {
     const auto arctic =
         opened(request_for({write_raster(scratch_folder() / "23_44_10m_v4.1_dem.tif", polar, flat)}));
     ASSERT_TRUE(arctic);
-    const double N_m = arctic->grids[0].field.N_at_post_m(30, 30);
+    const double N_m = arctic->field.N_at_post_m(30, 30);
     EXPECT_GT(std::abs(N_m), 5.0);
-    EXPECT_NEAR(static_cast<double>(arctic->grids[0].field.H_at_post_m(30, 30)), 1000.0 - N_m, 0.01);
+    EXPECT_NEAR(static_cast<double>(arctic->field.H_at_post_m(30, 30)), 1000.0 - N_m, 0.01);
 }
 
 TEST(ProductHeights, ThatLackTheirGridSaySo) {
@@ -342,13 +340,12 @@ TEST(ProductHeights, ThatLackTheirGridSaySo) {
     RegionRequest request = request_for({file});
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    EXPECT_EQ(notes_with(region->grids[0].notes,
-                         "us_nga_egm08_25.tif for EPSG:3855 EGM2008 height: EGM96 stands in"),
+    EXPECT_EQ(notes_with(region->notes, "us_nga_egm08_25.tif for EPSG:3855 EGM2008 height: EGM96 stands in"),
               1U);
-    EXPECT_EQ(datum_words(region->grids[0].sources[0].vertical_datum),
+    EXPECT_EQ(datum_words(region->sources[0].vertical_datum),
               "EPSG:3855 EGM2008 height, of Copernicus DEM (by its name); EGM96 stands in");
     request.strict_datum = true;
-    EXPECT_NE(open_region(request).ok(), true);
+    EXPECT_NE(test::open_grid(request).ok(), true);
 }
 
 }  // namespace

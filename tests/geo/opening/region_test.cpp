@@ -1,4 +1,3 @@
-#include "geo/opening/open_region.h"
 #include "geo/sources/source_words.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -25,14 +25,14 @@ TEST(Region, NeighboursShareTheirPostsOnceAndDisagreementsAreCounted) {
     write_hgt(folder / "N10E021.hgt", 1201, [](int r, int c) { return c == 0 ? 100 + r % 7 : 200; });
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].field.grid.columns(), 2401);
-    EXPECT_EQ(region->grids[0].seams.shared_posts, 1201U);
-    EXPECT_EQ(region->grids[0].seams.disagreeing_posts, 1029U);  // rows 0..1200 less the 172 multiples of 7
-    EXPECT_EQ(region->grids[0].seams.largest_difference_m, 6.0);
+    EXPECT_EQ(region->field.grid.columns(), 2401);
+    EXPECT_EQ(region->seams.shared_posts, 1201U);
+    EXPECT_EQ(region->seams.disagreeing_posts, 1029U);  // rows 0..1200 less the 172 multiples of 7
+    EXPECT_EQ(region->seams.largest_difference_m, 6.0);
     // The one that wins has no seam of its own to report; the other has all of it.
-    ASSERT_EQ(region->grids[0].sources.size(), 2U);
+    ASSERT_EQ(region->sources.size(), 2U);
     std::uint64_t shared = 0, disagreeing = 0;
-    for (const SourceReport& source : region->grids[0].sources) {
+    for (const SourceReport& source : region->sources) {
         EXPECT_TRUE(source.seams.shared_posts == 0 || source.seams.shared_posts == 1201U) << source.path;
         shared += source.seams.shared_posts;
         disagreeing += source.seams.disagreeing_posts;
@@ -40,8 +40,8 @@ TEST(Region, NeighboursShareTheirPostsOnceAndDisagreementsAreCounted) {
     EXPECT_EQ(shared, 1201U);
     EXPECT_EQ(disagreeing, 1029U);
     // Among equals the first name wins: N10E020.
-    for (int r = 0; r < 1201; r += 100) EXPECT_EQ(region->grids[0].field.H_at_post_m(r, 1200), 100.0F);
-    EXPECT_EQ(region->grids[0].field.H_at_post_m(600, 1201), 200.0F);
+    for (int r = 0; r < 1201; r += 100) EXPECT_EQ(region->field.H_at_post_m(r, 1200), 100.0F);
+    EXPECT_EQ(region->field.H_at_post_m(600, 1201), 200.0F);
 }
 
 TEST(Region, AVoidPostTakesItsNeighboursHeight) {
@@ -50,9 +50,9 @@ TEST(Region, AVoidPostTakesItsNeighboursHeight) {
     write_hgt(folder / "N10E021.hgt", 1201, [](int, int) { return 200; });
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].voids, 0U);
-    EXPECT_EQ(region->grids[0].seams.shared_posts, 0U);
-    EXPECT_EQ(region->grids[0].field.H_at_post_m(5, 1200), 200.0F);
+    EXPECT_EQ(region->voids, 0U);
+    EXPECT_EQ(region->seams.shared_posts, 0U);
+    EXPECT_EQ(region->field.H_at_post_m(5, 1200), 200.0F);
 }
 
 TEST(Region, FinerSpacingWinsAndCoarserFillsWithItsTriangles) {
@@ -62,12 +62,12 @@ TEST(Region, FinerSpacingWinsAndCoarserFillsWithItsTriangles) {
     write_hgt(folder / "N10E021.hgt", 3601, [](int, int) { return 2000; });
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    const HeightField& field = region->grids[0].field;
+    const HeightField& field = region->field;
     EXPECT_EQ(field.grid.lat.posts_per_deg, 3600.0);
     EXPECT_EQ(field.grid.columns(), 7201);
     // The shared meridian is the finer tile's; it is no seam of equals.
     EXPECT_EQ(field.H_at_post_m(100, 3600), 2000.0F);
-    EXPECT_EQ(region->grids[0].seams.shared_posts, 0U);
+    EXPECT_EQ(region->seams.shared_posts, 0U);
     // Coarse posts exactly; between them the plane of the triangle, split from north-west to south-east.
     for (int r = 0; r < 1200; r += 97) {
         for (int c = 0; c < 1199; c += 89) {
@@ -82,7 +82,7 @@ TEST(Region, FinerSpacingWinsAndCoarserFillsWithItsTriangles) {
                         1e-3);
         }
     }
-    for (const SourceReport& source : region->grids[0].sources) {
+    for (const SourceReport& source : region->sources) {
         if (source.rows == 1201) {
             EXPECT_NE(placement_words(source).find("3 x 3"), std::string::npos) << placement_words(source);
         }
@@ -100,11 +100,11 @@ TEST(Region, PostsThatACoarserSourceLendsToAVoidAreSaid) {
     request.box = BoundingBox{20, 10, 21, 11};
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].voids, 0U);
-    EXPECT_EQ(region->grids[0].field.H_at_post_m(7, 2), 310.0F);
-    ASSERT_EQ(region->grids[0].notes.size(), 1U);
-    EXPECT_NE(region->grids[0].notes[0].find("5 void posts"), std::string::npos) << region->grids[0].notes[0];
-    EXPECT_NE(region->grids[0].notes[0].find("coarse.tif"), std::string::npos) << region->grids[0].notes[0];
+    EXPECT_EQ(region->voids, 0U);
+    EXPECT_EQ(region->field.H_at_post_m(7, 2), 310.0F);
+    ASSERT_EQ(region->notes.size(), 1U);
+    EXPECT_NE(region->notes[0].find("5 void posts"), std::string::npos) << region->notes[0];
+    EXPECT_NE(region->notes[0].find("coarse.tif"), std::string::npos) << region->notes[0];
 }
 
 TEST(Region, MissingCellsAreNamed) {
@@ -113,10 +113,10 @@ TEST(Region, MissingCellsAreNamed) {
     write_hgt(folder / "N11E021.hgt", 1201, [](int, int) { return 100; });
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].missing_cells, (std::vector<std::string>{"N10E021", "N11E020"}));
-    EXPECT_EQ(region->grids[0].voids,
+    EXPECT_EQ(region->missing_cells, (std::vector<std::string>{"N10E021", "N11E020"}));
+    EXPECT_EQ(region->voids,
               2U * 1200U * 1200U);  // a missing tile but for the edges that its neighbours have
-    EXPECT_TRUE(is_void(region->grids[0].field.H_at_m(10.5, 21.5)));
+    EXPECT_TRUE(is_void(region->field.H_at_m(10.5, 21.5)));
 }
 
 TEST(Region, NoDataInTheBox) {
@@ -124,17 +124,17 @@ TEST(Region, NoDataInTheBox) {
     write_hgt(folder / "N10E020.hgt", 1201, [](int, int) { return 100; });
     RegionRequest request = request_for({folder.string()});
     request.box = BoundingBox{30, 10, 31, 11};
-    auto region = open_region(request);
+    auto region = test::open_grid(request);
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(region.error().kind, ErrorKind::no_data);
     EXPECT_NE(region.error().line().find("30,10,31,11"), std::string::npos) << region.error().line();
     // Touching along a line is no data either.
     request.box = BoundingBox{21, 10, 22, 11};
-    EXPECT_FALSE(open_region(request).ok());
+    EXPECT_FALSE(test::open_grid(request).ok());
     // All void.
     write_hgt(folder / "N10E030.hgt", 1201, [](int, int) { return -32768; });
     request.box = BoundingBox{30, 10, 31, 11};
-    region = open_region(request);
+    region = test::open_grid(request);
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(region.error().kind, ErrorKind::no_data);
 }
@@ -148,8 +148,8 @@ TEST(Region, PostsHaveTheSameBitsInEveryRegion) {
     request.box = BoundingBox{7.90001, 46.2, 8.31, 46.4};
     const auto part = opened(request);
     ASSERT_TRUE(whole && part);
-    const PostGrid& a = whole->grids[0].field.grid;
-    const PostGrid& b = part->grids[0].field.grid;
+    const PostGrid& a = whole->field.grid;
+    const PostGrid& b = part->field.grid;
     // Snapped outwards, by less than a post.
     EXPECT_LE(b.west_deg(), 7.90001);
     EXPECT_GT(b.west_deg(), 7.90001 - 1.0 / 1200);
@@ -160,8 +160,7 @@ TEST(Region, PostsHaveTheSameBitsInEveryRegion) {
         for (int c = 0; c < b.columns(); c += 17) {
             ASSERT_EQ(b.lat.at_deg(r), a.lat.at_deg(r + rows));
             ASSERT_EQ(b.lon.at_deg(c), a.lon.at_deg(c + columns));
-            ASSERT_EQ(part->grids[0].field.H_at_post_m(r, c),
-                      whole->grids[0].field.H_at_post_m(r + rows, c + columns));
+            ASSERT_EQ(part->field.H_at_post_m(r, c), whole->field.H_at_post_m(r + rows, c + columns));
         }
     }
 }
@@ -176,16 +175,16 @@ TEST(Region, TilesOnBothSidesOfTheAntimeridianAreOneNarrowRegion) {
         std::string reason;
         const auto region = opened(request, &reason);
         ASSERT_TRUE(region) << reason;
-        EXPECT_EQ(region->grids[0].field.grid.columns(), 2401);
-        EXPECT_EQ(region->grids[0].field.grid.west_deg(), 179.0);
-        EXPECT_EQ(region->grids[0].field.grid.east_deg(), 181.0);
-        EXPECT_EQ(region->grids[0].seams.shared_posts, 1201U);
-        EXPECT_EQ(region->grids[0].seams.disagreeing_posts, 0U);
-        EXPECT_EQ(region->grids[0].voids, 0U);
-        EXPECT_TRUE(region->grids[0].missing_cells.empty());
+        EXPECT_EQ(region->field.grid.columns(), 2401);
+        EXPECT_EQ(region->field.grid.west_deg(), 179.0);
+        EXPECT_EQ(region->field.grid.east_deg(), 181.0);
+        EXPECT_EQ(region->seams.shared_posts, 1201U);
+        EXPECT_EQ(region->seams.disagreeing_posts, 0U);
+        EXPECT_EQ(region->voids, 0U);
+        EXPECT_TRUE(region->missing_cells.empty());
         for (const int c : {0, 1200, 1201, 2400})
-            EXPECT_EQ(region->grids[0].field.H_at_post_m(7, c), static_cast<float>(c));
-        EXPECT_EQ(region->grids[0].field.H_at_m(-16.5, -179.5), 1800.0F);
+            EXPECT_EQ(region->field.H_at_post_m(7, c), static_cast<float>(c));
+        EXPECT_EQ(region->field.H_at_m(-16.5, -179.5), 1800.0F);
     }
 }
 
@@ -209,23 +208,21 @@ TEST(Region, RoundTheEarthTheFirstAndLastColumnAreOneMeridian) {
         const auto region =
             opened(request_for({write_world(folder / (centres ? "cells.tif" : "posts.tif"), centres)}));
         ASSERT_TRUE(region);
-        const PostGrid& grid = region->grids[0].field.grid;
+        const PostGrid& grid = region->field.grid;
         EXPECT_EQ(grid.columns(), 181) << centres;
         EXPECT_EQ(grid.east_deg() - grid.west_deg(), 360.0);
         EXPECT_GE(grid.west_deg(), -180.0);
-        EXPECT_EQ(region->grids[0].voids, 0U);
-        EXPECT_EQ(region->grids[0].seams.shared_posts, 0U);
+        EXPECT_EQ(region->voids, 0U);
+        EXPECT_EQ(region->seams.shared_posts, 0U);
         for (int r = 0; r < grid.rows(); ++r)
-            ASSERT_EQ(region->grids[0].field.H_at_post_m(r, 0), region->grids[0].field.H_at_post_m(r, 180))
-                << r;
+            ASSERT_EQ(region->field.H_at_post_m(r, 0), region->field.H_at_post_m(r, 180)) << r;
         if (!centres) {
             EXPECT_EQ(grid.north_deg(), 90.0);
             EXPECT_EQ(grid.south_deg(), -90.0);
             // A pole is one point and has one height, the mean of its row: 5 + 3 * 2 / 181 (column 0 is there
             // twice).
             for (int c = 0; c < 181; ++c)
-                EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(0, c)), 5.0 + 6.0 / 181.0,
-                            1e-5);
+                EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(0, c)), 5.0 + 6.0 / 181.0, 1e-5);
         }
     }
 }
@@ -238,9 +235,9 @@ TEST(Region, PartOfAWorldOverTheAntimeridian) {
         request.box = BoundingBox{170, -10, -170, 10};
         const auto region = opened(request);
         ASSERT_TRUE(region);
-        EXPECT_EQ(region->grids[0].voids, 0U) << centres;
-        EXPECT_LE(region->grids[0].field.grid.west_deg(), 170.0);
-        EXPECT_GE(region->grids[0].field.grid.east_deg(), 190.0);
+        EXPECT_EQ(region->voids, 0U) << centres;
+        EXPECT_LE(region->field.grid.west_deg(), 170.0);
+        EXPECT_GE(region->field.grid.east_deg(), 190.0);
     }
 }
 
@@ -249,11 +246,11 @@ TEST(Region, RealAlpsAgreeOnEverySharedPost) {
     if (!folder) GTEST_SKIP() << "needs alps";
     const auto region = opened(request_for({folder->string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].sources.size(), 12U);
-    EXPECT_GT(region->grids[0].seams.shared_posts, 15U * 1200U);
-    EXPECT_EQ(region->grids[0].seams.disagreeing_posts, 0U);
-    EXPECT_EQ(region->grids[0].missing_cells, (std::vector<std::string>{"N45E008", "N45E009", "N45E010"}));
-    EXPECT_EQ(height_range(region->grids[0].field).highest_m, 4783.0F);
+    EXPECT_EQ(region->sources.size(), 12U);
+    EXPECT_GT(region->seams.shared_posts, 15U * 1200U);
+    EXPECT_EQ(region->seams.disagreeing_posts, 0U);
+    EXPECT_EQ(region->missing_cells, (std::vector<std::string>{"N45E008", "N45E009", "N45E010"}));
+    EXPECT_EQ(height_range(region->field).highest_m, 4783.0F);
 }
 
 TEST(Region, RealHimalayaDisagreesAndSaysByHowMuch) {
@@ -262,13 +259,13 @@ TEST(Region, RealHimalayaDisagreesAndSaysByHowMuch) {
     const auto region = opened(request_for({folder->string()}));
     ASSERT_TRUE(region);
     std::printf("himalaya: %llu shared posts, %llu disagree, by up to %.0f m\n",
-                static_cast<unsigned long long>(region->grids[0].seams.shared_posts),
-                static_cast<unsigned long long>(region->grids[0].seams.disagreeing_posts),
-                region->grids[0].seams.largest_difference_m);
+                static_cast<unsigned long long>(region->seams.shared_posts),
+                static_cast<unsigned long long>(region->seams.disagreeing_posts),
+                region->seams.largest_difference_m);
     // Counted over the tiles' raw bytes by a separate program.
-    EXPECT_EQ(region->grids[0].seams.shared_posts, 20399U);
-    EXPECT_EQ(region->grids[0].seams.disagreeing_posts, 5262U);
-    EXPECT_EQ(region->grids[0].seams.largest_difference_m, 381.0);
+    EXPECT_EQ(region->seams.shared_posts, 20399U);
+    EXPECT_EQ(region->seams.disagreeing_posts, 5262U);
+    EXPECT_EQ(region->seams.largest_difference_m, 381.0);
 }
 
 TEST(Region, RealFijiOverTheAntimeridian) {
@@ -278,10 +275,10 @@ TEST(Region, RealFijiOverTheAntimeridian) {
     request.box = *parse_bounding_box("175,-20,-175,-15");
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].voids, 0U);
-    EXPECT_NEAR(region->grids[0].field.grid.west_deg(), 175.0, 0.25);
-    EXPECT_NEAR(region->grids[0].field.grid.east_deg(), 185.0, 0.25);
-    EXPECT_EQ(region->grids[0].sources[0].box.east_deg, -170.125);
+    EXPECT_EQ(region->voids, 0U);
+    EXPECT_NEAR(region->field.grid.west_deg(), 175.0, 0.25);
+    EXPECT_NEAR(region->field.grid.east_deg(), 185.0, 0.25);
+    EXPECT_EQ(region->sources[0].box.east_deg, -170.125);
 }
 
 TEST(Region, RealPolesHaveHeightsAllRound) {
@@ -291,21 +288,21 @@ TEST(Region, RealPolesHaveHeightsAllRound) {
     request.box = *parse_bounding_box("-180,-90,180,-85");
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    const PostGrid& grid = region->grids[0].field.grid;
+    const PostGrid& grid = region->field.grid;
     EXPECT_EQ(grid.south_deg(), -90.0);
     EXPECT_EQ(grid.east_deg() - grid.west_deg(), 360.0);
-    EXPECT_EQ(region->grids[0].voids, 0U);
+    EXPECT_EQ(region->voids, 0U);
     const int pole = grid.rows() - 1;
     for (int c = 0; c < grid.columns(); ++c)
-        EXPECT_EQ(region->grids[0].field.H_at_post_m(pole, c), region->grids[0].field.H_at_post_m(pole, 0));
+        EXPECT_EQ(region->field.H_at_post_m(pole, c), region->field.H_at_post_m(pole, 0));
     // The plateau at the South Pole: ice surface at 2,835 m (USGS), here from 20 km cells of ETOPO1.
-    EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(pole, 0)), 2835.0, 100.0);
+    EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(pole, 0)), 2835.0, 100.0);
     const auto north = real_data("geotiff/vavilov_EPSG3413_f32.tif");
     request = request_for({north->string()});
     request.box = *parse_bounding_box("94,79,97,79.8");
     const auto vavilov = opened(request);
     ASSERT_TRUE(vavilov);
-    EXPECT_NEAR(static_cast<double>(height_range(vavilov->grids[0].field).highest_m), 711.3, 1.0);
+    EXPECT_NEAR(static_cast<double>(height_range(vavilov->field).highest_m), 711.3, 1.0);
 }
 
 TEST(Region, RealWorldAndTooLargeRegions) {
@@ -313,12 +310,12 @@ TEST(Region, RealWorldAndTooLargeRegions) {
     if (!folder) GTEST_SKIP() << "needs extremes";
     const auto world = opened(request_for({(*folder / "ETOPO1_1deg_global.tif").string()}));
     ASSERT_TRUE(world);
-    EXPECT_EQ(world->grids[0].field.grid.rows(), 181);
-    EXPECT_EQ(world->grids[0].field.grid.columns(), 361);
-    EXPECT_EQ(world->grids[0].voids, 0U);
+    EXPECT_EQ(world->field.grid.rows(), 181);
+    EXPECT_EQ(world->field.grid.columns(), 361);
+    EXPECT_EQ(world->voids, 0U);
     // With 1-arc-second tiles beside it the world is too large: refused before anything is read, with the way
     // out.
-    const auto all = open_region(request_for({folder->string()}));
+    const auto all = test::open_grid(request_for({folder->string()}));
     ASSERT_FALSE(all.ok());
     EXPECT_NE(all.error().line().find("--bbox"), std::string::npos) << all.error().line();
     EXPECT_NE(all.error().line().find("posts"), std::string::npos);
@@ -345,7 +342,7 @@ TEST(Region, AClaimBeyondTheFileIsToldBeforeMemoryIsTaken) {
                                        "UNIT[\"degree\",0.0174532925199433]]";
     RegionRequest request;
     request.paths = {(folder / "r.bt").string()};
-    const Result<Region> region = open_region(request);
+    const Result<RegionGrid> region = test::open_grid(request);
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("near row 15859771"), std::string::npos) << region.error().line();
 }

@@ -9,8 +9,8 @@
 
 #include "core/terrain/ground.h"
 #include "geo/files/raster_library.h"
-#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro::test {
@@ -47,11 +47,11 @@ TEST_P(OwnDataOf, KeepsItsHeightsAndItsRange) {
     const std::string file = *folder / GetParam();
     RegionRequest request;
     request.paths = {file};
-    const auto region = open_region(request);
+    const auto region = test::open_grid(request);
     request.resample = true;
-    const auto resampled = open_region(request);
+    const auto resampled = test::open_grid(request);
     ASSERT_TRUE(region.ok() && resampled.ok()) << region.error().line();
-    const HeightField& field = region->grids[0].field;
+    const HeightField& field = region->field;
     ASSERT_TRUE(field.grid.net);
     const RawPosts raw = raw_posts(file);
     ASSERT_EQ(raw.rows, field.grid.rows());
@@ -75,7 +75,7 @@ TEST_P(OwnDataOf, KeepsItsHeightsAndItsRange) {
         if (expected_m > highest_m) highest = i;
         highest_m = std::max(highest_m, expected_m);
     }
-    const HeightRange range = height_range(field), other = height_range(resampled->grids[0].field);
+    const HeightRange range = height_range(field), other = height_range(resampled->field);
     std::printf(
         "%s: %zu posts, %llu void; H %.3f to %.3f m (resampled %.3f to %.3f m); at most %.4f mm off\n",
         GetParam(), raw.values.size(), static_cast<unsigned long long>(voids),
@@ -99,17 +99,17 @@ TEST(OwnData, OfAContinentIsKept) {
     if (!file) GTEST_SKIP() << "needs geotiff";
     RegionRequest request;
     request.paths = {file->string()};
-    const auto whole = open_region(request);
+    const auto whole = test::open_grid(request);
     ASSERT_TRUE(whole.ok()) << whole.error().line();
-    ASSERT_TRUE(whole->grids[0].field.grid.net);
+    ASSERT_TRUE(whole->field.grid.net);
     request.box = BoundingBox{-180.0, -90.0, 180.0, -84.0};
-    const auto part = open_region(request);
+    const auto part = test::open_grid(request);
     ASSERT_TRUE(part.ok()) << part.error().line();
-    ASSERT_TRUE(part->grids[0].field.grid.net);
-    EXPECT_LT(part->grids[0].field.H_m.size(), whole->grids[0].field.H_m.size() / 4);
+    ASSERT_TRUE(part->field.grid.net);
+    EXPECT_LT(part->field.H_m.size(), whole->field.H_m.size() / 4);
     for (const double lon_deg : {-150.0, 3.0, 77.0})
-        EXPECT_NEAR(ground_h_m(part->grids[0].field, -86.0, lon_deg).value_or(-1.0),
-                    ground_h_m(whole->grids[0].field, -86.0, lon_deg).value_or(1.0), 1.0e-4);
+        EXPECT_NEAR(ground_h_m(part->field, -86.0, lon_deg).value_or(-1.0),
+                    ground_h_m(whole->field, -86.0, lon_deg).value_or(1.0), 1.0e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, OwnDataOf,

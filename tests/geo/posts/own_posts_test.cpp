@@ -16,6 +16,7 @@
 #include "geo/region/region.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro::test {
@@ -109,15 +110,15 @@ TEST_P(OwnPostsOf, LieWhereProjAndGeographicLibPutThem) {
     RegionRequest request;
     request.paths = {written(folder / "own.tif", of)};
     const auto started = std::chrono::steady_clock::now();
-    const auto region = open_region(request);
+    const auto region = test::open_grid(request);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
     ASSERT_TRUE(region.ok()) << region.error().line();
-    const HeightField& field = region->grids[0].field;
-    ASSERT_TRUE(field.grid.net) << region->grids[0].notes.front();
+    const HeightField& field = region->field;
+    ASSERT_TRUE(field.grid.net) << region->notes.front();
     ASSERT_EQ(field.grid.rows(), of.rows);
     ASSERT_EQ(field.grid.columns(), of.columns);
     EXPECT_EQ(field.grid.net->is_corrected(), !std::string(of.shifts).empty());
-    EXPECT_FALSE(region->grids[0].sources.at(0).resampling);
+    EXPECT_FALSE(region->sources.at(0).resampling);
     EXPECT_LE(field.grid.net->error_m(), GridNet::largest_error_m);
 
     const auto proj = to_wgs84(of.crs);
@@ -172,15 +173,15 @@ TEST(OwnPosts, OfABoxAreThoseOfTheWhole) {
     const Case& of = cases[0];
     RegionRequest request;
     request.paths = {written(folder / "own.tif", of)};
-    const auto whole = open_region(request);
+    const auto whole = test::open_grid(request);
     ASSERT_TRUE(whole.ok()) << whole.error().line();
-    const auto& net = *whole->grids[0].field.grid.net;
+    const auto& net = *whole->field.grid.net;
     const PostPlace middle = net.place_at(450, 550);
     request.box = BoundingBox{middle.lon_deg - 0.02, middle.lat_deg - 0.01, middle.lon_deg + 0.02,
                               middle.lat_deg + 0.01};
-    const auto part = open_region(request);
+    const auto part = test::open_grid(request);
     ASSERT_TRUE(part.ok()) << part.error().line();
-    const PostGrid& grid = part->grids[0].field.grid;
+    const PostGrid& grid = part->field.grid;
     EXPECT_LT(grid.rows(), 120);
     EXPECT_GT(grid.rows(), 80);
     const PostPlace corner = grid.place_at(0, 0);
@@ -190,15 +191,14 @@ TEST(OwnPosts, OfABoxAreThoseOfTheWhole) {
     EXPECT_NEAR(first.row, row, 1e-5);
     for (int r = 0; r < grid.rows(); ++r) {
         for (int c = 0; c < grid.columns(); ++c) {
-            ASSERT_EQ(part->grids[0].field.H_at_post_m(r, c),
-                      whole->grids[0].field.H_at_post_m(row + r, column + c));
+            ASSERT_EQ(part->field.H_at_post_m(r, c), whole->field.H_at_post_m(row + r, column + c));
             const PostPlace one = grid.place_at(r, c), other = net.place_at(row + r, column + c);
             ASSERT_EQ(one.lat_deg, other.lat_deg);
             ASSERT_EQ(one.lon_deg, other.lon_deg);
         }
     }
     request.box = BoundingBox{10.0, 50.0, 11.0, 51.0};
-    const auto elsewhere = open_region(request);
+    const auto elsewhere = test::open_grid(request);
     ASSERT_FALSE(elsewhere.ok());
     EXPECT_EQ(elsewhere.error().kind, ErrorKind::no_data);
 }
@@ -209,7 +209,7 @@ TEST(OwnPosts, OfTilesAreThoseOfOneFile) {
         const auto folder = scratch_folder();
         RegionRequest request;
         request.paths = {written(folder / "whole.tif", of)};
-        const auto whole = open_region(request);
+        const auto whole = test::open_grid(request);
         ASSERT_TRUE(whole.ok()) << whole.error().line();
         // 2 x 2 tiles that share a row and a column of posts; then without the last.
         const int half_row = of.rows / 2, half_column = of.columns / 2;
@@ -230,20 +230,20 @@ TEST(OwnPosts, OfTilesAreThoseOfOneFile) {
                                          [&](int r, int c) { return made_H_m(row + r, column + c); }));
         }
         request.paths = tiles;
-        const auto joined = open_region(request);
+        const auto joined = test::open_grid(request);
         ASSERT_TRUE(joined.ok()) << joined.error().line();
-        EXPECT_EQ(joined->grids[0].posts_print, whole->grids[0].posts_print);
-        EXPECT_EQ(joined->grids[0].seams.shared_posts, static_cast<std::uint64_t>(of.rows + of.columns - 1));
-        EXPECT_EQ(joined->grids[0].seams.disagreeing_posts, 0U);
-        EXPECT_EQ(joined->grids[0].voids, 0U);
+        EXPECT_EQ(joined->posts_print, whole->posts_print);
+        EXPECT_EQ(joined->seams.shared_posts, static_cast<std::uint64_t>(of.rows + of.columns - 1));
+        EXPECT_EQ(joined->seams.disagreeing_posts, 0U);
+        EXPECT_EQ(joined->voids, 0U);
         request.paths.pop_back();
-        const auto three = open_region(request);
+        const auto three = test::open_grid(request);
         ASSERT_TRUE(three.ok()) << three.error().line();
         const auto missing = static_cast<std::uint64_t>(of.rows - half_row - 1) *
                              static_cast<std::uint64_t>(of.columns - half_column - 1);
-        EXPECT_EQ(three->grids[0].voids, missing);
-        EXPECT_EQ(three->grids[0].outside, missing);
-        EXPECT_EQ(three->grids[0].void_posts(), 0U);
+        EXPECT_EQ(three->voids, missing);
+        EXPECT_EQ(three->outside, missing);
+        EXPECT_EQ(three->void_posts(), 0U);
     }
 }
 
@@ -259,25 +259,23 @@ TEST(OwnPosts, OfSeveralLatticesAreResampled) {
     for (const Case& other : {half, turned, elsewhere}) {
         RegionRequest request;
         request.paths = {one, written(folder / "other.tif", other)};
-        const auto region = open_region(request);
+        const auto region = test::open_grid(request);
         const bool near_each_other = std::string(other.crs) == of.crs;
         ASSERT_EQ(region.ok(), near_each_other) << "far apart they need too many posts";
         if (!near_each_other) continue;
-        EXPECT_FALSE(region->grids[0].field.grid.net);
-        EXPECT_FALSE(region->grids[0].posts_crs);
-        ASSERT_FALSE(region->grids[0].notes.empty());
-        EXPECT_NE(region->grids[0].notes.front().find(
-                      "resampled onto one grid of latitudes and longitudes: the posts of "),
-                  std::string::npos)
-            << region->grids[0].notes.front();
-        EXPECT_NE(region->grids[0].notes.front().find("other.tif and"), std::string::npos)
-            << region->grids[0].notes.front();
+        EXPECT_FALSE(region->field.grid.net);
+        EXPECT_FALSE(region->posts_crs);
+        ASSERT_FALSE(region->notes.empty());
+        EXPECT_NE(
+            region->notes.front().find("resampled onto one grid of latitudes and longitudes: the posts of "),
+            std::string::npos)
+            << region->notes.front();
+        EXPECT_NE(region->notes.front().find("other.tif and"), std::string::npos) << region->notes.front();
         request.resample = true;
-        const auto asked = open_region(request);
+        const auto asked = test::open_grid(request);
         ASSERT_TRUE(asked.ok());
-        EXPECT_EQ(asked->grids[0].posts_print, region->grids[0].posts_print);
-        EXPECT_EQ(asked->grids[0].notes.size() + 1, region->grids[0].notes.size())
-            << "what is asked for needs no note";
+        EXPECT_EQ(asked->posts_print, region->posts_print);
+        EXPECT_EQ(asked->notes.size() + 1, region->notes.size()) << "what is asked for needs no note";
     }
 }
 
@@ -289,14 +287,14 @@ TEST(OwnPosts, OfTwoOperationsLieByOne) {
     if (!file) GTEST_SKIP() << "needs geotiff/alpinemaps_at_mgi.tif";
     RegionRequest request;
     request.paths = {file->string()};
-    const auto region = open_region(request);
+    const auto region = test::open_grid(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
-    const PostGrid& grid = region->grids[0].field.grid;
+    const PostGrid& grid = region->field.grid;
     ASSERT_TRUE(grid.net);
-    EXPECT_FALSE(region->grids[0].sources[0].resampling);
-    const SpatialReference crs = spatial_reference(region->grids[0].posts_crs->wkt);
+    EXPECT_FALSE(region->sources[0].resampling);
+    const SpatialReference crs = spatial_reference(region->posts_crs->wkt);
     const CoordinateTransformation way(OCTNewCoordinateTransformation(crs.get(), wgs84_degrees().get()));
-    const auto& m = region->grids[0].posts_crs->crs_from_post;
+    const auto& m = region->posts_crs->crs_from_post;
     double worst_m = 0.0, worst_in_middle_m = 0.0;
     for (int row = 0; row < grid.rows(); row += 7) {
         for (int column = 0; column < grid.columns(); column += 11) {
@@ -320,12 +318,12 @@ TEST(OwnPosts, OfDegreesAreAsEver) {
     const Case degrees{"", "EPSG:4326", {8.0, 0.01, 0.0, 47.0, 0.0, -0.01}, 30, 40};
     RegionRequest request;
     request.paths = {written(folder / "degrees.tif", degrees)};
-    const auto usual = open_region(request);
+    const auto usual = test::open_grid(request);
     request.resample = true;
-    const auto asked = open_region(request);
+    const auto asked = test::open_grid(request);
     ASSERT_TRUE(usual.ok() && asked.ok());
-    EXPECT_FALSE(asked->grids[0].field.grid.net);
-    EXPECT_EQ(asked->grids[0].posts_print, usual->grids[0].posts_print);
+    EXPECT_FALSE(asked->field.grid.net);
+    EXPECT_EQ(asked->posts_print, usual->posts_print);
 }
 
 }  // namespace

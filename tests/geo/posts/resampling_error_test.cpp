@@ -117,10 +117,10 @@ void expect_as_by_brute_force(const Resampling& said, const Expected& expected, 
     }
 }
 
-const Resampling& only_one(const Region& region) {
-    EXPECT_EQ(region.grids[0].sources.size(), 1U);
-    EXPECT_TRUE(region.grids[0].sources[0].resampling);
-    return *region.grids[0].sources[0].resampling;
+const Resampling& only_one(const RegionGrid& region) {
+    EXPECT_EQ(region.sources.size(), 1U);
+    EXPECT_TRUE(region.sources[0].resampling);
+    return *region.sources[0].resampling;
 }
 
 // The summit that was found lost: 4107.9 m, shown as 4087.1 m.
@@ -130,16 +130,15 @@ TEST(ResamplingError, RealTileInSwissCoordinates) {
     const auto region = opened(resampled_from({file->string()}));
     ASSERT_TRUE(region);
     const Resampling& said = only_one(*region);
-    expect_as_by_brute_force(said, brute_force(file->string(), region->grids[0].field),
-                             region->grids[0].field);
+    expect_as_by_brute_force(said, brute_force(file->string(), region->field), region->field);
     EXPECT_NEAR(said.highest->own_H_m, 4107.896, 0.001);
     EXPECT_NEAR(*said.highest->shown_H_m, 4087.1, 0.05);
     EXPECT_NEAR(said.rms_m, 3.2036, 0.0005);
-    const auto all = region_resampling(region->grids[0]);
+    const auto all = region_resampling(*region);
     ASSERT_TRUE(all);
     EXPECT_EQ(all->compared, said.compared);
     EXPECT_EQ(all->rms_m, said.rms_m);
-    EXPECT_EQ(worst_resampled(region->grids[0]), &region->grids[0].sources[0]);
+    EXPECT_EQ(worst_resampled(*region), &region->sources[0]);
 }
 
 TEST(ResamplingError, RotatedInFeetAndAnotherProjection) {
@@ -153,8 +152,7 @@ TEST(ResamplingError, RotatedInFeetAndAnotherProjection) {
         const auto region = opened(resampled_from({(*folder / name).string()}));
         ASSERT_TRUE(region);
         expect_as_by_brute_force(only_one(*region),
-                                 brute_force((*folder / name).string(), region->grids[0].field, to_m),
-                                 region->grids[0].field);
+                                 brute_force((*folder / name).string(), region->field, to_m), region->field);
     }
 }
 
@@ -183,7 +181,7 @@ TEST(ResamplingError, VoidsAndRims) {
     const auto region = opened(resampled_from({file}));
     ASSERT_TRUE(region);
     const Resampling& said = only_one(*region);
-    expect_as_by_brute_force(said, brute_force(file, region->grids[0].field), region->grids[0].field);
+    expect_as_by_brute_force(said, brute_force(file, region->field), region->field);
     EXPECT_GT(said.unshown, 0U);
     EXPECT_LE(said.compared + said.unshown, said.posts);
 }
@@ -195,14 +193,14 @@ TEST(ResamplingError, PartOfAFile) {
     const auto region = opened(request);
     ASSERT_TRUE(region);
     const Resampling& said = only_one(*region);
-    const Expected expected = brute_force(file, region->grids[0].field);
+    const Expected expected = brute_force(file, region->field);
     EXPECT_EQ(said.compared, expected.compared);
     EXPECT_LT(said.posts, expected.heights);
     EXPECT_NEAR(said.highest->own_H_m, expected.highest_m, rounding_m);
     EXPECT_NEAR(said.lowest->own_H_m, expected.lowest_m, rounding_m);
     EXPECT_NEAR(std::abs(*said.worst->shown_H_m - said.worst->own_H_m), expected.worst_m, rounding_m);
-    ASSERT_TRUE(region->grids[0].sources[0].stored);
-    EXPECT_FALSE(region->grids[0].sources[0].stored->whole);
+    ASSERT_TRUE(region->sources[0].stored);
+    EXPECT_FALSE(region->sources[0].stored->whole);
 }
 
 // Heights above the ellipsoid: N is taken off both.
@@ -212,10 +210,8 @@ TEST(ResamplingError, AnotherVerticalDatum) {
     request.source_vertical = "EPSG:4979";
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    expect_as_by_brute_force(only_one(*region), brute_force(file, region->grids[0].field, 1.0, true),
-                             region->grids[0].field);
-    EXPECT_NEAR(region->grids[0].sources[0].stored->highest_m - only_one(*region).highest->own_H_m, 50.0,
-                5.0);
+    expect_as_by_brute_force(only_one(*region), brute_force(file, region->field, 1.0, true), region->field);
+    EXPECT_NEAR(region->sources[0].stored->highest_m - only_one(*region).highest->own_H_m, 50.0, 5.0);
 }
 
 // More than four million posts: every second of each row and column, and the highest whichever it is.
@@ -229,7 +225,7 @@ TEST(ResamplingError, TheHighestPostOfManyIsAlwaysThere) {
     ASSERT_TRUE(said.highest && said.highest->shown_H_m && said.worst);
     EXPECT_EQ(said.highest->own_H_m, 3000.0);
     EXPECT_GE(std::abs(*said.worst->shown_H_m - said.worst->own_H_m), 3000.0 - *said.highest->shown_H_m);
-    const Expected all = brute_force(file, region->grids[0].field);
+    const Expected all = brute_force(file, region->field);
     EXPECT_EQ(said.posts, all.heights);
     EXPECT_NEAR(said.rms_m, std::sqrt(all.squares_m2 / static_cast<double>(all.compared)), 0.05 * said.rms_m);
 }
@@ -245,7 +241,7 @@ TEST(ResamplingError, AnotherSourcesGroundDoesNotCount) {
     const std::string fine = write_raster(folder / "fine.tif", raster, [](int, int) { return 8000.0; });
     const auto region = opened(resampled_from({coarse, fine}));
     ASSERT_TRUE(region);
-    for (const SourceReport& source : region->grids[0].sources) {
+    for (const SourceReport& source : region->sources) {
         ASSERT_TRUE(source.resampling && source.resampling->worst) << source.path;
         const PostShown& worst = *source.resampling->worst;
         EXPECT_LT(std::abs(*worst.shown_H_m - worst.own_H_m), 1000.0) << source.path;
@@ -258,8 +254,8 @@ TEST(ResamplingError, PostsThatAreTheRegionsAreNotMeasured) {
     const auto region = opened(resampled_from(
         {write_hgt(folder / "N46E008.hgt", 1201, [](int r, int c) { return (r * c) % 900; })}));
     ASSERT_TRUE(region);
-    EXPECT_FALSE(region->grids[0].sources[0].resampling);
-    EXPECT_FALSE(region_resampling(region->grids[0]));
+    EXPECT_FALSE(region->sources[0].resampling);
+    EXPECT_FALSE(region_resampling(*region));
 }
 
 // A coarser file on a whole part of the finer one's posts is interpolated, and keeps its own.
@@ -275,7 +271,7 @@ TEST(ResamplingError, InterpolatedPostsAreKept) {
     const auto region = opened(resampled_from({fine, coarse}));
     ASSERT_TRUE(region);
     int measured = 0;
-    for (const SourceReport& source : region->grids[0].sources) {
+    for (const SourceReport& source : region->sources) {
         if (!source.resampling) continue;
         ++measured;
         EXPECT_EQ(source.path, coarse);

@@ -21,15 +21,15 @@ SourceReport source(const std::string& path, double per_deg, const BoundingBox& 
     return report;
 }
 
-std::string name_at(const Region& region, double lat_deg, double lon_deg) {
-    const SourceReport* const found = source_at(region.grids[0], lat_deg, lon_deg);
+std::string name_at(const RegionGrid& region, double lat_deg, double lon_deg) {
+    const SourceReport* const found = source_at(region, lat_deg, lon_deg);
     return found ? found->path : "none";
 }
 
 TEST(SourceAt, TheFinerWinsWhereTwoOverlap) {
-    Region region{std::vector<RegionGrid>(1)};
-    region.grids[0].sources = {source("a/coarse.tif", 120, {8, 46, 10, 48}),
-                               source("z/fine.tif", 3600, {8.5, 46.5, 9, 47})};
+    RegionGrid region;
+    region.sources = {source("a/coarse.tif", 120, {8, 46, 10, 48}),
+                      source("z/fine.tif", 3600, {8.5, 46.5, 9, 47})};
     EXPECT_EQ(name_at(region, 46.7, 8.7), "z/fine.tif");
     EXPECT_EQ(name_at(region, 46.7, 9.2), "a/coarse.tif");
     EXPECT_EQ(name_at(region, 46.5, 8.5), "z/fine.tif") << "its rim is its own";
@@ -40,9 +40,9 @@ TEST(SourceAt, TheFinerWinsWhereTwoOverlap) {
 }
 
 TEST(SourceAt, AmongEqualsTheFirstFileNameWhateverItsFolder) {
-    Region region{std::vector<RegionGrid>(1)};
-    region.grids[0].sources = {source("a/N46E008.hgt", 1200, {8, 46, 9, 47}),
-                               source("b/N46E007.hgt", 1200, {7, 46, 8, 47})};
+    RegionGrid region;
+    region.sources = {source("a/N46E008.hgt", 1200, {8, 46, 9, 47}),
+                      source("b/N46E007.hgt", 1200, {7, 46, 8, 47})};
     EXPECT_EQ(name_at(region, 46.5, 8.0), "b/N46E007.hgt") << "the meridian that both have";
     EXPECT_EQ(name_at(region, 46.5, 8.000001), "a/N46E008.hgt");
     EXPECT_EQ(name_at(region, 46.5, 7.999999), "b/N46E007.hgt");
@@ -51,12 +51,12 @@ TEST(SourceAt, AmongEqualsTheFirstFileNameWhateverItsFolder) {
 // Two files of a turned lattice, side by side: each one's box holds a corner of the other.
 TEST(SourceAt, OnANetByTheFilesOwnPosts) {
     const test::PlaneOfPosts plane{101, 201, {46.5, 8.5}, 30.0, 30.0};
-    Region region{std::vector<RegionGrid>(1)};
-    region.grids[0].field.grid = grid_on_net(test::net_of(plane));
+    RegionGrid region;
+    region.field.grid = grid_on_net(test::net_of(plane));
     const BoundingBox all{8.0, 46.0, 9.0, 47.0};
-    region.grids[0].sources = {source("a.tif", 3600, all), source("b.tif", 3600, all)};
-    region.grids[0].sources[0].part = PartOfGrid{0, 0, 101, 101};
-    region.grids[0].sources[1].part = PartOfGrid{0, 101, 101, 100};
+    region.sources = {source("a.tif", 3600, all), source("b.tif", 3600, all)};
+    region.sources[0].part = PartOfGrid{0, 0, 101, 101};
+    region.sources[1].part = PartOfGrid{0, 101, 101, 100};
     const auto name = [&](double row, double column) {
         const PostPlace place = plane.place_of(row, column);
         return name_at(region, place.lat_deg, place.lon_deg);
@@ -72,24 +72,24 @@ TEST(SourceAt, OnANetByTheFilesOwnPosts) {
 TEST(SourceAt, OverTheAntimeridianInEveryTurn) {
     // Boxes as sources write them: west > east, or east beyond 180; and one round the Earth.
     for (const BoundingBox& box : {BoundingBox{177, -20, -178, -15}, BoundingBox{177, -20, 182, -15}}) {
-        Region region{std::vector<RegionGrid>(1)};
-        region.grids[0].sources = {source("fiji.tif", 60, box)};
+        RegionGrid region;
+        region.sources = {source("fiji.tif", 60, box)};
         for (const double lon_deg : {177.0, 179.5, 180.0, -180.0, -179.0, 181.0, -178.0, 182.0, -183.0})
             EXPECT_EQ(name_at(region, -17.0, lon_deg), "fiji.tif") << lon_deg;
         for (const double lon_deg : {176.9, -177.9, 0.0, 182.1, -183.1})
             EXPECT_EQ(name_at(region, -17.0, lon_deg), "none") << lon_deg;
     }
-    Region world{std::vector<RegionGrid>(1)};
-    world.grids[0].sources = {source("world.tif", 1, {-180, -90, 180, 90})};
+    RegionGrid world;
+    world.sources = {source("world.tif", 1, {-180, -90, 180, 90})};
     for (const double lon_deg : {-180.0, -0.0, 180.0, 359.9})
         EXPECT_EQ(name_at(world, 90.0, lon_deg), "world.tif") << lon_deg;
 }
 
 // Two rasters of cell centres side by side: between their last posts there is a cell that neither box holds.
 TEST(SourceAt, BetweenTwoBoxesTheNearerOne) {
-    Region region{std::vector<RegionGrid>(1)};
-    region.grids[0].sources = {source("west.tif", 10, {8.05, 46.05, 8.95, 46.95}),
-                               source("east.tif", 10, {9.05, 46.05, 9.95, 46.95})};
+    RegionGrid region;
+    region.sources = {source("west.tif", 10, {8.05, 46.05, 8.95, 46.95}),
+                      source("east.tif", 10, {9.05, 46.05, 9.95, 46.95})};
     EXPECT_EQ(name_at(region, 46.5, 8.97), "west.tif");
     EXPECT_EQ(name_at(region, 46.5, 9.03), "east.tif");
     EXPECT_EQ(name_at(region, 46.5, 10.1), "none");
@@ -114,7 +114,7 @@ TEST(SourceAt, NamesTheFileWhoseHeightsTheSurfaceHas) {
     for (int i = 0; i < 40; ++i) {
         for (int j = 0; j < 40; ++j) {
             const double lat_deg = 10.0127 + 0.0243 * i, lon_deg = 20.0119 + 0.0243 * j;
-            const float H_m = region->grids[0].field.H_at_m(lat_deg, lon_deg);
+            const float H_m = region->field.H_at_m(lat_deg, lon_deg);
             const std::string name = fs::path(name_at(*region, lat_deg, lon_deg)).filename().string();
             if (H_m == 200.0F) {
                 ++fine_places;

@@ -105,18 +105,17 @@ TEST(Resampling, TouchingProjectedRastersJoin) {
     ASSERT_TRUE(region);
     // Voids only around the (slightly turned) outline: between the first and last height of each row there is
     // none.
-    const PostGrid& grid = region->grids[0].field.grid;
+    const PostGrid& grid = region->field.grid;
     int whole_rows = 0;
     for (int r = 3; r < grid.rows() - 3; ++r) {
         int first = -1, last = -1, heights = 0;
         for (int c = 0; c < grid.columns(); ++c) {
-            if (is_void(region->grids[0].field.H_at_post_m(r, c))) continue;
+            if (is_void(region->field.H_at_post_m(r, c))) continue;
             if (first < 0) first = c;
             last = c;
             ++heights;
-            if (c > first + 1 && !is_void(region->grids[0].field.H_at_post_m(r, c - 1))) {
-                EXPECT_LT(std::abs(region->grids[0].field.H_at_post_m(r, c) -
-                                   region->grids[0].field.H_at_post_m(r, c - 1)),
+            if (c > first + 1 && !is_void(region->field.H_at_post_m(r, c - 1))) {
+                EXPECT_LT(std::abs(region->field.H_at_post_m(r, c) - region->field.H_at_post_m(r, c - 1)),
                           4.0F);
             }
         }
@@ -146,7 +145,7 @@ TEST(Resampling, RealTileInThreeOtherSystems) {
         ASSERT_TRUE(other) << name;
         double sum = 0.0, squares = 0.0, most = 0.0;
         int count = 0;
-        const PostGrid& grid = other->grids[0].field.grid;
+        const PostGrid& grid = other->field.grid;
         constexpr double margin_deg = 0.02;
         for (int r = 0; r < grid.rows(); ++r) {
             const double lat = grid.lat.at_deg(r);
@@ -154,8 +153,8 @@ TEST(Resampling, RealTileInThreeOtherSystems) {
             for (int c = 0; c < grid.columns(); ++c) {
                 const double lon = grid.lon.at_deg(c);
                 if (lon < 8.0 + margin_deg || lon > 9.0 - margin_deg) continue;
-                const float a = truth->grids[0].field.H_at_m(lat, lon);
-                const float b = other->grids[0].field.H_at_post_m(r, c);
+                const float a = truth->field.H_at_m(lat, lon);
+                const float b = other->field.H_at_post_m(r, c);
                 if (is_void(a) || is_void(b)) continue;
                 const double difference = static_cast<double>(b) - static_cast<double>(a);
                 sum += difference;

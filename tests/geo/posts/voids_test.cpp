@@ -20,20 +20,20 @@ TEST(Voids, FilledByTheNamedMethodAndCounted) {
     request.fill_voids = true;
     const auto filled = opened(request);
     ASSERT_TRUE(holes && filled);
-    EXPECT_EQ(holes->grids[0].voids, 600U);
-    EXPECT_EQ(holes->grids[0].filled, 0U);
-    EXPECT_EQ(holes->grids[0].void_method, VoidMethod::holes);
-    EXPECT_TRUE(is_void(holes->grids[0].field.H_at_post_m(510, 310)));
-    EXPECT_EQ(filled->grids[0].voids, 0U);
-    EXPECT_EQ(filled->grids[0].filled, 600U);
-    EXPECT_EQ(filled->grids[0].void_method, VoidMethod::filled);
+    EXPECT_EQ(holes->voids, 600U);
+    EXPECT_EQ(holes->filled, 0U);
+    EXPECT_EQ(holes->void_method, VoidMethod::holes);
+    EXPECT_TRUE(is_void(holes->field.H_at_post_m(510, 310)));
+    EXPECT_EQ(filled->voids, 0U);
+    EXPECT_EQ(filled->filled, 600U);
+    EXPECT_EQ(filled->void_method, VoidMethod::filled);
     for (int r = 500; r < 520; ++r) {
         for (int c = 300; c < 330; ++c) {
-            EXPECT_NEAR(static_cast<double>(filled->grids[0].field.H_at_post_m(r, c)), plane(r, c),
+            EXPECT_NEAR(static_cast<double>(filled->field.H_at_post_m(r, c)), plane(r, c),
                         15.0);  // no pit, no 0 m
         }
     }
-    EXPECT_EQ(filled->grids[0].field.H_at_post_m(499, 310), holes->grids[0].field.H_at_post_m(499, 310));
+    EXPECT_EQ(filled->field.H_at_post_m(499, 310), holes->field.H_at_post_m(499, 310));
 }
 
 TEST(Voids, WhatNoSourceCoversStaysAHole) {
@@ -44,9 +44,9 @@ TEST(Voids, WhatNoSourceCoversStaysAHole) {
     request.fill_voids = true;
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].filled, 1U);
-    EXPECT_EQ(region->grids[0].voids, 1199U * 1201U);
-    EXPECT_TRUE(is_void(region->grids[0].field.H_at_m(10.5, 21.001)));
+    EXPECT_EQ(region->filled, 1U);
+    EXPECT_EQ(region->voids, 1199U * 1201U);
+    EXPECT_TRUE(is_void(region->field.H_at_m(10.5, 21.001)));
 }
 
 TEST(Voids, RealHalfVoidTile) {
@@ -56,10 +56,10 @@ TEST(Voids, RealHalfVoidTile) {
     request.fill_voids = true;
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].filled + region->grids[0].voids, 4822U);
-    EXPECT_GT(region->grids[0].filled, 4800U);
-    EXPECT_GE(height_range(region->grids[0].field).lowest_m, 32.0F);
-    EXPECT_LE(height_range(region->grids[0].field).highest_m, 2757.0F);
+    EXPECT_EQ(region->filled + region->voids, 4822U);
+    EXPECT_GT(region->filled, 4800U);
+    EXPECT_GE(height_range(region->field).lowest_m, 32.0F);
+    EXPECT_LE(height_range(region->field).highest_m, 2757.0F);
 }
 
 }  // namespace

@@ -30,10 +30,9 @@ Told told_of(const RegionRequest& request) {
     const auto region = opened(request, &reason);
     EXPECT_TRUE(region) << reason;
     if (!region) return {};
-    EXPECT_EQ(region->grids[0].posts_print, posts_print(region->grids[0].field));
-    EXPECT_EQ(region->grids[0].sources.size(), 1U);
-    return {region->grids[0].sources[0].posts_print.value_or(0), region->grids[0].posts_print.value_or(0),
-            region->grids[0].geoid_print};
+    EXPECT_EQ(region->posts_print, posts_print(region->field));
+    EXPECT_EQ(region->sources.size(), 1U);
+    return {region->sources[0].posts_print.value_or(0), region->posts_print.value_or(0), region->geoid_print};
 }
 
 TEST(RegionPrints, AreThoseOfThePostsInEachContainer) {
@@ -81,9 +80,9 @@ TEST(RegionPrints, OfOneSourceAreItsOwn) {
     const std::string east = test::write_hgt(folder / "N46E009.hgt", 1201, hill);
     const auto both = opened(request_for({west, east}));
     ASSERT_TRUE(both);
-    ASSERT_EQ(both->grids[0].sources.size(), 2U);
-    EXPECT_EQ(both->grids[0].sources[0].posts_print, told_of(request_for({west})).source);
-    EXPECT_EQ(both->grids[0].sources[1].posts_print, told_of(request_for({east})).source);
+    ASSERT_EQ(both->sources.size(), 2U);
+    EXPECT_EQ(both->sources[0].posts_print, told_of(request_for({west})).source);
+    EXPECT_EQ(both->sources[1].posts_print, told_of(request_for({east})).source);
 }
 
 TEST(RegionPrints, OfABoxAreThoseOfItsPosts) {

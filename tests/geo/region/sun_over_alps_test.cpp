@@ -9,9 +9,9 @@
 #include "core/base/parallel.h"
 #include "core/light/sun_over_terrain.h"
 #include "core/terrain/ground.h"
-#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/core/light/sun_scan.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace {
@@ -24,19 +24,19 @@ TEST(SunOverAlps, WithinTenSecondsOfBruteForce) {
     const auto box = oro::parse_tile_range("N46E007:N46E008");
     ASSERT_TRUE(box.ok());
     request.box = *box;
-    const auto region = oro::open_region(request);
+    const auto region = test::open_grid(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
-    const oro::TrueSurface surface(region->grids[0].field, 1.0, oro::thread_count());
+    const oro::TrueSurface surface(region->field, 1.0, oro::thread_count());
     const struct {
         const char* name;
         double lat_deg, lon_deg, from_utc_s;
     } eyes[] = {{"Grindelwald, 21 June 2026", 46.6240, 8.0400, 1781996400.0},
                 {"Lauterbrunnen, 21 December 2026", 46.5930, 7.9090, 1797807600.0}};
     for (const auto& one : eyes) {
-        const auto ground_m = oro::ground_h_m(region->grids[0].field, one.lat_deg, one.lon_deg);
+        const auto ground_m = oro::ground_h_m(region->field, one.lat_deg, one.lon_deg);
         ASSERT_TRUE(ground_m);
         const oro::Geodetic eye{one.lat_deg, one.lon_deg, *ground_m + 2.0};
-        const double N_m = region->grids[0].field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+        const double N_m = region->field.undulation.at_m(eye.lat_deg, eye.lon_deg);
         const oro::SunDayEvents found = oro::sun_day(
             one.from_utc_s, oro::SunOverTerrain(surface, eye, oro::standard_air, N_m), oro::thread_count());
         const std::vector<oro::SunCrossing> scanned = oro::test::scanned_crossings(

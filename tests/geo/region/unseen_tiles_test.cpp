@@ -6,8 +6,8 @@
 
 #include "core/base/parallel.h"
 #include "core/unseen/unseen_ground.h"
-#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -36,11 +36,11 @@ TEST(UnseenTiles, ATileLeftOutMovesTheSkylineByNoMoreThanTheBound) {
     if (!west || !east) GTEST_SKIP() << "needs alps/N46E009 and N46E010";
     RegionRequest request;
     request.paths = {west->string()};
-    const auto one = open_region(request);
+    const auto one = test::open_grid(request);
     request.paths.push_back(east->string());
-    const auto both = open_region(request);
+    const auto both = test::open_grid(request);
     ASSERT_TRUE(one.ok() && both.ok());
-    const TrueSurface surface(one->grids[0].field, 1.0, thread_count());
+    const TrueSurface surface(one->field, 1.0, thread_count());
     Camera camera;
     camera.eye = {46.5, 9.95, *surface.h_m(46.5, 9.95) + 1500.0};
     camera.attitude = {90.0, -10.0, 0.0};
@@ -48,15 +48,15 @@ TEST(UnseenTiles, ATileLeftOutMovesTheSkylineByNoMoreThanTheBound) {
     camera.width_px = 640;
     camera.height_px = 400;
     const UnseenPicture picture =
-        unseen_picture(surface, KnownGround(one->grids[0].field, {}, false), sight_from(camera.eye), camera,
+        unseen_picture(surface, KnownGround(one->field, {}, false), sight_from(camera.eye), camera,
                        usual_unseen_ceiling_m, thread_count());
     const UnseenGround unseen = unseen_ground(picture, camera, usual_unseen_ceiling_m);
     EXPECT_EQ(unseen.columns_beyond, 640);
     ASSERT_EQ(unseen.missing.size(), 1U);
     EXPECT_EQ(unseen.missing[0].cell, (DegreeCell{46, 10}));
     EXPECT_GE(unseen.bound_px, 182.0);
-    const std::vector<double> before = skyline_px(one->grids[0].field, camera),
-                              after = skyline_px(both->grids[0].field, camera);
+    const std::vector<double> before = skyline_px(one->field, camera),
+                              after = skyline_px(both->field, camera);
     double mean_px = 0.0;
     for (std::size_t x = 0; x < before.size(); ++x) {
         const double moved_px = before[x] - after[x];

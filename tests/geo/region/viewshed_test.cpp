@@ -259,7 +259,7 @@ void compare(const std::string& file, const std::string& path, double reach_m,
     ASSERT_TRUE(copy.made()) << file;
     const auto region = test::opened(test::request_for({path}));
     ASSERT_TRUE(region);
-    const TrueSurface surface(region->grids[0].field, 1.0, thread_count());
+    const TrueSurface surface(region->field, 1.0, thread_count());
     for (const Observer& observer : observers) {
         const auto at_m = copy.middle_m(observer.lat_deg, observer.lon_deg);
         std::vector<double> lon_deg{at_m[0]}, lat_deg{at_m[1]};
@@ -289,7 +289,7 @@ void compare(const std::string& file, const std::string& path, double reach_m,
         const Viewshed shed = viewshed(surface, 0, request);
         const double two_s = seconds_since(two_begin);
         const Agreement posts =
-            agreement(cells, gdal, seen_by_viewshed(region->grids[0].field.grid, shed, cells, gdal));
+            agreement(cells, gdal, seen_by_viewshed(region->field.grid, shed, cells, gdal));
         print("    its nearest posts", posts);
         std::printf("    GDAL %.3f s, viewshed %.3f s on 1 core, %.3f s on 2\n", gdal_s, one_s, two_s);
         EXPECT_GE(posts.share(), least_agreement) << observer.name;

@@ -5,6 +5,7 @@
 
 #include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -30,10 +31,10 @@ std::string write_world(const fs::path& file, double west_deg, int columns = 360
 }
 
 // Every post of the region against the pixel that GDAL reads there.
-void expect_pixels(const std::string& file, double west_deg, const Region& region) {
+void expect_pixels(const std::string& file, double west_deg, const RegionGrid& region) {
     const GDALDatasetH dataset = GDALOpen(file.c_str(), GA_ReadOnly);
     ASSERT_TRUE(dataset);
-    const PostGrid& grid = region.grids[0].field.grid;
+    const PostGrid& grid = region.field.grid;
     int wrong = 0;
     for (int r = 0; r < grid.rows(); ++r) {
         for (int c = 0; c < grid.columns(); ++c) {
@@ -46,10 +47,10 @@ void expect_pixels(const std::string& file, double west_deg, const Region& regio
                           GDALGetRasterBand(dataset, 1), GF_Read, static_cast<int>(std::lround(column)) % 360,
                           static_cast<int>(std::lround(row)), 1, 1, &expected, 1, 1, GDT_Float32, 0, 0),
                       CE_None);
-            if (region.grids[0].field.H_at_post_m(r, c) == expected) continue;
+            if (region.field.H_at_post_m(r, c) == expected) continue;
             if (++wrong <= 3)
                 ADD_FAILURE() << grid.lat.at_deg(r) << "," << grid.lon.at_deg(c) << ": "
-                              << region.grids[0].field.H_at_post_m(r, c) << " for " << expected;
+                              << region.field.H_at_post_m(r, c) << " for " << expected;
         }
     }
     EXPECT_EQ(wrong, 0);
@@ -81,14 +82,14 @@ TEST(WorldBox, EveryPartOfEveryWorldIsTheRastersOwn) {
                 const auto region = opened(request, &reason);
                 EXPECT_TRUE(region) << reason;
                 if (!region) continue;
-                EXPECT_EQ(region->grids[0].voids, 0U);
-                EXPECT_TRUE(region->grids[0].missing_cells.empty());
-                const PostGrid& grid = region->grids[0].field.grid;
+                EXPECT_EQ(region->voids, 0U);
+                EXPECT_TRUE(region->missing_cells.empty());
+                const PostGrid& grid = region->field.grid;
                 const double east_deg = box.east_deg + (box.west_deg > box.east_deg ? 360.0 : 0.0);
                 EXPECT_TRUE(grid.goes_round() ||
                             (grid.west_deg() <= box.west_deg && grid.east_deg() >= east_deg))
                     << grid.west_deg() << " .. " << grid.east_deg();
-                EXPECT_EQ(placement_words(region->grids[0].sources[0]), "posts copied");
+                EXPECT_EQ(placement_words(region->sources[0]), "posts copied");
                 expect_pixels(file, west_deg, *region);
             }
             fs::remove(file);
@@ -117,15 +118,15 @@ TEST(WorldBox, BesideAnotherSourceNothingIsLost) {
                 const auto region = opened(request, &reason);
                 EXPECT_TRUE(region) << reason;
                 if (!region) continue;
-                EXPECT_EQ(region->grids[0].voids, 0U);
+                EXPECT_EQ(region->voids, 0U);
                 int posts = 0, wrong = 0;
-                const PostGrid& grid = region->grids[0].field.grid;
+                const PostGrid& grid = region->field.grid;
                 for (int r = 0; r < grid.rows(); ++r) {
                     for (int c = 0; c < grid.columns(); ++c) {
                         const double column = std::fmod(grid.lon.at_deg(c) - west_deg + 720.0, 360.0);
                         const double row = north_deg - grid.lat.at_deg(r);
                         if (column != std::round(column) || row != std::round(row)) continue;
-                        const double H_m = static_cast<double>(region->grids[0].field.H_at_post_m(r, c));
+                        const double H_m = static_cast<double>(region->field.H_at_post_m(r, c));
                         const double due_m = height_at(static_cast<int>(row), static_cast<int>(column));
                         ++posts;
                         wrong += H_m != 7000.0 && std::abs(H_m - due_m) > 1e-3;
@@ -166,18 +167,17 @@ TEST(NarrowBox, BetweenTheLastPostsOfTwoRastersIsInsideTheSurface) {
         std::string reason;
         const auto region = opened(request, &reason);
         ASSERT_TRUE(region) << seam.box.west_deg << ": " << reason;
-        EXPECT_EQ(region->grids[0].voids, 0U);
+        EXPECT_EQ(region->voids, 0U);
         const double width_deg = std::remainder(seam.box.east_deg - seam.box.west_deg, 360.0);
-        const auto H_m = region->grids[0].field.surface_H_m(0.5 * (seam.box.south_deg + seam.box.north_deg),
-                                                            seam.box.west_deg + 0.5 * width_deg);
+        const auto H_m = region->field.surface_H_m(0.5 * (seam.box.south_deg + seam.box.north_deg),
+                                                   seam.box.west_deg + 0.5 * width_deg);
         EXPECT_TRUE(H_m.has_value()) << seam.box.west_deg;
-        EXPECT_GE(region->grids[0].field.grid.column_at(seam.box.west_deg), -1e-9);
-        EXPECT_LE(region->grids[0].field.grid.column_at(seam.box.east_deg),
-                  region->grids[0].field.grid.columns() - 1 + 1e-9);
+        EXPECT_GE(region->field.grid.column_at(seam.box.west_deg), -1e-9);
+        EXPECT_LE(region->field.grid.column_at(seam.box.east_deg), region->field.grid.columns() - 1 + 1e-9);
         // One of the two alone ends at its last post, and a box beyond that has no data.
         if (std::abs(width_deg) > 1.0) continue;
         request.paths.pop_back();
-        const auto alone = open_region(request);
+        const auto alone = test::open_grid(request);
         ASSERT_FALSE(alone.ok());
         EXPECT_EQ(alone.error().kind, ErrorKind::no_data);
     }

@@ -5,6 +5,7 @@
 #include <cpl_string.h>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -73,26 +74,26 @@ TEST(ElevationBand, IsTakenBesideMasksAndCodes) {
         std::string reason;
         const auto region = opened(request_for({file}), &reason);
         ASSERT_TRUE(region) << one.name << ": " << reason;
-        EXPECT_EQ(region->grids[0].field.H_at_post_m(7, 9), static_cast<float>(one.value(one.heights, 7, 9)))
+        EXPECT_EQ(region->field.H_at_post_m(7, 9), static_cast<float>(one.value(one.heights, 7, 9)))
             << one.name;
-        ASSERT_EQ(region->grids[0].notes.size(), 1U) << one.name;
-        EXPECT_NE(region->grids[0].notes[0].find("has 2 bands; heights are taken from band " +
-                                                 std::to_string(one.heights)),
-                  std::string::npos)
-            << region->grids[0].notes[0];
+        ASSERT_EQ(region->notes.size(), 1U) << one.name;
+        EXPECT_NE(
+            region->notes[0].find("has 2 bands; heights are taken from band " + std::to_string(one.heights)),
+            std::string::npos)
+            << region->notes[0];
     }
 }
 
 TEST(ElevationBand, IsNotGuessedAmongSeveral) {
     const fs::path folder = scratch_folder();
-    const auto two = open_region(request_for({write_bands(
+    const auto two = test::open_grid(request_for({write_bands(
         folder / "two.tif", 2, GDT_Float32, [](int b, int r, int c) { return b * height_m(r, c); })}));
     ASSERT_FALSE(two.ok());
     EXPECT_NE(two.error().line().find("has 2 bands, and nothing tells which of them holds heights"),
               std::string::npos)
         << two.error().line();
     EXPECT_NE(two.error().line().find("gdal_translate -b N"), std::string::npos);
-    const auto image = open_region(request_for({write_bands(
+    const auto image = test::open_grid(request_for({write_bands(
         folder / "rgb.tif", 3, GDT_Byte, [](int b, int r, int c) { return (b * r + c) % 256; })}));
     ASSERT_FALSE(image.ok());
     EXPECT_NE(image.error().line().find("has 3 bands: an image"), std::string::npos) << image.error().line();
@@ -135,8 +136,8 @@ TEST(ElevationBand, SignedBytesAreNegative) {
         std::string reason;
         const auto region = opened(request_for({(folder / name).string()}), &reason);
         ASSERT_TRUE(region) << name << ": " << reason;
-        EXPECT_EQ(region->grids[0].field.H_at_post_m(5, 5), -5.0F) << name;
-        EXPECT_EQ(region->grids[0].field.H_at_post_m(30, 5), 100.0F) << name;
+        EXPECT_EQ(region->field.H_at_post_m(5, 5), -5.0F) << name;
+        EXPECT_EQ(region->field.H_at_post_m(30, 5), 100.0F) << name;
     }
 }
 

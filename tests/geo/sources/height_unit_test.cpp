@@ -8,6 +8,7 @@
 
 #include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -103,10 +104,10 @@ TEST(HeightUnit, GeoKey4099InEveryKindOfTiff) {
                 std::string reason;
                 const auto region = opened(request_for({file}), &reason);
                 ASSERT_TRUE(region) << c.unit << big << little << reason;
-                EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(0, 0)), c.H_m, 1e-4)
+                EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(0, 0)), c.H_m, 1e-4)
                     << c.unit << big << little;
-                EXPECT_EQ(unit_words(region->grids[0].sources[0].height_unit), c.words);
-                for (const std::string& note : region->grids[0].notes)
+                EXPECT_EQ(unit_words(region->sources[0].height_unit), c.words);
+                for (const std::string& note : region->notes)
                     EXPECT_EQ(note.find("--height-unit"), std::string::npos) << note;
             }
         }
@@ -126,7 +127,7 @@ TEST(HeightUnit, GeoKey4099InEveryKindOfTiff) {
         std::string reason;
         const auto region = opened(request_for({(folder / name).string()}), &reason);
         ASSERT_TRUE(region) << name << ": " << reason;
-        EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(0, 0)), 304.8006096, 1e-4) << name;
+        EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(0, 0)), 304.8006096, 1e-4) << name;
     }
 }
 
@@ -135,11 +136,11 @@ TEST(HeightUnit, AnUnknownOneNamesTheOption) {
     Raster raster = utm_grid("EPSG:32613");
     raster.unit = "cubit";
     const auto file = write_raster(folder / "cubits.tif", raster, slope_m);
-    const auto refused = open_region(request_for({file}));
+    const auto refused = test::open_grid(request_for({file}));
     ASSERT_FALSE(refused.ok());
     for (const char* words : {"'cubit'", "--height-unit m, ft, us-ft, cm, dm or mm"})
         EXPECT_NE(refused.error().line().find(words), std::string::npos) << refused.error().line();
-    const auto keys = open_region(request_for(
+    const auto keys = test::open_grid(request_for(
         {write_bytes((folder / "keys.tif").string(), tiff_with_vertical_unit(false, true, 9102, 1000))}));
     ASSERT_FALSE(keys.ok());  // 9102 is the degree
     EXPECT_NE(keys.error().line().find("--height-unit"), std::string::npos) << keys.error().line();
@@ -170,7 +171,7 @@ TEST(HeightUnit, ZunitsThatAreNoUnitAreRefused) {
     Raster raster = utm_grid("EPSG:32613");
     const std::string file = write_raster(folder / "grid.tif", raster, slope_m);
     std::ofstream(folder / "grid.prj") << "Projection UTM\nZunits  furlongs\nUnits METERS\n";
-    const auto refused = open_region(request_for({file}));
+    const auto refused = test::open_grid(request_for({file}));
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(
         refused.error().line().find("gives its heights in 'furlongs' (Zunits of its .prj file), which is "
@@ -206,8 +207,8 @@ TEST(HeightUnit, ZunitsOfOldPrjFiles) {
         std::string reason;
         const auto region = opened(request_for({(folder / "grid.asc").string()}), &reason);
         ASSERT_TRUE(region) << reason;
-        EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(5, 5)), c.H_m, 1e-4) << c.zunits;
-        EXPECT_EQ(unit_words(region->grids[0].sources[0].height_unit), c.words) << c.zunits;
+        EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(5, 5)), c.H_m, 1e-4) << c.zunits;
+        EXPECT_EQ(unit_words(region->sources[0].height_unit), c.words) << c.zunits;
     }
 }
 
@@ -221,9 +222,9 @@ TEST(HeightUnit, AssumedMetresBesideACrsInFeetAreTold) {
         request.paths.push_back(write_raster(folder / name, raster, slope_m));
         raster.cell_corners[0] += 200.0;
     }
-    const auto about_unit = [](const Region& region) {
+    const auto about_unit = [](const RegionGrid& region) {
         std::vector<std::string> found;
-        for (const std::string& note : region.grids[0].notes)
+        for (const std::string& note : region.notes)
             if (note.find("--height-unit") != std::string::npos) found.push_back(note);
         return found;
     };
@@ -239,7 +240,7 @@ TEST(HeightUnit, AssumedMetresBesideACrsInFeetAreTold) {
     const auto told = opened(request);
     ASSERT_TRUE(told);
     EXPECT_TRUE(about_unit(*told).empty());
-    EXPECT_NEAR(static_cast<double>(told->grids[0].field.H_at_post_m(0, 0)), 304.8006096, 1e-4);
+    EXPECT_NEAR(static_cast<double>(told->field.H_at_post_m(0, 0)), 304.8006096, 1e-4);
     request.height_unit = "";
     raster.unit = "US survey foot";
     request.paths = {write_raster(folder / "c.tif", raster, slope_m)};
@@ -254,10 +255,9 @@ TEST(HeightUnit, ABandAndACrsThatContradictEachOtherAreTold) {
     raster.unit = "ft";
     const auto region = opened(request_for({write_raster(folder / "a.tif", raster, slope_m)}));
     ASSERT_TRUE(region);
-    EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(0, 0)), 304.8,
-                2.0);  // NAVD88 to EGM96
+    EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(0, 0)), 304.8, 2.0);  // NAVD88 to EGM96
     std::size_t told = 0;
-    for (const std::string& note : region->grids[0].notes)
+    for (const std::string& note : region->notes)
         told += note.find("its band gives heights in ft") != std::string::npos &&
                 note.find("ft is taken (--height-unit tells it otherwise)") != std::string::npos;
     EXPECT_EQ(told, 1U);

@@ -6,6 +6,7 @@
 
 #include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -40,7 +41,7 @@ TEST(Hgt, PostsLieOnWholeDegreesAndKeepTheirValues) {
     const fs::path folder = scratch_folder();
     const auto region = opened(request_for({write_hgt(folder / "n46e008.HGT", 1201, ramp)}));
     ASSERT_TRUE(region);
-    const PostGrid& grid = region->grids[0].field.grid;
+    const PostGrid& grid = region->field.grid;
     EXPECT_EQ(grid.rows(), 1201);
     EXPECT_EQ(grid.columns(), 1201);
     // The name is the centre of the south-west post, and the corners are whole degrees to the last bit.
@@ -50,10 +51,10 @@ TEST(Hgt, PostsLieOnWholeDegreesAndKeepTheirValues) {
     EXPECT_EQ(grid.north_deg(), 47.0);
     for (int r = 0; r < 1201; r += 37) {
         for (int c = 0; c < 1201; c += 41)
-            EXPECT_EQ(region->grids[0].field.H_at_post_m(r, c), static_cast<float>(ramp(r, c)));
+            EXPECT_EQ(region->field.H_at_post_m(r, c), static_cast<float>(ramp(r, c)));
     }
-    ASSERT_EQ(region->grids[0].sources.size(), 1U);
-    const SourceReport& source = region->grids[0].sources[0];
+    ASSERT_EQ(region->sources.size(), 1U);
+    const SourceReport& source = region->sources[0];
     EXPECT_EQ(format_words(source), "SRTM3 .hgt");
     EXPECT_EQ(placement_words(source), "posts copied");
     EXPECT_NE(datum_words(source.vertical_datum).find("EGM96"), std::string::npos);
@@ -61,9 +62,9 @@ TEST(Hgt, PostsLieOnWholeDegreesAndKeepTheirValues) {
         << "SRTM's format: nothing is assumed";
     EXPECT_EQ(source.box.west_deg, 8.0);
     EXPECT_NEAR(source.spacing_m, 92.63, 0.01);  // 1/1200 degree of the meridian at 46.5 N (WGS84)
-    EXPECT_EQ(region->grids[0].voids, 0U);
-    EXPECT_EQ(region->grids[0].void_method, VoidMethod::holes);
-    EXPECT_TRUE(region->grids[0].missing_cells.empty());
+    EXPECT_EQ(region->voids, 0U);
+    EXPECT_EQ(region->void_method, VoidMethod::holes);
+    EXPECT_TRUE(region->missing_cells.empty());
 }
 
 TEST(Hgt, PartOfATileIsThatPart) {
@@ -72,10 +73,10 @@ TEST(Hgt, PartOfATileIsThatPart) {
     request.box = BoundingBox{-65.75, -45.5, -65.5, -45.25};
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].field.grid.rows(), 301);
-    EXPECT_EQ(region->grids[0].field.grid.columns(), 301);
-    EXPECT_EQ(region->grids[0].field.H_at_post_m(0, 0), static_cast<float>(ramp(300, 300)));
-    EXPECT_EQ(region->grids[0].field.H_at_post_m(300, 300), static_cast<float>(ramp(600, 600)));
+    EXPECT_EQ(region->field.grid.rows(), 301);
+    EXPECT_EQ(region->field.grid.columns(), 301);
+    EXPECT_EQ(region->field.H_at_post_m(0, 0), static_cast<float>(ramp(300, 300)));
+    EXPECT_EQ(region->field.H_at_post_m(300, 300), static_cast<float>(ramp(600, 600)));
 }
 
 TEST(Hgt, ZipGzipAndFoldersGiveTheSameHeights) {
@@ -92,12 +93,12 @@ TEST(Hgt, ZipGzipAndFoldersGiveTheSameHeights) {
         std::string reason;
         const auto packed = opened(request_for({(folder / name).string()}), &reason);
         ASSERT_TRUE(packed) << name << ": " << reason;
-        EXPECT_EQ(packed->grids[0].field.H_m, plain->grids[0].field.H_m) << name;
+        EXPECT_EQ(packed->field.H_m, plain->field.H_m) << name;
     }
     const auto zip = opened(request_for({(folder / "N46E008.SRTMGL3.hgt.zip").string()}));
-    EXPECT_EQ(zip->grids[0].sources[0].attribution, "NASA SRTM v3 (SRTMGL3), public domain");
-    EXPECT_TRUE(zip->grids[0].sources[0].path.ends_with("N46E008.SRTMGL3.hgt.zip/N46E008.hgt"))
-        << zip->grids[0].sources[0].path;
+    EXPECT_EQ(zip->sources[0].attribution, "NASA SRTM v3 (SRTMGL3), public domain");
+    EXPECT_TRUE(zip->sources[0].path.ends_with("N46E008.SRTMGL3.hgt.zip/N46E008.hgt"))
+        << zip->sources[0].path;
     EXPECT_FALSE(fs::exists(folder / "N46E008.hgt.gz.properties"));
 }
 
@@ -114,12 +115,12 @@ TEST(Hgt, SeveralTilesInOneZipAndMixedPaths) {
     std::string reason;
     const auto region = opened(request_for({(folder / "tiles.zip").string(), beside}), &reason);
     ASSERT_TRUE(region) << reason;
-    EXPECT_EQ(region->grids[0].sources.size(), 3U);
-    EXPECT_EQ(region->grids[0].field.grid.columns(), 3601);
+    EXPECT_EQ(region->sources.size(), 3U);
+    EXPECT_EQ(region->field.grid.columns(), 3601);
     for (const int c : {0, 1199, 1200, 1201, 2400, 3600})
-        EXPECT_EQ(region->grids[0].field.H_at_post_m(600, c), static_cast<float>(c));
-    EXPECT_EQ(region->grids[0].seams.shared_posts, 2U * 1201U);
-    EXPECT_EQ(region->grids[0].seams.disagreeing_posts, 0U);
+        EXPECT_EQ(region->field.H_at_post_m(600, c), static_cast<float>(c));
+    EXPECT_EQ(region->seams.shared_posts, 2U * 1201U);
+    EXPECT_EQ(region->seams.disagreeing_posts, 0U);
 }
 
 // ---- bad input: one clear line with the file, what was expected and what was found
@@ -139,7 +140,7 @@ TEST(Hgt, WrongSizesAndNamesAreErrorsThatSayWhatWasExpected) {
           BadHgt{"N46E012.SRTMGL1.hgt", 2884802, "1 arc-second"}}) {
         const std::string file =
             write_bytes((folder / bad.name).string(), std::vector<unsigned char>(bad.bytes));
-        const auto region = open_region(request_for({file}));
+        const auto region = test::open_grid(request_for({file}));
         ASSERT_FALSE(region.ok()) << bad.name;
         EXPECT_EQ(region.error().kind, ErrorKind::failed) << bad.name;
         const std::string line = region.error().line();
@@ -147,7 +148,7 @@ TEST(Hgt, WrongSizesAndNamesAreErrorsThatSayWhatWasExpected) {
         EXPECT_NE(line.find(bad.says), std::string::npos) << line;
         EXPECT_EQ(line.find('\n'), std::string::npos) << line;
         // Found in a folder it is the same error: terrain does not silently miss a tile.
-        EXPECT_FALSE(open_region(request_for({folder.string()})).ok());
+        EXPECT_FALSE(test::open_grid(request_for({folder.string()})).ok());
         fs::remove(file);
     }
 }
@@ -165,7 +166,7 @@ TEST(Hgt, DamagedPackingIsAnErrorAndNotZeros) {
         const std::string noise(5000, '\xff');
         stream.write(noise.data(), static_cast<std::streamsize>(noise.size()));
         stream.close();
-        const auto region = open_region(request_for({file.string()}));
+        const auto region = test::open_grid(request_for({file.string()}));
         ASSERT_FALSE(region.ok()) << name;
         EXPECT_NE(region.error().line().find(name), std::string::npos) << region.error().line();
     }
@@ -180,7 +181,7 @@ TEST(Hgt, AChangedByteInAnArchiveIsAnError) {
         const fs::path file = folder / name;
         const bool zip = file.extension() == ".zip";
         write_bytes((zip ? "/vsizip/" : "/vsigzip/") + file.string() + (zip ? "/N46E008.hgt" : ""), bytes);
-        EXPECT_TRUE(open_region(request_for({file.string()})).ok()) << name;
+        EXPECT_TRUE(test::open_grid(request_for({file.string()})).ok()) << name;
         const auto size = static_cast<std::streamoff>(fs::file_size(file));
         for (int part = 2; part < 12; ++part) {
             const fs::path changed = folder / "changed" / name;
@@ -192,7 +193,7 @@ TEST(Hgt, AChangedByteInAnArchiveIsAnError) {
             stream.seekp(size * part / 13);
             stream.put(byte);
             stream.close();
-            const auto region = open_region(request_for({changed.string()}));
+            const auto region = test::open_grid(request_for({changed.string()}));
             ASSERT_FALSE(region.ok()) << name << ", byte " << size * part / 13 << " of " << size;
             EXPECT_NE(region.error().line().find(name), std::string::npos) << region.error().line();
         }
@@ -202,7 +203,7 @@ TEST(Hgt, AChangedByteInAnArchiveIsAnError) {
 TEST(Hgt, PlainTileCalledGzip) {
     const fs::path file = scratch_folder() / "N46E008.hgt.gz";
     write_hgt(file, 1201, ramp);
-    const auto region = open_region(request_for({file.string()}));
+    const auto region = test::open_grid(request_for({file.string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("is no gzip file"), std::string::npos) << region.error().line();
 }
@@ -212,12 +213,12 @@ TEST(Hgt, TruncatedArchivesAreErrors) {
     const auto bytes = hgt_bytes(1201, ramp);
     write_bytes("/vsigzip/" + (folder / "N46E008.hgt.gz").string(), bytes);
     fs::resize_file(folder / "N46E008.hgt.gz", fs::file_size(folder / "N46E008.hgt.gz") / 2);
-    EXPECT_FALSE(open_region(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
+    EXPECT_FALSE(test::open_grid(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
     fs::resize_file(folder / "N46E008.hgt.gz", 5);
-    EXPECT_FALSE(open_region(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
+    EXPECT_FALSE(test::open_grid(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
     write_bytes("/vsizip/" + (folder / "N46E009.hgt.zip").string() + "/N46E009.hgt", bytes);
     fs::resize_file(folder / "N46E009.hgt.zip", fs::file_size(folder / "N46E009.hgt.zip") / 2);
-    const auto region = open_region(request_for({(folder / "N46E009.hgt.zip").string()}));
+    const auto region = test::open_grid(request_for({(folder / "N46E009.hgt.zip").string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("archive"), std::string::npos) << region.error().line();
 }
@@ -237,7 +238,7 @@ TEST(Hgt, GzipThatUnpacksToMoreThanItStates) {
         for (unsigned shift = 0; shift < 32; shift += 8)
             stream.put(static_cast<char>(bytes.size() >> shift & 0xffU));
         stream.close();
-        const auto region = open_region(request_for({file.string()}));
+        const auto region = test::open_grid(request_for({file.string()}));
         ASSERT_FALSE(region.ok()) << more;
         EXPECT_NE(region.error().line().find("N46E008.hgt.gz"), std::string::npos) << region.error().line();
     }
@@ -252,14 +253,14 @@ TEST(Hgt, VoidsAndImplausibleHeightsAreHolesAndCounted) {
         return 500;
     })}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].voids, 15U);
-    EXPECT_EQ(region->grids[0].sources[0].voids, 15U);
-    EXPECT_EQ(region->grids[0].sources[0].implausible, 8U);
-    EXPECT_EQ(region->grids[0].sources[0].lowest_m, 500.0);
-    EXPECT_EQ(region->grids[0].sources[0].highest_m, 500.0);
-    EXPECT_TRUE(is_void(region->grids[0].field.H_at_post_m(20, 0)));
-    ASSERT_EQ(region->grids[0].notes.size(), 1U);
-    EXPECT_NE(region->grids[0].notes[0].find("8 heights"), std::string::npos) << region->grids[0].notes[0];
+    EXPECT_EQ(region->voids, 15U);
+    EXPECT_EQ(region->sources[0].voids, 15U);
+    EXPECT_EQ(region->sources[0].implausible, 8U);
+    EXPECT_EQ(region->sources[0].lowest_m, 500.0);
+    EXPECT_EQ(region->sources[0].highest_m, 500.0);
+    EXPECT_TRUE(is_void(region->field.H_at_post_m(20, 0)));
+    ASSERT_EQ(region->notes.size(), 1U);
+    EXPECT_NE(region->notes[0].find("8 heights"), std::string::npos) << region->notes[0];
 }
 
 // Posts half a second of arc apart: 7201 a side. A file of zeros but for a few posts, most of it never
@@ -272,7 +273,7 @@ TEST(Hgt, BytesInTheOtherOrderAreAnError) {
         const int swapped = (height_m & 255) << 8 | height_m >> 8;
         return swapped > 32767 ? swapped - 65536 : swapped;
     });
-    const auto refused = open_region(request_for({file}));
+    const auto refused = test::open_grid(request_for({file}));
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(refused.error().line().find("its bytes seem to be in the other order"), std::string::npos);
 }
@@ -292,12 +293,11 @@ TEST(Hgt, TilesOfHalfASecond) {
     std::string reason;
     const auto region = opened(request, &reason);
     ASSERT_TRUE(region) << reason;
-    EXPECT_EQ(region->grids[0].field.grid.lat.posts_per_deg, 7200.0);
-    EXPECT_EQ(region->grids[0].field.H_at_m(47.0 - 100.0 / 7200.0, 8.0 + 200.0 / 7200.0), 2000.0F);
-    EXPECT_EQ(format_words(region->grids[0].sources[0]), "half-second .hgt");
-    EXPECT_EQ(region->grids[0].sources[0].rows, side);
-    EXPECT_NEAR(region->grids[0].sources[0].spacing_m, 15.44,
-                0.01);  // a 7200th of a degree of the meridian at 46.5
+    EXPECT_EQ(region->field.grid.lat.posts_per_deg, 7200.0);
+    EXPECT_EQ(region->field.H_at_m(47.0 - 100.0 / 7200.0, 8.0 + 200.0 / 7200.0), 2000.0F);
+    EXPECT_EQ(format_words(region->sources[0]), "half-second .hgt");
+    EXPECT_EQ(region->sources[0].rows, side);
+    EXPECT_NEAR(region->sources[0].spacing_m, 15.44, 0.01);  // a 7200th of a degree of the meridian at 46.5
 }
 
 TEST(Hgt, RealGzipTileOfPatagonia) {
@@ -305,10 +305,10 @@ TEST(Hgt, RealGzipTileOfPatagonia) {
     if (!file) GTEST_SKIP() << "needs extremes/S46W066.hgt.gz";
     const auto region = opened(request_for({file->string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].field.grid.rows(), 3601);
-    EXPECT_EQ(region->grids[0].field.grid.south_deg(), -46.0);
-    EXPECT_EQ(region->grids[0].field.grid.west_deg(), -66.0);
-    const HeightRange range = height_range(region->grids[0].field);  // of the data's README
+    EXPECT_EQ(region->field.grid.rows(), 3601);
+    EXPECT_EQ(region->field.grid.south_deg(), -46.0);
+    EXPECT_EQ(region->field.grid.west_deg(), -66.0);
+    const HeightRange range = height_range(region->field);  // of the data's README
     EXPECT_EQ(range.lowest_m, -3.0F);
     EXPECT_EQ(range.highest_m, 146.0F);
     EXPECT_EQ(range.voids, 0U);
@@ -327,9 +327,9 @@ TEST(Hgt, RealVoidTilesCountAsTheirReadmeSays) {
         if (!file) GTEST_SKIP() << "needs " << tile.file;
         const auto region = opened(request_for({file->string()}));
         ASSERT_TRUE(region) << tile.file;
-        EXPECT_EQ(region->grids[0].voids, tile.voids) << tile.file;
-        EXPECT_EQ(height_range(region->grids[0].field).lowest_m, tile.lowest) << tile.file;
-        EXPECT_EQ(height_range(region->grids[0].field).highest_m, tile.highest) << tile.file;
+        EXPECT_EQ(region->voids, tile.voids) << tile.file;
+        EXPECT_EQ(height_range(region->field).lowest_m, tile.lowest) << tile.file;
+        EXPECT_EQ(height_range(region->field).highest_m, tile.highest) << tile.file;
     }
 }
 

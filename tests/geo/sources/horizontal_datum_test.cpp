@@ -8,6 +8,7 @@
 #include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro::test {
@@ -36,7 +37,7 @@ class HorizontalDatums : public testing::Test {
         OSRCleanup();  // GDAL keeps the folders that PROJ looked into before
     }
     void TearDown() override { OSRCleanup(); }
-    Region region_of(const std::string& file) {
+    RegionGrid region_of(const std::string& file) {
         std::string reason;
         const auto region = opened(request_for({file}), &reason);
         EXPECT_TRUE(region) << reason;
@@ -45,7 +46,7 @@ class HorizontalDatums : public testing::Test {
     std::string refusal_of(const std::string& file) {
         RegionRequest request = request_for({file});
         request.strict_datum = true;
-        const auto region = open_region(request);
+        const auto region = test::open_grid(request);
         return region.ok() ? "" : region.error().line();
     }
 };
@@ -53,11 +54,11 @@ class HorizontalDatums : public testing::Test {
 TEST_F(HorizontalDatums, Wgs84SaysNothing) {
     for (const char* crs : {"EPSG:4326", "EPSG:4979"}) {
         const std::string file = write_around(folder, crs, 46.5, 8.0);
-        const Region region = region_of(file);
-        ASSERT_EQ(region.grids[0].sources.size(), 1U);
-        EXPECT_TRUE(region.grids[0].sources[0].horizontal_datum.is_wgs84) << crs;
-        EXPECT_EQ(horizontal_words(region.grids[0].sources[0].horizontal_datum), "");
-        EXPECT_TRUE(region.grids[0].notes.empty()) << region.grids[0].notes[0];
+        const RegionGrid region = region_of(file);
+        ASSERT_EQ(region.sources.size(), 1U);
+        EXPECT_TRUE(region.sources[0].horizontal_datum.is_wgs84) << crs;
+        EXPECT_EQ(horizontal_words(region.sources[0].horizontal_datum), "");
+        EXPECT_TRUE(region.notes.empty()) << region.notes[0];
         EXPECT_EQ(refusal_of(file), "");
         fs::remove(file);
     }
@@ -68,9 +69,9 @@ TEST_F(HorizontalDatums, Wgs84SaysNothing) {
 TEST_F(HorizontalDatums, Nad27LacksItsGrids) {
     const ProjFolder only(folder.string());
     const std::string file = write_around(folder, "EPSG:4267", 39.2240867, -98.5421517);
-    const Region region = region_of(file);
-    ASSERT_EQ(region.grids[0].sources.size(), 1U);
-    const HorizontalDatum& datum = region.grids[0].sources[0].horizontal_datum;
+    const RegionGrid region = region_of(file);
+    ASSERT_EQ(region.sources.size(), 1U);
+    const HorizontalDatum& datum = region.sources[0].horizontal_datum;
     EXPECT_FALSE(datum.is_wgs84);
     EXPECT_EQ(datum.name, "EPSG:4267 NAD27");
     EXPECT_EQ(datum.operation, "NAD27 to WGS 84 (6)");
@@ -82,7 +83,7 @@ TEST_F(HorizontalDatums, Nad27LacksItsGrids) {
     const std::string words =
         "EPSG:4267 NAD27: within 7 m of WGS84, by NAD27 to WGS 84 (6); within 1.5 m with us_noaa_conus.tif "
         "and us_noaa_kshpgn.tif, which PROJ lacks";
-    EXPECT_EQ(region.grids[0].notes, std::vector<std::string>{words});
+    EXPECT_EQ(region.notes, std::vector<std::string>{words});
     EXPECT_NE(refusal_of(file).find("around.tif: horizontal datum " + words), std::string::npos)
         << refusal_of(file);
 }
@@ -90,15 +91,14 @@ TEST_F(HorizontalDatums, Nad27LacksItsGrids) {
 // Found: none of it was said.
 TEST_F(HorizontalDatums, WhatCountsAsWgs84ByConvention) {
     const std::string file = write_around(folder, "EPSG:4258", 50.0, 10.0);
-    const Region region = region_of(file);
-    ASSERT_EQ(region.grids[0].sources.size(), 1U);
-    const HorizontalDatum& datum = region.grids[0].sources[0].horizontal_datum;
+    const RegionGrid region = region_of(file);
+    ASSERT_EQ(region.sources.size(), 1U);
+    const HorizontalDatum& datum = region.sources[0].horizontal_datum;
     EXPECT_EQ(datum.operation, "ETRS89 to WGS 84 (1)");
     EXPECT_EQ(datum.accuracy_m, 1.0);
     EXPECT_TRUE(datum.unchanged);
     EXPECT_TRUE(datum.missing_grids.empty());
-    EXPECT_EQ(region.grids[0].notes,
-              std::vector<std::string>{"EPSG:4258 ETRS89: taken as WGS84, within 1 to 2 m"});
+    EXPECT_EQ(region.notes, std::vector<std::string>{"EPSG:4258 ETRS89: taken as WGS84, within 1 to 2 m"});
     EXPECT_EQ(refusal_of(file), "") << "no grid makes it better";
 }
 
@@ -109,10 +109,9 @@ TEST_F(HorizontalDatums, MapsHaveTheDatumOfTheirDegrees) {
     raster.cell_corners = {570000.0, 500.0, 0.0, 5545000.0, 0.0, -500.0};
     raster.crs = "EPSG:25832";
     const auto flat = [](int, int) { return 500.0; };
-    const Region region = region_of(write_raster(folder / "map.tif", raster, flat));
-    EXPECT_TRUE(region.grids[0].sources.at(0).horizontal_datum.unchanged);
-    EXPECT_EQ(region.grids[0].notes,
-              std::vector<std::string>{"EPSG:4258 ETRS89: taken as WGS84, within 1 to 2 m"});
+    const RegionGrid region = region_of(write_raster(folder / "map.tif", raster, flat));
+    EXPECT_TRUE(region.sources.at(0).horizontal_datum.unchanged);
+    EXPECT_EQ(region.notes, std::vector<std::string>{"EPSG:4258 ETRS89: taken as WGS84, within 1 to 2 m"});
     raster.crs = "EPSG:32632";
     EXPECT_TRUE(region_of(write_raster(folder / "wgs84.tif", raster, flat)).notes.empty());
 }
@@ -120,13 +119,12 @@ TEST_F(HorizontalDatums, MapsHaveTheDatumOfTheirDegrees) {
 // EPSG's null operation states 4 m; with a grid of the state it would be 2 m, which is what is known anyway.
 TEST_F(HorizontalDatums, Nad83IsKnownBetterThanItsOperationStates) {
     const std::string file = write_around(folder, "EPSG:4269", 36.5, -84.2);
-    const Region region = region_of(file);
-    const HorizontalDatum& datum = region.grids[0].sources.at(0).horizontal_datum;
+    const RegionGrid region = region_of(file);
+    const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
     EXPECT_EQ(datum.operation, "NAD83 to WGS 84 (1)");
     EXPECT_EQ(datum.accuracy_m, 4.0);
     EXPECT_TRUE(datum.unchanged);
-    EXPECT_EQ(region.grids[0].notes,
-              std::vector<std::string>{"EPSG:4269 NAD83: taken as WGS84, within 1 to 2 m"});
+    EXPECT_EQ(region.notes, std::vector<std::string>{"EPSG:4269 NAD83: taken as WGS84, within 1 to 2 m"});
     EXPECT_EQ(refusal_of(file), "");
 }
 
@@ -134,8 +132,8 @@ TEST_F(HorizontalDatums, DhdnWithAndWithoutItsGrid) {
     const std::string file = write_around(folder, "EPSG:4314", 50.0, 10.0);
     {
         const ProjFolder only(folder.string());
-        const Region region = region_of(file);
-        const HorizontalDatum& datum = region.grids[0].sources.at(0).horizontal_datum;
+        const RegionGrid region = region_of(file);
+        const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
         EXPECT_EQ(datum.operation, "DHDN to WGS 84 (2)");
         EXPECT_EQ(datum.accuracy_m, 3.0);
         EXPECT_EQ(datum.missing_grids, std::vector<std::string>{"de_adv_BETA2007.tif"});
@@ -144,14 +142,14 @@ TEST_F(HorizontalDatums, DhdnWithAndWithoutItsGrid) {
     }
     if (!proj_file("BETA2007.gsb")) GTEST_SKIP() << "needs BETA2007.gsb of proj-data";
     OSRCleanup();
-    const Region region = region_of(file);
-    const HorizontalDatum& datum = region.grids[0].sources.at(0).horizontal_datum;
+    const RegionGrid region = region_of(file);
+    const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
     EXPECT_EQ(datum.operation, "DHDN to WGS 84 (4)");
     EXPECT_EQ(datum.accuracy_m, 1.0);
     EXPECT_TRUE(datum.missing_grids.empty());
     // Found: such a file was resampled, because of the kinks between nodes of a grid of shifts.
-    EXPECT_TRUE(region.grids[0].field.grid.net);
-    EXPECT_EQ(region.grids[0].notes,
+    EXPECT_TRUE(region.field.grid.net);
+    EXPECT_EQ(region.notes,
               std::vector<std::string>{"EPSG:4314 DHDN: within 1 m of WGS84, by DHDN to WGS 84 (4)"});
     EXPECT_EQ(refusal_of(file), "");
 }
@@ -160,20 +158,20 @@ TEST_F(HorizontalDatums, DhdnWithAndWithoutItsGrid) {
 TEST_F(HorizontalDatums, BallparkIsRefused) {
     const std::string file =
         write_around(folder, "+proj=longlat +a=6378000 +b=6356000 +no_defs +type=crs", 46.5, 8.0);
-    const Region region = region_of(file);
-    const HorizontalDatum& datum = region.grids[0].sources.at(0).horizontal_datum;
+    const RegionGrid region = region_of(file);
+    const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
     EXPECT_TRUE(datum.ballpark);
     EXPECT_FALSE(datum.accuracy_m);
-    ASSERT_EQ(region.grids[0].notes.size(), 1U);
-    EXPECT_NE(region.grids[0].notes[0].find("ballpark"), std::string::npos) << region.grids[0].notes[0];
+    ASSERT_EQ(region.notes.size(), 1U);
+    EXPECT_NE(region.notes[0].find("ballpark"), std::string::npos) << region.notes[0];
     EXPECT_NE(refusal_of(file).find("ballpark"), std::string::npos) << refusal_of(file);
 }
 
 TEST_F(HorizontalDatums, DynamicDatumsAndEpochs) {
     for (const double epoch : {0.0, 2020.5}) {
         const std::string file = write_around(folder, "EPSG:9000", 46.5, 8.0, epoch);  // ITRF2014
-        const Region region = region_of(file);
-        const HorizontalDatum& datum = region.grids[0].sources.at(0).horizontal_datum;
+        const RegionGrid region = region_of(file);
+        const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
         EXPECT_EQ(datum.frame_epoch, 2010.0);
         EXPECT_EQ(datum.coordinate_epoch, epoch > 0.0 ? std::optional(epoch) : std::nullopt);
         const std::string words = horizontal_words(datum);
@@ -186,13 +184,13 @@ TEST_F(HorizontalDatums, DynamicDatumsAndEpochs) {
 }
 
 TEST_F(HorizontalDatums, ABakedRegionTellsTheSame) {
-    const Region region = region_of(write_around(folder, "EPSG:4267", 39.2240867, -98.5421517));
-    const std::string text = region_description(region.grids[0]);
+    const RegionGrid region = region_of(write_around(folder, "EPSG:4267", 39.2240867, -98.5421517));
+    const std::string text = region_description(region);
     const auto read = region_from_description(text, "test");
     ASSERT_TRUE(read.ok()) << read.error().line();
     EXPECT_EQ(region_description(*read), text);
     EXPECT_EQ(horizontal_words(read->sources.at(0).horizontal_datum),
-              horizontal_words(region.grids[0].sources.at(0).horizontal_datum));
+              horizontal_words(region.sources.at(0).horizontal_datum));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -43,7 +44,7 @@ TEST(PlaceDoubts, DegreesUnderACrsOfMetresAreRefused) {
                           {"EPSG:32632+5773", 8.0, 47.0, 1.0},
                           {"EPSG:2226", -120.5, 38.0, 1.0 / 1200.0},
                           {"EPSG:3857", 46.0, 10.0, 0.01}}) {
-        const auto region = open_region(
+        const auto region = test::open_grid(
             request_for({write_raster(folder / "deg.tif", forty(c.crs, c.x, c.y, c.step), relief_m)}));
         ASSERT_FALSE(region.ok()) << c.crs;
         const std::string line = region.error().line();
@@ -68,7 +69,7 @@ TEST(PlaceDoubts, NeighbouringZonesAndSiteGridsAreFine) {
                                              [](int r, int c) { return 500.0 + 0.01 * (r + c); })}),
                    &reason);
         ASSERT_TRUE(region) << raster.crs << ": " << reason;
-        for (const std::string& note : region->grids[0].notes)
+        for (const std::string& note : region->notes)
             EXPECT_EQ(note.find("outside the area"), std::string::npos) << note;
     }
 }
@@ -80,7 +81,7 @@ TEST(PlaceDoubts, SystemsThatStateNoAreaAreLookedUp) {
         write_raster(folder / "lv03.tif", forty("EPSG:2056+5728", 600000.0, 200000.0, 30.0), relief_m);
     const auto region = opened(request_for({file}));
     ASSERT_TRUE(region);
-    EXPECT_TRUE(std::ranges::any_of(region->grids[0].notes, [](const std::string& note) {
+    EXPECT_TRUE(std::ranges::any_of(region->notes, [](const std::string& note) {
         return note.find("lv03.tif: its posts lie ") != std::string::npos &&
                note.find("degrees outside the area") != std::string::npos;
     }));
@@ -95,7 +96,7 @@ TEST(PlaceDoubts, SystemsThatStateNoAreaAreLookedUp) {
         << R"(PARAMETER["False_Easting",500000.0],PARAMETER["False_Northing",0.0],)"
         << R"(PARAMETER["Central_Meridian",9.0],PARAMETER["Scale_Factor",0.9996],)"
         << R"(PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])";
-    const auto refused = open_region(request_for({(folder / "deg.asc").string()}));
+    const auto refused = test::open_grid(request_for({(folder / "deg.asc").string()}));
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(refused.error().line().find("look like degrees"), std::string::npos) << refused.error().line();
 }
@@ -107,12 +108,12 @@ TEST(PlaceDoubts, FarOutsideTheAreaOfUseIsTold) {
     const auto region = opened(request_for({file}));
     ASSERT_TRUE(region);
     std::size_t told = 0;
-    for (const std::string& note : region->grids[0].notes)
+    for (const std::string& note : region->notes)
         told += note.find("swapped.tif: its posts lie ") != std::string::npos &&
                 note.find(
                     "degrees outside the area that its coordinate reference system is made for (0 N to 84 N, "
                     "6 E to 12 E)") != std::string::npos;
-    EXPECT_EQ(told, 1U) << (region->grids[0].notes.empty() ? "" : region->grids[0].notes[0]);
+    EXPECT_EQ(told, 1U) << (region->notes.empty() ? "" : region->notes[0]);
 }
 
 }  // namespace

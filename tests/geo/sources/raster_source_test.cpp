@@ -10,6 +10,7 @@
 #include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -54,7 +55,7 @@ TEST(Raster, PostsAreCopiedExactly) {
     raster.copyright = "A survey, 2020";
     const auto region = opened(request_for({write_raster(file, raster, slope)}));
     ASSERT_TRUE(region);
-    const PostGrid& grid = region->grids[0].field.grid;
+    const PostGrid& grid = region->field.grid;
     EXPECT_EQ(grid.lat.posts_per_deg, 100.0);
     EXPECT_EQ(grid.lat.phase_deg, 0.0);
     EXPECT_EQ(grid.rows(), 21);
@@ -63,12 +64,12 @@ TEST(Raster, PostsAreCopiedExactly) {
     EXPECT_EQ(grid.west_deg(), 8.0);
     for (int r = 0; r < 21; ++r) {
         for (int c = 0; c < 31; ++c)
-            ASSERT_EQ(region->grids[0].field.H_at_post_m(r, c), static_cast<float>(slope(r, c)));
+            ASSERT_EQ(region->field.H_at_post_m(r, c), static_cast<float>(slope(r, c)));
     }
-    EXPECT_EQ(region->grids[0].sources[0].attribution, "A survey, 2020");
-    EXPECT_EQ(region->grids[0].sources[0].crs, "EPSG:4326 WGS 84");
-    EXPECT_EQ(placement_words(region->grids[0].sources[0]), "posts copied");
-    EXPECT_EQ(unit_words(region->grids[0].sources[0].height_unit), "m (assumed)");
+    EXPECT_EQ(region->sources[0].attribution, "A survey, 2020");
+    EXPECT_EQ(region->sources[0].crs, "EPSG:4326 WGS 84");
+    EXPECT_EQ(placement_words(region->sources[0]), "posts copied");
+    EXPECT_EQ(unit_words(region->sources[0].height_unit), "m (assumed)");
 }
 
 // A tilted plane is the same surface whether its file says "area" or "point": GDAL's map is for cell corners
@@ -112,13 +113,12 @@ TEST(Raster, AreaAndPointAgreeToTheHalfPost) {
             std::string reason;
             const auto region = opened(resampled_from({file}), &reason);
             ASSERT_TRUE(region) << file << ": " << reason;
-            EXPECT_EQ(region->grids[0].sources[0].posts_are,
-                      points ? PostsAre::points : PostsAre::cell_centres);
-            const PostGrid& grid = region->grids[0].field.grid;
+            EXPECT_EQ(region->sources[0].posts_are, points ? PostsAre::points : PostsAre::cell_centres);
+            const PostGrid& grid = region->field.grid;
             int compared = 0;
             for (int r = 0; r < grid.rows(); ++r) {
                 for (int c = 0; c < grid.columns(); ++c) {
-                    const float H = region->grids[0].field.H_at_post_m(r, c);
+                    const float H = region->field.H_at_post_m(r, c);
                     if (is_void(H)) continue;
                     ++compared;
                     // 1 cm: the plane is not quite one in UTM, and the mapping may err by 0.002 posts (2 m: 2
@@ -142,7 +142,7 @@ TEST(Raster, UnitsScaleAndOffset) {
         std::string reason;
         const auto region = opened(request, &reason);
         EXPECT_TRUE(region) << reason;
-        return region ? static_cast<double>(height_range(region->grids[0].field).highest_m) : 0.0;
+        return region ? static_cast<double>(height_range(region->field).highest_m) : 0.0;
     };
     Raster raster = hundredths(5, 5);
     raster.unit = "m";
@@ -166,11 +166,11 @@ TEST(Raster, UnknownUnitsAreErrors) {
     Raster raster = hundredths(5, 5);
     RegionRequest request = request_for({write_raster(folder / "a.tif", raster, slope)});
     request.height_unit = "furlong";
-    auto region = open_region(request);
+    auto region = test::open_grid(request);
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(region.error().kind, ErrorKind::usage);
     raster.unit = "K";
-    region = open_region(request_for({write_raster(folder / "b.tif", raster, slope)}));
+    region = test::open_grid(request_for({write_raster(folder / "b.tif", raster, slope)}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("'K'"), std::string::npos) << region.error().line();
     EXPECT_NE(region.error().line().find("b.tif"), std::string::npos) << region.error().line();
@@ -190,8 +190,8 @@ TEST(Raster, NoDataOfEveryKindIsAHole) {
             &reason);
         EXPECT_TRUE(region) << name << ": " << reason;
         if (!region) return std::uint64_t{99};
-        EXPECT_EQ(height_range(region->grids[0].field).lowest_m, 700.0F) << name;  // no pit, no 0 m
-        return region->grids[0].voids;
+        EXPECT_EQ(height_range(region->field).lowest_m, 700.0F) << name;  // no pit, no 0 m
+        return region->voids;
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(voids("i16.tif", GDT_Int16, -32768.0, -32768.0), 1U);
@@ -208,7 +208,7 @@ TEST(Raster, NoDataOfEveryKindIsAHole) {
 TEST(Raster, WhatIsNoElevationIsRefusedWithTheReason) {
     const fs::path folder = scratch_folder();
     const auto expect = [&](const char* name, const Raster& raster, const char* says) {
-        const auto region = open_region(request_for({write_raster(folder / name, raster, slope)}));
+        const auto region = test::open_grid(request_for({write_raster(folder / name, raster, slope)}));
         ASSERT_FALSE(region.ok()) << name;
         const std::string line = region.error().line();
         EXPECT_NE(line.find(name), std::string::npos) << line;
@@ -249,7 +249,7 @@ TEST(Raster, TagsThatAreNoUtf8AreKeptWithTheirBadBytesReplaced) {
         raster.copyright = stored;
         const auto region = opened(request_for({write_raster(folder / "dem.tif", raster, slope)}));
         ASSERT_TRUE(region) << stored;
-        EXPECT_EQ(region->grids[0].sources[0].attribution, shown);
+        EXPECT_EQ(region->sources[0].attribution, shown);
         fs::remove(folder / "dem.tif");
     }
 }
@@ -260,7 +260,7 @@ TEST(Raster, UnknownCrsIsAnErrorThatNamesTheFile) {
         << "<VRTDataset rasterXSize=\"5\" rasterYSize=\"5\"><SRS>EPSG:999999</SRS>"
            "<GeoTransform>8,0.01,0,46,0,-0.01</GeoTransform>"
            "<VRTRasterBand dataType=\"Int16\" band=\"1\"/></VRTDataset>";
-    const auto region = open_region(request_for({(folder / "dem.vrt").string()}));
+    const auto region = test::open_grid(request_for({(folder / "dem.vrt").string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(region.error().kind, ErrorKind::failed);
     EXPECT_TRUE(
@@ -274,7 +274,7 @@ TEST(Raster, AFolderWithoutProjsDatabaseIsNamed) {
     nowhere.crs = R"(LOCAL_CS["site",UNIT["metre",1]])";
     const std::string file = write_raster(folder / "dem.tif", nowhere, slope);
     const ProjFolder only(empty.string());
-    const auto region = open_region(request_for({file}));
+    const auto region = test::open_grid(request_for({file}));
     ASSERT_FALSE(region.ok());
     EXPECT_TRUE(region.error().line().ends_with("dem.tif: PROJ finds no proj.db, its database, in " +
                                                 empty.string() + ", which PROJ_DATA names"))
@@ -287,7 +287,7 @@ TEST(Raster, TheLargestRasterIsTooLarge) {
     std::ofstream(file) << R"(<VRTDataset rasterXSize="2147483647" rasterYSize="2147483647">
 <SRS>EPSG:4326</SRS><GeoTransform>0, 1e-9, 0, 40, 0, -1e-9</GeoTransform>
 <VRTRasterBand dataType="Float32" band="1"/></VRTDataset>)";
-    const auto region = open_region(request_for({file.string()}));
+    const auto region = test::open_grid(request_for({file.string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("2147483647 x 2147483647"), std::string::npos)
         << region.error().line();
@@ -302,9 +302,9 @@ TEST(Raster, ImagesInAFolderArePassedOverAndNoted) {
     write_raster(folder / "photo.tif", raster, slope);
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].sources.size(), 1U);
-    ASSERT_EQ(region->grids[0].notes.size(), 1U);
-    EXPECT_NE(region->grids[0].notes[0].find("photo.tif"), std::string::npos);
+    EXPECT_EQ(region->sources.size(), 1U);
+    ASSERT_EQ(region->notes.size(), 1U);
+    EXPECT_NE(region->notes[0].find("photo.tif"), std::string::npos);
 }
 
 TEST(Raster, SouthUpRasterAndDatumEqualToWgs84AreCopied) {
@@ -318,9 +318,9 @@ TEST(Raster, SouthUpRasterAndDatumEqualToWgs84AreCopied) {
     raster.crs = "EPSG:4258";  // ETRS89, WGS84 to PROJ
     const auto etrs = opened(request_for({write_raster(folder / "etrs.tif", raster, slope)}));
     ASSERT_TRUE(upright && flipped && etrs);
-    EXPECT_EQ(upright->grids[0].field.H_m, flipped->grids[0].field.H_m);
-    EXPECT_EQ(upright->grids[0].field.H_m, etrs->grids[0].field.H_m);
-    EXPECT_EQ(placement_words(etrs->grids[0].sources[0]), "posts copied");
+    EXPECT_EQ(upright->field.H_m, flipped->field.H_m);
+    EXPECT_EQ(upright->field.H_m, etrs->field.H_m);
+    EXPECT_EQ(placement_words(etrs->sources[0]), "posts copied");
 }
 
 TEST(Raster, RotatedGeoreferenceAndVrtWork) {
@@ -349,7 +349,7 @@ TEST(Raster, RotatedGeoreferenceAndVrtWork) {
     double x = g[0] + 20.5 * g[1] + 20.5 * g[2];
     double y = g[3] + 20.5 * g[4] + 20.5 * g[5];
     OCTTransform(to_degrees, 1, &x, &y, nullptr);
-    EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_m(y, x)), height(20, 20), 0.1);
+    EXPECT_NEAR(static_cast<double>(region->field.H_at_m(y, x)), height(20, 20), 0.1);
     OCTDestroyCoordinateTransformation(to_degrees);
     OSRDestroySpatialReference(wgs84);
     OSRDestroySpatialReference(utm);
@@ -361,7 +361,7 @@ TEST(Raster, RotatedGeoreferenceAndVrtWork) {
     GDALClose(dataset);
     const auto through_vrt = opened(request_for({(folder / "rotated.vrt").string()}));
     ASSERT_TRUE(through_vrt);
-    EXPECT_EQ(through_vrt->grids[0].field.H_m, region->grids[0].field.H_m);
+    EXPECT_EQ(through_vrt->field.H_m, region->field.H_m);
 }
 
 TEST(Raster, PackedGeoTiffs) {
@@ -377,7 +377,7 @@ TEST(Raster, PackedGeoTiffs) {
         std::string reason;
         const auto region = opened(request_for({(folder / name).string()}), &reason);
         ASSERT_TRUE(region) << name << ": " << reason;
-        EXPECT_EQ(region->grids[0].field.H_m, expected->grids[0].field.H_m) << name;
+        EXPECT_EQ(region->field.H_m, expected->field.H_m) << name;
     }
 }
 
@@ -394,12 +394,12 @@ TEST(Raster, AVrtOfHgtTilesGivesWayToThem) {
     std::string reason;
     const auto region = opened(request_for({folder.string()}), &reason);
     ASSERT_TRUE(region) << reason;
-    EXPECT_EQ(region->grids[0].sources.size(), 1U);
+    EXPECT_EQ(region->sources.size(), 1U);
     EXPECT_EQ(
-        std::ranges::count_if(region->grids[0].notes,
+        std::ranges::count_if(region->notes,
                               [&](const std::string& note) { return note.find(why) != std::string::npos; }),
         1);
-    const auto alone = open_region(request_for({vrt}));
+    const auto alone = test::open_grid(request_for({vrt}));
     ASSERT_FALSE(alone.ok());
     EXPECT_TRUE(alone.error().line().ends_with(why)) << alone.error().line();
 }
@@ -419,7 +419,7 @@ TEST(Raster, AGridOfMoreNumbersThanItsHeaderSaysIsTold) {
         std::string reason;
         const auto region = opened(request, &reason);
         ASSERT_TRUE(region) << reason;
-        EXPECT_EQ(std::ranges::count_if(region->grids[0].notes,
+        EXPECT_EQ(std::ranges::count_if(region->notes,
                                         [](const std::string& note) {
                                             return note.find(
                                                        "grid.asc holds 150 numbers, and its header speaks of "
@@ -434,7 +434,7 @@ TEST(Raster, AGridWithAByteOrderMarkIsRefusedForIt) {
     for (const auto& [mark, encoding] : {std::pair{"\xef\xbb\xbf", "UTF-8"}, {"\xff\xfe", "UTF-16"}}) {
         const fs::path file = scratch_folder() / "grid.asc";
         std::ofstream(file) << mark << grid_text(10);
-        const auto region = open_region(request_for({file.string()}));
+        const auto region = test::open_grid(request_for({file.string()}));
         ASSERT_FALSE(region.ok());
         EXPECT_NE(region.error().line().find("grid.asc: starts with a byte order mark (its text is " +
                                              std::string(encoding) + ")"),
@@ -447,7 +447,7 @@ TEST(Raster, DamagedContentIsAnError) {
     const fs::path folder = scratch_folder();
     const std::string file = write_raster(folder / "dem.tif", hundredths(200, 200), slope);
     fs::resize_file(file, fs::file_size(file) / 2);
-    const auto region = open_region(request_for({file}));
+    const auto region = test::open_grid(request_for({file}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("dem.tif"), std::string::npos) << region.error().line();
 }

@@ -9,6 +9,7 @@
 
 #include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -46,14 +47,13 @@ TEST(Raster, RealCollection) {
         std::string reason;
         const auto region = opened(request, &reason);
         ASSERT_TRUE(region) << c.file << ": " << reason;
-        const HeightRange range = height_range(region->grids[0].field);
+        const HeightRange range = height_range(region->field);
         EXPECT_NEAR(static_cast<double>(range.lowest_m), c.lowest, c.tolerance + 0.05) << c.file;
         EXPECT_NEAR(static_cast<double>(range.highest_m), c.highest, c.tolerance + 0.05) << c.file;
-        std::printf("%-50s %5d x %-5d %s\n", c.file, region->grids[0].field.grid.rows(),
-                    region->grids[0].field.grid.columns(),
-                    placement_words(region->grids[0].sources[0]).c_str());
+        std::printf("%-50s %5d x %-5d %s\n", c.file, region->field.grid.rows(), region->field.grid.columns(),
+                    placement_words(region->sources[0]).c_str());
     }
-    const auto swiss = open_region(request_for({(*folder / "dhm25_25_matrix.bt").string()}));
+    const auto swiss = test::open_grid(request_for({(*folder / "dhm25_25_matrix.bt").string()}));
     ASSERT_FALSE(swiss.ok());
     EXPECT_NE(swiss.error().line().find("coordinate reference system"), std::string::npos)
         << swiss.error().line();
@@ -62,7 +62,7 @@ TEST(Raster, RealCollection) {
 TEST(Raster, RealImagesAreRefused) {
     const auto image = real_data("drape/osgearth_world.tif");
     if (!image) GTEST_SKIP() << "needs drape/osgearth_world.tif";
-    const auto region = open_region(request_for({image->string()}));
+    const auto region = test::open_grid(request_for({image->string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("3 bands"), std::string::npos);
 }

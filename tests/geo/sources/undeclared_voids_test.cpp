@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -67,14 +68,13 @@ TEST(UndeclaredVoids, EverySpellingIsVoidAndTold) {
         std::string reason;
         const auto region = opened(request_for({file}), &reason);
         ASSERT_TRUE(region) << one.told << ": " << reason;
-        EXPECT_EQ(region->grids[0].voids, 36U) << one.told;
-        EXPECT_GE(height_range(region->grids[0].field).lowest_m, 200.0F) << one.told;
-        EXPECT_LE(height_range(region->grids[0].field).highest_m, 700.0F) << one.told;
-        EXPECT_EQ(notes_with(region->grids[0].notes,
-                             std::string(": 36 posts hold ") + one.told +
-                                 ", which no tag declares as no data; they are taken as void"),
+        EXPECT_EQ(region->voids, 36U) << one.told;
+        EXPECT_GE(height_range(region->field).lowest_m, 200.0F) << one.told;
+        EXPECT_LE(height_range(region->field).highest_m, 700.0F) << one.told;
+        EXPECT_EQ(notes_with(region->notes, std::string(": 36 posts hold ") + one.told +
+                                                ", which no tag declares as no data; they are taken as void"),
                   1U)
-            << one.told << ": " << (region->grids[0].notes.empty() ? "no note" : region->grids[0].notes[0]);
+            << one.told << ": " << (region->notes.empty() ? "no note" : region->notes[0]);
     }
 }
 
@@ -91,8 +91,8 @@ TEST(UndeclaredVoids, InFeetAndByScale) {
                 return is_in_hole(r, c) ? -9999.0 : 3.0 * hills_m(r, c);
             })}));
         ASSERT_TRUE(region);
-        EXPECT_EQ(region->grids[0].voids, 36U) << by_scale;
-        EXPECT_EQ(notes_with(region->grids[0].notes, "36 posts hold -9999,"), 1U) << by_scale;
+        EXPECT_EQ(region->voids, 36U) << by_scale;
+        EXPECT_EQ(notes_with(region->notes, "36 posts hold -9999,"), 1U) << by_scale;
     }
 }
 
@@ -102,9 +102,8 @@ TEST(UndeclaredVoids, OfHgtTilesAndTextGridsWithoutTheirLine) {
         return is_in_hole(r, c) ? -9999.0 : hills_m(r % 60, c % 60);
     })}));
     ASSERT_TRUE(tile);
-    EXPECT_EQ(tile->grids[0].voids, 36U);
-    EXPECT_EQ(notes_with(tile->grids[0].notes, "N46E008.hgt: 36 posts hold -9999, which no tag declares"),
-              1U);
+    EXPECT_EQ(tile->voids, 36U);
+    EXPECT_EQ(notes_with(tile->notes, "N46E008.hgt: 36 posts hold -9999, which no tag declares"), 1U);
 
     std::ofstream text(folder / "grid.asc");
     text << "ncols 30\nnrows 30\nxllcorner 500000\nyllcorner 5000000\ncellsize 100\n";
@@ -118,8 +117,8 @@ TEST(UndeclaredVoids, OfHgtTilesAndTextGridsWithoutTheirLine) {
     std::string reason;
     const auto grid = opened(request, &reason);
     ASSERT_TRUE(grid) << reason;
-    EXPECT_EQ(grid->grids[0].voids, 36U);
-    EXPECT_EQ(notes_with(grid->grids[0].notes, "grid.asc: 36 posts hold -9999, which no tag declares"), 1U);
+    EXPECT_EQ(grid->voids, 36U);
+    EXPECT_EQ(notes_with(grid->notes, "grid.asc: 36 posts hold -9999, which no tag declares"), 1U);
 }
 
 // What a window of a file is does not depend on how much of it holds heights: here none does.
@@ -131,11 +130,11 @@ TEST(UndeclaredVoids, APartOfAFileIsAsTheWholeIs) {
     write_raster(file, raster, [](int r, int c) { return c < 30 ? -9999.0 : hills_m(r, c); });
     RegionRequest request = request_for({file.string()});
     request.box = BoundingBox{8.05, 46.1, 8.25, 46.3};
-    EXPECT_FALSE(open_region(request).ok());
+    EXPECT_FALSE(test::open_grid(request).ok());
     request.box = BoundingBox{8.2, 46.1, 8.4, 46.3};
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].voids, 21U * 10U);  // columns at 8.20 to 8.29
+    EXPECT_EQ(region->voids, 21U * 10U);  // columns at 8.20 to 8.29
 }
 
 TEST(UndeclaredVoids, TheSameOfSeveralFilesIsOneNote) {
@@ -148,8 +147,8 @@ TEST(UndeclaredVoids, TheSameOfSeveralFilesIsOneNote) {
     }
     const auto region = opened(request_for({folder.string()}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(notes_with(region->grids[0].notes, "tile0.tif and 2 more files: 108 posts hold -9999,"), 1U);
-    EXPECT_EQ(notes_with(region->grids[0].notes, "-9999"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "tile0.tif and 2 more files: 108 posts hold -9999,"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "-9999"), 1U);
 }
 
 // A source of a whole file that is this block.
@@ -248,7 +247,7 @@ TEST(UndeclaredVoids, HeightsInMillimetresAreToldWithTheOption) {
     RegionRequest request = request_for({write_raster(scratch_folder() / "mm.tif", raster, [](int r, int c) {
         return std::round(1000.0 * hills_m(r, c));
     })});
-    const auto refused = open_region(request);
+    const auto refused = test::open_grid(request);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().kind, ErrorKind::no_data);
     for (const char* words : {"mm.tif", "no terrain has", "--height-unit m, ft, us-ft, cm, dm or mm"})
@@ -256,8 +255,8 @@ TEST(UndeclaredVoids, HeightsInMillimetresAreToldWithTheOption) {
     request.height_unit = "mm";
     const auto region = opened(request);
     ASSERT_TRUE(region);
-    EXPECT_NEAR(static_cast<double>(region->grids[0].field.H_at_post_m(3, 4)), hills_m(3, 4), 1e-3);
-    EXPECT_TRUE(region->grids[0].notes.empty()) << region->grids[0].notes[0];
+    EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(3, 4)), hills_m(3, 4), 1e-3);
+    EXPECT_TRUE(region->notes.empty()) << region->notes[0];
 }
 
 // Of low ground millimetres are heights that terrain has, but not its slopes.
@@ -268,8 +267,8 @@ TEST(UndeclaredVoids, SlopesThatNoTerrainHasAreTold) {
                                    [](int r, int c) { return 1000.0 * (r % 2 + 2 * (c % 3)); });
     const auto region = opened(request_for({file}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(notes_with(region->grids[0].notes, "steeper than 80 degrees"), 1U);
-    EXPECT_EQ(notes_with(region->grids[0].notes, "--height-unit"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "steeper than 80 degrees"), 1U);
+    EXPECT_EQ(notes_with(region->notes, "--height-unit"), 1U);
 }
 
 }  // namespace

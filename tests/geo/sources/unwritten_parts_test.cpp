@@ -62,9 +62,9 @@ std::string write_sparse(const fs::path& file, std::optional<double> no_data) {
     return file.string();
 }
 
-std::size_t gap_notes(const Region& region, const std::string& count) {
+std::size_t gap_notes(const RegionGrid& region, const std::string& count) {
     std::size_t found = 0;
-    for (const std::string& note : region.grids[0].notes)
+    for (const std::string& note : region.notes)
         found += note.find(": " + count + " posts have no data: they lie in gaps") != std::string::npos;
     return found;
 }
@@ -81,12 +81,11 @@ TEST(UnwrittenParts, AGapOfAMosaicIsNoGroundAtSeaLevel) {
         std::string reason;
         const auto region = opened(request_for({file}), &reason);
         ASSERT_TRUE(region) << reason;
-        EXPECT_EQ(region->grids[0].voids, 900U) << file;
-        EXPECT_EQ(height_range(region->grids[0].field).lowest_m, 700.0F) << file;
-        EXPECT_TRUE(is_void(region->grids[0].field.H_at_post_m(15, 30)) &&
-                    is_void(region->grids[0].field.H_at_post_m(15, 59)));
-        EXPECT_EQ(region->grids[0].field.H_at_post_m(15, 29), 700.0F);
-        EXPECT_EQ(region->grids[0].field.H_at_post_m(15, 60), 800.0F);
+        EXPECT_EQ(region->voids, 900U) << file;
+        EXPECT_EQ(height_range(region->field).lowest_m, 700.0F) << file;
+        EXPECT_TRUE(is_void(region->field.H_at_post_m(15, 30)) && is_void(region->field.H_at_post_m(15, 59)));
+        EXPECT_EQ(region->field.H_at_post_m(15, 29), 700.0F);
+        EXPECT_EQ(region->field.H_at_post_m(15, 60), 800.0F);
         EXPECT_EQ(gap_notes(*region, "900"), 1U) << file;
     }
 }
@@ -100,16 +99,16 @@ TEST(UnwrittenParts, SeveralGapsAndGroundAtSeaLevel) {
                                   source_element("sea.tif", 20, 0) + source_element("sea.tif", 20, 40) +
                                       source_element("sea.tif", 20, 80))}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].voids, 1200U);
-    EXPECT_EQ(region->grids[0].field.H_at_post_m(3, 40), 0.0F);
+    EXPECT_EQ(region->voids, 1200U);
+    EXPECT_EQ(region->field.H_at_post_m(3, 40), 0.0F);
     // A no-data value fills them.
     const auto declared = opened(
         request_for({write_mosaic(folder / "declared.vrt", 100,
                                   "<NoDataValue>-9999</NoDataValue>" + source_element("sea.tif", 20, 0) +
                                       source_element("sea.tif", 20, 80))}));
     ASSERT_TRUE(declared);
-    EXPECT_EQ(declared->grids[0].voids, 1800U);
-    EXPECT_TRUE(declared->grids[0].notes.empty());
+    EXPECT_EQ(declared->voids, 1800U);
+    EXPECT_TRUE(declared->notes.empty());
 }
 
 // A part that leaves its own no-data value out leaves 0 there: columns 10 to 19 of 30.
@@ -124,8 +123,8 @@ TEST(UnwrittenParts, NoDataOfAPartIsNoGround) {
         size + "/><DstRect xOff=\"0\" yOff=\"0\" " + size + "/><NODATA>-9999</NODATA></ComplexSource>";
     const auto region = opened(request_for({write_mosaic(folder / "none.vrt", 30, part)}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].voids, 300U);
-    EXPECT_EQ(height_range(region->grids[0].field).lowest_m, 20.0F);
+    EXPECT_EQ(region->voids, 300U);
+    EXPECT_EQ(height_range(region->field).lowest_m, 20.0F);
     EXPECT_EQ(gap_notes(*region, "300"), 1U);
 }
 
@@ -133,18 +132,18 @@ TEST(UnwrittenParts, BlocksThatWereNeverWrittenHaveNoData) {
     const fs::path folder = scratch_folder();
     const auto region = opened(request_for({write_sparse(folder / "sparse.tif", std::nullopt)}));
     ASSERT_TRUE(region);
-    EXPECT_EQ(region->grids[0].voids, 160U * 128U - 64U * 64U);
-    EXPECT_EQ(height_range(region->grids[0].field).lowest_m, 700.0F);
+    EXPECT_EQ(region->voids, 160U * 128U - 64U * 64U);
+    EXPECT_EQ(height_range(region->field).lowest_m, 700.0F);
     EXPECT_EQ(gap_notes(*region, "16384"), 1U);
     const auto declared = opened(request_for({write_sparse(folder / "declared.tif", -32768.0)}));
     ASSERT_TRUE(declared);
-    EXPECT_EQ(declared->grids[0].voids, 160U * 128U - 64U * 64U);
-    EXPECT_TRUE(declared->grids[0].notes.empty());
+    EXPECT_EQ(declared->voids, 160U * 128U - 64U * 64U);
+    EXPECT_TRUE(declared->notes.empty());
     // In a mosaic, too: 30 of its rows.
     const auto mosaic = opened(
         request_for({write_mosaic(folder / "of_sparse.vrt", 160, source_element("sparse.tif", 160, 0))}));
     ASSERT_TRUE(mosaic);
-    EXPECT_EQ(mosaic->grids[0].voids, 30U * 96U);
+    EXPECT_EQ(mosaic->voids, 30U * 96U);
 }
 
 }  // namespace
